@@ -1,0 +1,15 @@
+// The commands of the `vesper` program. SPDX-License-Identifier: MIT
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace vesper {
+
+constexpr int kBadInput = 2;  ///< exit code for a file, device or argument that cannot be used
+
+void add_render(CLI::App& program);
+void add_convert(CLI::App& program);
+
+}  // namespace vesper

@@ -1,0 +1,36 @@
+// The `vesper` program: convert a daytime database to photometry, render it at night. SPDX-License-Identifier: MIT
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+#include "commands.h"
+#include "gpu/device.h"
+
+int main(int argc, char** argv) {
+    CLI::App program{"What a driver sees at night, on the screen you have.", "vesper"};
+    program.set_version_flag("--version", VESPER_VERSION);
+    program.require_subcommand(1);
+    program.footer("Example:\n"
+                   "  vesper convert street.gltf --photometry street.photometry.json -o night.gltf\n"
+                   "  vesper render night.gltf --camera driver --operator ward --stats -o night.png\n");
+    vesper::add_convert(program);
+    vesper::add_render(program);
+    CLI::App* devices = program.add_subcommand("devices", "List the Vulkan devices of this machine");
+    devices->callback([] {
+        for (const std::string& line : vesper::list_devices()) std::puts(line.c_str());
+    });
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const int code = program.exit(error);
+        return code == 0 ? 0 : vesper::kBadInput;
+    } catch (const vesper::Error& error) {
+        std::fprintf(stderr, "vesper: %s\n", error.what());
+        return vesper::kBadInput;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "vesper: out of memory\n");
+        return vesper::kBadInput;
+    }
+    return 0;
+}

@@ -1,0 +1,26 @@
+#include "progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace vesper {
+
+Progress::Progress(std::string what, unsigned total) : what_(std::move(what)), total_(total), visible_(total > 1 && isatty(STDERR_FILENO)) {}
+
+Progress::~Progress() {
+    if (visible_) std::fputc('\n', stderr);
+}
+
+void Progress::step() {
+    ++done_;
+    if (!visible_) return;
+    constexpr unsigned kWidth = 30;
+    const unsigned filled = kWidth * done_ / total_;
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    std::fprintf(stderr, "\r%s [%s%s] %u/%u, %.0f s left ", what_.c_str(), std::string(filled, '#').c_str(),
+                 std::string(kWidth - filled, '.').c_str(), done_, total_, elapsed / done_ * (total_ - done_));
+    std::fflush(stderr);
+}
+
+}  // namespace vesper

@@ -1,0 +1,68 @@
+#include "statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "shared/photometry.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kPercents[] = {1, 5, 25, 50, 75, 95, 99, 99.9};
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+}  // namespace
+
+LuminanceStatistics luminance_statistics(std::span<const float> rgba) {
+    LuminanceStatistics s;
+    std::vector<float> luminances;
+    luminances.reserve(rgba.size() / 4);
+    for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
+        const double y = double(shared::kRed) * double(rgba[i]) + double(shared::kGreen) * double(rgba[i + 1]) + double(shared::kBlue) * double(rgba[i + 2]);
+        if (!std::isfinite(y)) {
+            ++s.non_finite;
+            continue;
+        }
+        s.mean += y;
+        s.log_mean += std::log(std::max(y, double(shared::kLuminanceFloor)));
+        luminances.push_back(float(y));
+    }
+    s.finite = luminances.size();
+    if (luminances.empty()) return s;
+    s.mean /= double(s.finite);
+    s.log_mean = std::exp(s.log_mean / double(s.finite));
+    std::sort(luminances.begin(), luminances.end());
+    s.minimum = double(luminances.front());
+    s.maximum = double(luminances.back());
+    for (const double percent : kPercents)
+        s.percentiles.emplace_back(percent, double(luminances[size_t(percent / 100 * double(s.finite - 1) + 0.5)]));
+    return s;
+}
+
+std::string text_of(const LuminanceStatistics& s) {
+    std::string text = "luminance, cd/m^2\n  minimum   " + number(s.minimum) + "\n";
+    for (const auto& [percent, luminance] : s.percentiles) {
+        std::string label = number(percent) + " %";
+        label.resize(10, ' ');
+        text += "  " + label + number(luminance) + "\n";
+    }
+    text += "  maximum   " + number(s.maximum) + "\n  mean      " + number(s.mean) + "\n  log mean  " + number(s.log_mean) + "\n";
+    if (s.non_finite) text += "  pixels that are not finite: " + std::to_string(s.non_finite) + "\n";
+    return text;
+}
+
+std::string json_of(const LuminanceStatistics& s) {
+    std::string text = "{\"minimum_cd_m2\": " + number(s.minimum) + ", \"maximum_cd_m2\": " + number(s.maximum) +
+                       ", \"mean_cd_m2\": " + number(s.mean) + ", \"log_mean_cd_m2\": " + number(s.log_mean) + ", \"percentiles_cd_m2\": {";
+    for (size_t i = 0; i < s.percentiles.size(); ++i)
+        text += (i ? ", \"" : "\"") + number(s.percentiles[i].first) + "\": " + number(s.percentiles[i].second);
+    return text + "}, \"non_finite_pixels\": " + std::to_string(s.non_finite) + "}";
+}
+
+}  // namespace vesper

@@ -1,0 +1,27 @@
+// Luminance statistics of a rendered frame. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vesper {
+
+/// Statistics of the finite pixels, cd/m^2.
+struct LuminanceStatistics {
+    double minimum = 0, maximum = 0, mean = 0, log_mean = 0;      ///< log_mean: exp(mean ln max(L, 1e-4))
+    std::vector<std::pair<double, double>> percentiles;          ///< percent, luminance
+    uint64_t finite = 0, non_finite = 0;                         ///< pixels
+};
+
+/// Of RGBA pixels in cd/m^2 RGB.
+LuminanceStatistics luminance_statistics(std::span<const float> rgba);
+
+/// As a table for a terminal.
+std::string text_of(const LuminanceStatistics& statistics);
+/// As a JSON object.
+std::string json_of(const LuminanceStatistics& statistics);
+
+}  // namespace vesper

@@ -1,0 +1,30 @@
+# vesper_embed_shaders(<target> <file>...)
+#   Compiles each shader of glsl/ to SPIR-V and links it into <target> as an array named after the file: adapt.comp
+#   becomes adapt_comp, to be included from <shaders/adapt.comp.inc>. Rebuilt when it, or anything it includes, changes.
+find_program(VESPER_GLSLANG NAMES glslang glslangValidator REQUIRED)
+
+function(vesper_embed_shaders target)
+    foreach(name IN LISTS ARGN)
+        string(MAKE_C_IDENTIFIER ${name} symbol)
+        set(source ${PROJECT_SOURCE_DIR}/glsl/${name})
+        set(made ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.inc)
+        add_custom_command(
+            OUTPUT ${made}
+            DEPENDS ${source}
+            DEPFILE ${made}.d
+            COMMAND ${VESPER_GLSLANG} --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/glsl
+                    --vn ${symbol} --depfile ${made}.d -o ${made} ${source}
+            COMMENT "Shader ${name}"
+            VERBATIM)
+        target_sources(${target} PRIVATE ${made})
+    endforeach()
+    target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()
+
+# vesper_warnings(<target>): the project's warnings, never passed on to users.
+function(vesper_warnings target)
+    target_compile_options(${target} PRIVATE
+        -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+        -Wno-missing-field-initializers  # designated initializers leave the other Vulkan fields zero
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # false alarms on std::string in GCC 12 (its bug 105651)
+endfunction()

@@ -1,0 +1,1 @@
+"""Generator of the *Rivoli* daytime street database; see ``data/rivoli/README.md``."""

@@ -1,0 +1,105 @@
+"""Cars: parked along the kerbs, driving in the lanes, the ego car, their lamps and the "drive" animation."""
+
+from .cars import BODIES, PAINTS, cockpit_mesh, lamp_mesh, paint_mesh, trim_mesh
+from .geometry import quaternion
+from .layout import BLOCKS, DRIVE_SECONDS, EGO_Z, GARDEN_BLOCK, LANE_CENTRES, PARKING_X, Z_FAR, Z_NEAR, stream
+from .tex_small import PLATE_COUNT
+
+CAR_COUNT = 100
+EGO_SPEED = 12.0                 # m/s
+DIP_DEG = 1.0                    # low beams aim below the horizon
+EYE = (-0.37, 1.2, -0.1)         # driver's eye in the ego car
+PAINT_WEIGHTS = (4, 4, 4, 4, 3, 2, 1)
+FLEET = ("hatchback",) * 5 + ("sedan",) * 4 + ("suv",) * 3 + ("van",) * 2
+# (lane index, direction of travel in z, speed m/s, starting z values)
+MOVING = (
+    (0, -1, 12.0, (-27.0, -62.0, -84.0, -118.0, 26.0, 52.0)),
+    (1, -1, 10.5, (-11.0, -43.0, -74.0, -101.0, -133.0, 16.0, 44.0)),
+    (0, 1, 12.0, (-52.0, -78.0, -109.0, -131.0, -190.0, -222.0, -258.0)),
+    (1, 1, 11.0, (-63.0, -92.0, -122.0, -166.0, -204.0, -246.0)),
+)
+WAITING = ((0, -1, (-308.0, -301.5)), (1, -1, (-308.2, -301.8)), (0, 1, (109.0,)), (1, 1, (108.6, 102.0)))
+
+
+class CarPlacer:
+    """Adds cars to a document; counts them by kind."""
+
+    def __init__(self, document):
+        self.document = document
+        self.counts = {"parked": 0, "traffic": 0}
+        self._meshes = {}
+        self._random = stream("fleet")
+
+    def car(self, kind, x, z, degrees):
+        """Add one parked or traffic car and return its node."""
+        name = f"car_{kind}_{self.counts[kind]:03d}"
+        self.counts[kind] += 1
+        body = BODIES[self._random.choice(FLEET)]
+        paint = self._random.choices(PAINTS, PAINT_WEIGHTS)[0]
+        node = self.document.node(name, translation=(x, 0.0, z), rotation=quaternion("y", degrees))
+        self._equip(node, name, body, paint, kind == "parked", self._mesh(trim_mesh, body, self._random.randrange(PLATE_COUNT) % 2))
+        return node
+
+    def ego(self, z):
+        """Add the driver's car: no windscreen pane, a cockpit, and the driver's camera."""
+        body = BODIES["hatchback"]
+        node = self.document.node("car_ego", translation=(LANE_CENTRES[0], 0.0, z))
+        self._equip(node, "car_ego", body, "paint_blue", False, trim_mesh(body, 2, windscreen=False))
+        cockpit = cockpit_mesh(body)
+        self.document.node(cockpit.name, node, cockpit)
+        self.document.camera("driver", 36.87, node, translation=EYE, rotation=quaternion("x", -1.5))
+        return node
+
+    def _mesh(self, make, *arguments):
+        key = (make.__name__, *(getattr(a, "name", a) for a in arguments))
+        if key not in self._meshes:
+            self._meshes[key] = make(*arguments)
+        return self._meshes[key]
+
+    def _equip(self, node, name, body, paint, parked, trim):
+        self.document.node(f"{name}/body", node, self._mesh(paint_mesh, body, paint))
+        self.document.node(f"{name}/trim", node, trim)
+        self.document.node(f"{name}/lamps", node, self._mesh(lamp_mesh, body, parked))
+        (hx, hy, hz), (tx, ty, tz) = body.lamp_points()
+        for side, sign in (("left", -1), ("right", 1)):
+            self.document.node(f"{name}/headlamp_{side}", node, translation=(sign * hx, hy, hz),
+                               rotation=quaternion("x", -DIP_DEG))
+            self.document.node(f"{name}/tail_{side}", node, translation=(sign * tx, ty, tz), rotation=quaternion("y", 180.0))
+
+
+def _parking_places():
+    """Yield (x, z, heading) along both kerbs, leaving gaps, crossings and the scooters' bays free."""
+    random = stream("parking")
+    for side in (1, -1):
+        for near, far in BLOCKS:
+            z = near - 11.0 if near < Z_NEAR else near - 6.0
+            end = far + 11.0 if far > Z_FAR else far + 10.0
+            while z > end + 2.5:
+                yield side * PARKING_X, z - 2.4, 0.0 if side > 0 else 180.0
+                z -= random.choice((5.2, 5.4, 5.6, 5.9, 11.5))
+
+
+def place_traffic(document):
+    """Place the 100 cars and animate; returns the counts by kind, the ego car apart."""
+    placer = CarPlacer(document)
+    ego = placer.ego(EGO_Z)
+    times = (0.0, DRIVE_SECONDS)
+
+    def drive(node, z, velocity):
+        x = document.nodes[node]["translation"][0]
+        document.animate(node, "translation", times, [(x, 0.0, z), (x, 0.0, z + velocity * DRIVE_SECONDS)])
+
+    drive(ego, EGO_Z, -EGO_SPEED)
+    for lane, direction, speed, starts in MOVING:
+        for z in starts:
+            node = placer.car("traffic", -direction * LANE_CENTRES[lane], z, 0.0 if direction < 0 else 180.0)
+            drive(node, z, direction * speed)
+    for lane, direction, places in WAITING:
+        for z in places:
+            placer.car("traffic", -direction * LANE_CENTRES[lane], z, 0.0 if direction < 0 else 180.0)
+    wanted = CAR_COUNT - 1 - placer.counts["traffic"]
+    places = sorted(_parking_places(), key=lambda p: (abs(p[1] + 70.0), p[0]))
+    random = stream("jitter")
+    for x, z, degrees in places[:wanted]:
+        placer.car("parked", x + random.uniform(-0.12, 0.12), z + random.uniform(-0.2, 0.2), degrees + random.uniform(-1.2, 1.2))
+    return placer.counts

@@ -1,0 +1,295 @@
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+
+namespace vesper {
+namespace {
+
+constexpr const char* kInstall =
+    "no Vulkan device: install a driver (Debian, Ubuntu: apt install mesa-vulkan-drivers for a CPU device, or your "
+    "GPU's own driver)";
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL forward_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    const auto& sink = *static_cast<std::function<void(const std::string&)>*>(user);
+    if (sink) sink(data->pMessage);
+    return VK_FALSE;
+}
+
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
+    uint32_t count = 0;
+    check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "listing Vulkan devices");
+    std::vector<VkPhysicalDevice> devices(count);
+    check(vkEnumeratePhysicalDevices(instance, &count, devices.data()), "listing Vulkan devices");
+    return devices;
+}
+
+bool has_extension(VkPhysicalDevice device, const char* name) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> all(count);
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, all.data());
+    return std::any_of(all.begin(), all.end(), [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+std::optional<uint32_t> graphics_queue_family(VkPhysicalDevice device) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (uint32_t i = 0; i < count; ++i)
+        if ((families[i].queueFlags & wanted) == wanted) return i;
+    return std::nullopt;
+}
+
+/// Why the engine cannot run on a device; empty if it can.
+std::string missing(VkPhysicalDevice device) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(device, &properties);
+    if (properties.apiVersion < VK_API_VERSION_1_3) return "no Vulkan 1.3";
+    VkPhysicalDeviceVulkan13Features f13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features f12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &f13};
+    VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &f12};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    if (!f13.dynamicRendering) return "no dynamicRendering";
+    if (!f13.synchronization2) return "no synchronization2";
+    if (!f13.maintenance4) return "no maintenance4";
+    if (!f12.scalarBlockLayout) return "no scalarBlockLayout";
+    if (!has_extension(device, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) return "no VK_KHR_push_descriptor";
+    if (!graphics_queue_family(device)) return "no queue for graphics and compute";
+    return {};
+}
+
+int rank(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
+        default: return 3;
+    }
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
+bool matches(const std::string& select, size_t index, const VkPhysicalDeviceProperties& properties) {
+    if (select.empty()) return true;
+    if (std::all_of(select.begin(), select.end(), [](unsigned char c) { return std::isdigit(c); }))
+        return select == std::to_string(index);
+    if (lower(select) == "cpu") return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    return lower(properties.deviceName).find(lower(select)) != std::string::npos;
+}
+
+VkInstance make_instance(const void* next, const std::vector<const char*>& layers,
+                         const std::vector<const char*>& extensions) {
+    const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                        .pApplicationName = "vesper",
+                                        .pEngineName = "vesper",
+                                        .apiVersion = VK_API_VERSION_1_3};
+    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                    .pNext = next,
+                                    .pApplicationInfo = &application,
+                                    .enabledLayerCount = uint32_t(layers.size()),
+                                    .ppEnabledLayerNames = layers.data(),
+                                    .enabledExtensionCount = uint32_t(extensions.size()),
+                                    .ppEnabledExtensionNames = extensions.data()};
+    VkInstance instance = VK_NULL_HANDLE;
+    const VkResult result = vkCreateInstance(&info, nullptr, &instance);
+    if (result == VK_ERROR_LAYER_NOT_PRESENT)
+        throw Error("validation was asked for, but its layer is missing: install vulkan-validationlayers");
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) throw Error(kInstall);
+    check(result, "opening Vulkan");
+    return instance;
+}
+
+std::string text_of(VkResult result) {
+    switch (result) {
+        case VK_ERROR_OUT_OF_HOST_MEMORY: return "out of memory";
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "out of device memory";
+        case VK_ERROR_INITIALIZATION_FAILED: return "initialization failed";
+        case VK_ERROR_DEVICE_LOST: return "the device was lost";
+        case VK_ERROR_MEMORY_MAP_FAILED: return "memory could not be mapped";
+        case VK_ERROR_EXTENSION_NOT_PRESENT: return "an extension is missing";
+        case VK_ERROR_FEATURE_NOT_PRESENT: return "a feature is missing";
+        case VK_ERROR_FORMAT_NOT_SUPPORTED: return "a format is not supported";
+        default: return "Vulkan result " + std::to_string(result);
+    }
+}
+
+}  // namespace
+
+void check(VkResult result, std::string_view what) {
+    if (result != VK_SUCCESS) throw Error(std::string(what) + ": " + text_of(result));
+}
+
+std::vector<std::string> list_devices() {
+    const VkInstance instance = make_instance(nullptr, {}, {});
+    std::vector<std::string> lines;
+    for (const VkPhysicalDevice device : physical_devices(instance)) {
+        VkPhysicalDeviceProperties properties;
+        vkGetPhysicalDeviceProperties(device, &properties);
+        const std::string reason = missing(device);
+        lines.push_back(std::to_string(lines.size()) + ": " + properties.deviceName +
+                        (reason.empty() ? "" : " (unusable: " + reason + ")"));
+    }
+    vkDestroyInstance(instance, nullptr);
+    return lines;
+}
+
+Device::Device(const DeviceOptions& options) : on_message_(options.on_message) {
+    try {
+        open_instance(options.validation);
+        const char* variable = std::getenv("VESPER_DEVICE");
+        choose(!options.select.empty() ? options.select : variable ? variable : "");
+        open_device();
+    } catch (...) {
+        close();
+        throw;
+    }
+}
+
+Device::~Device() { close(); }
+
+void Device::close() noexcept {
+    if (device_) vkDestroyDevice(device_, nullptr);
+    if (messenger_)
+        if (const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+                vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT")))
+            destroy(instance_, messenger_, nullptr);
+    if (instance_) vkDestroyInstance(instance_, nullptr);
+}
+
+void Device::open_instance(bool validation) {
+    if (!validation) {
+        instance_ = make_instance(nullptr, {}, {});
+        return;
+    }
+    const VkDebugUtilsMessengerCreateInfoEXT messages{
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        .messageSeverity =
+            VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+        .pfnUserCallback = forward_message,
+        .pUserData = &on_message_};
+    const VkValidationFeatureEnableEXT enable[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                           .pNext = &messages,
+                                           .enabledValidationFeatureCount = 1,
+                                           .pEnabledValidationFeatures = enable};
+    instance_ = make_instance(&features, {kValidationLayer}, {VK_EXT_DEBUG_UTILS_EXTENSION_NAME});
+    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+    if (create) check(create(instance_, &messages, nullptr, &messenger_), "listening to validation");
+}
+
+void Device::choose(const std::string& select) {
+    std::string refused;
+    int best = 4;
+    const auto devices = physical_devices(instance_);
+    if (devices.empty()) throw Error(kInstall);
+    for (size_t i = 0; i < devices.size(); ++i) {
+        VkPhysicalDeviceProperties properties;
+        vkGetPhysicalDeviceProperties(devices[i], &properties);
+        std::string reason = missing(devices[i]);
+        if (reason.empty() && !matches(select, i, properties)) reason = "not '" + select + "'";
+        if (!reason.empty()) {
+            refused += (refused.empty() ? "" : "; ") + std::to_string(i) + ": " + properties.deviceName + " (" + reason + ")";
+        } else if (rank(properties.deviceType) < best) {
+            best = rank(properties.deviceType);
+            physical_ = devices[i];
+            properties_ = properties;
+        }
+    }
+    if (!physical_) throw Error("no usable Vulkan device: " + refused);
+}
+
+void Device::open_device() {
+    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    vkGetPhysicalDeviceProperties2(physical_, &properties);
+    driver_ = std::string(driver.driverName) + " " + driver.driverInfo;
+    queue_family_ = *graphics_queue_family(physical_);
+    has_timestamps_ = properties_.limits.timestampComputeAndGraphics;
+
+    VkPhysicalDeviceFeatures available;
+    vkGetPhysicalDeviceFeatures(physical_, &available);
+    // Filtering along eight samples costs a CPU device 130 ms a frame; it goes without.
+    has_anisotropy_ = available.samplerAnisotropy && !is_cpu();
+
+    const float priority = 1;
+    const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                        .queueFamilyIndex = queue_family_,
+                                        .queueCount = 1,
+                                        .pQueuePriorities = &priority};
+    VkPhysicalDeviceVulkan13Features f13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+                                         .synchronization2 = VK_TRUE,
+                                         .dynamicRendering = VK_TRUE,
+                                         .maintenance4 = VK_TRUE};
+    VkPhysicalDeviceVulkan12Features f12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                         .pNext = &f13,
+                                         .scalarBlockLayout = VK_TRUE};
+    const VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                             .pNext = &f12,
+                                             .features = {.samplerAnisotropy = has_anisotropy_}};
+    const char* extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                  .pNext = &features,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue,
+                                  .enabledExtensionCount = 1,
+                                  .ppEnabledExtensionNames = extensions};
+    check(vkCreateDevice(physical_, &info, nullptr, &device_), "opening " + name());
+    vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+    push_descriptors =
+        reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(vkGetDeviceProcAddr(device_, "vkCmdPushDescriptorSetKHR"));
+}
+
+uint32_t Device::memory_type(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const {
+    for (const VkMemoryPropertyFlags wanted : {required | preferred, required})
+        for (uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+            if ((allowed >> i & 1) && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+    throw Error(name() + ": no memory of the kind a resource needs");
+}
+
+bool Device::is_coherent(uint32_t memory_type) const {
+    return memory_.memoryTypes[memory_type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+}
+
+void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const {
+    const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                            .queueFamilyIndex = queue_family_};
+    VkCommandPool raw = VK_NULL_HANDLE;
+    check(vkCreateCommandPool(device_, &pool_info, nullptr, &raw), "making a command pool");
+    const Owned<VkCommandPool, vkDestroyCommandPool> pool(device_, raw);
+    const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                               .commandPool = raw,
+                                               .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                               .commandBufferCount = 1};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    check(vkAllocateCommandBuffers(device_, &allocate, &commands), "making a command buffer");
+    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    check(vkBeginCommandBuffer(commands, &begin), "recording");
+    record(commands);
+    check(vkEndCommandBuffer(commands), "recording");
+    const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                              .commandBuffer = commands};
+    const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                               .commandBufferInfoCount = 1,
+                               .pCommandBufferInfos = &submitted};
+    check(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "submitting");
+    check(vkQueueWaitIdle(queue_), "waiting for the device");
+}
+
+}  // namespace vesper

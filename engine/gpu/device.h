@@ -1,0 +1,100 @@
+// The Vulkan device: chosen, opened, and what owns things made from it. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <vulkan/vulkan.h>
+
+#include "base/error.h"
+
+namespace vesper {
+
+/// Throws Error("<what>: <result>") unless the result is VK_SUCCESS.
+void check(VkResult result, std::string_view what);
+
+/// Sole owner of a Vulkan object that is destroyed through its device.
+template <class T, auto Destroy>
+class Owned {
+public:
+    Owned() = default;
+    Owned(VkDevice device, T handle) : device_(device), handle_(handle) {}
+    Owned(Owned&& other) noexcept
+        : device_(std::exchange(other.device_, VK_NULL_HANDLE)), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
+    Owned& operator=(Owned&& other) noexcept {
+        std::swap(device_, other.device_), std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Owned() {
+        if (handle_ != VK_NULL_HANDLE) Destroy(device_, handle_, nullptr);
+    }
+    T get() const { return handle_; }
+    explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
+
+private:
+    VkDevice device_ = VK_NULL_HANDLE;
+    T handle_ = VK_NULL_HANDLE;
+};
+
+struct DeviceOptions {
+    std::string select;       ///< part of a name, "cpu", or an index; empty: VESPER_DEVICE, else the best there is
+    bool validation = false;  ///< core, synchronization and best-practice-free checks of the Khronos layer
+    std::function<void(const std::string&)> on_message;  ///< called for every validation message
+};
+
+/// One line per Vulkan device of the machine, for `--device`.
+std::vector<std::string> list_devices();
+
+/// An open Vulkan 1.3 device with one queue for graphics and compute. Preferred: discrete, integrated, then CPU.
+class Device {
+public:
+    /// Throws Error with the reason for every device refused, or with what to install where there is none.
+    explicit Device(const DeviceOptions& options = {});
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    VkDevice handle() const { return device_; }
+    VkPhysicalDevice physical() const { return physical_; }
+    VkQueue queue() const { return queue_; }
+    uint32_t queue_family() const { return queue_family_; }
+    const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
+    bool is_cpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+    bool has_timestamps() const { return has_timestamps_; }
+    bool has_anisotropy() const { return has_anisotropy_; }
+    std::string name() const { return properties_.deviceName; }
+    std::string driver() const { return driver_; }  ///< name and version
+
+    /// A memory type among `allowed` (bits) with all `required` and, if there is one, all `preferred` properties.
+    uint32_t memory_type(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred = 0) const;
+    bool is_coherent(uint32_t memory_type) const;
+
+    /// Records and runs commands, and waits for them.
+    void run_once(const std::function<void(VkCommandBuffer)>& record) const;
+
+    PFN_vkCmdPushDescriptorSetKHR push_descriptors = nullptr;
+
+private:
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    uint32_t queue_family_ = 0;
+    bool has_timestamps_ = false, has_anisotropy_ = false;
+    VkPhysicalDeviceProperties properties_{};
+    VkPhysicalDeviceMemoryProperties memory_{};
+    std::string driver_;
+    std::function<void(const std::string&)> on_message_;
+
+    void open_instance(bool validation);
+    void choose(const std::string& select);
+    void open_device();
+    void close() noexcept;
+};
+
+}  // namespace vesper

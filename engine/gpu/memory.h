@@ -1,0 +1,70 @@
+// Device memory, and the buffers and images that live in it. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "gpu/device.h"
+
+namespace vesper {
+
+using OwnedMemory = Owned<VkDeviceMemory, vkFreeMemory>;
+using OwnedBuffer = Owned<VkBuffer, vkDestroyBuffer>;
+using OwnedImage = Owned<VkImage, vkDestroyImage>;
+using OwnedImageView = Owned<VkImageView, vkDestroyImageView>;
+using OwnedBufferView = Owned<VkBufferView, vkDestroyBufferView>;
+using OwnedSampler = Owned<VkSampler, vkDestroySampler>;
+
+OwnedMemory allocate(const Device& device, uint64_t bytes, uint32_t memory_type);
+OwnedBuffer make_buffer(const Device& device, uint64_t bytes, VkBufferUsageFlags usage);
+VkImageCreateInfo image_info(VkFormat format, VkExtent2D extent, uint32_t levels, VkImageUsageFlags usage);
+OwnedImage make_image(const Device& device, const VkImageCreateInfo& info);
+OwnedImageView make_view(const Device& device, VkImage image, VkFormat format);  ///< of all levels
+VkImageAspectFlags aspect_of(VkFormat format);
+
+/// Host-visible memory with one buffer in it, mapped for as long as it lives.
+class HostBuffer {
+public:
+    enum class Direction { ToDevice, FromDevice };
+    HostBuffer() = default;
+    HostBuffer(const Device& device, uint64_t bytes, VkBufferUsageFlags usage, Direction direction);
+
+    VkBuffer buffer() const { return buffer_.get(); }
+    uint64_t bytes() const { return bytes_; }
+    std::byte* data() const { return data_; }
+    void flush() const;       ///< makes host writes visible to the next submission
+    void invalidate() const;  ///< makes finished device writes visible to the host
+
+private:
+    VkDevice device_ = VK_NULL_HANDLE;
+    OwnedMemory memory_;
+    OwnedBuffer buffer_;
+    uint64_t bytes_ = 0;
+    std::byte* data_ = nullptr;
+    bool coherent_ = true;
+};
+
+/// Device-local memory for things that live and die together: handed out in order, freed at once.
+class Arena {
+public:
+    explicit Arena(const Device& device) : device_(&device) {}
+
+    void bind(VkBuffer buffer);
+    void bind(VkImage image);
+    uint64_t bytes() const { return bytes_; }  ///< allocated from the device
+
+private:
+    struct Block {
+        OwnedMemory memory;
+        uint32_t type;
+        uint64_t used, bytes;
+    };
+    std::pair<VkDeviceMemory, uint64_t> place(const VkMemoryRequirements& needs);
+
+    const Device* device_;
+    std::vector<Block> blocks_;
+    uint64_t bytes_ = 0;
+};
+
+}  // namespace vesper

@@ -1,0 +1,79 @@
+// Runs declared frames on a device. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/kernel.h"
+#include "gpu/memory.h"
+#include "graph/frame_graph.h"
+
+namespace vesper {
+
+/// Device time of one pass of the last frame.
+struct Timing {
+    std::string pass;
+    double milliseconds = 0;
+};
+
+/// Owns the memory behind a frame graph's resources and what survives from frame to frame.
+class Executor {
+public:
+    explicit Executor(Device& device);
+    ~Executor();
+    Executor(const Executor&) = delete;
+    Executor& operator=(const Executor&) = delete;
+
+    /// What the device's resources of a shape occupy.
+    Measure measure() const;
+    /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error.
+    void run(const FrameGraph& graph);
+    /// What the last frame left in one of its readback resources.
+    std::span<const std::byte> read(Resource readback) const;
+    template <class T>
+    std::span<const T> read_as(Resource readback) const {
+        const auto bytes = read(readback);
+        return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+    }
+
+    const Plan& plan() const { return plan_; }                     ///< of the last frame
+    const std::vector<Timing>& timings() const { return timings_; } ///< of the last frame; empty without timestamps
+    /// Makes a history zero again, as after a camera cut. Unknown names are ignored.
+    void reset(const std::string& history);
+    uint64_t heap_bytes() const;  ///< device memory behind transients, bytes
+
+private:
+    struct Realized;          // what stands for one resource in this frame
+    class FrameRecording;
+    struct Past;              // both halves of a history
+
+    void place(const FrameGraph& graph);
+    void realize_histories(const FrameGraph& graph);
+    void realize_uploads(const FrameGraph& graph);
+    void realize_readbacks(const FrameGraph& graph);
+    void record(const FrameGraph& graph);
+    void record_barriers(const std::vector<Plan::Barrier>& barriers) const;
+    void record_dispatch(const FrameGraph::PassInfo& pass) const;
+    void record_raster(const FrameGraph& graph, const Plan::Step& step) const;
+    void finish(const FrameGraph& graph);
+
+    Device& device_;
+    Plan plan_;
+    std::vector<Timing> timings_;
+    std::vector<Realized> resources_;
+    std::map<std::string, std::unique_ptr<Past>> histories_;
+    std::vector<OwnedMemory> heaps_;
+    std::string placed_key_;  // what the transients were made for
+    HostBuffer uploads_, readbacks_;
+    OwnedSampler sampler_;
+    Owned<VkCommandPool, vkDestroyCommandPool> pool_;
+    Owned<VkQueryPool, vkDestroyQueryPool> queries_;
+    uint32_t query_capacity_ = 0;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    Owned<VkFence, vkDestroyFence> fence_;
+};
+
+}  // namespace vesper

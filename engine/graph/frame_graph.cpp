@@ -1,0 +1,310 @@
+// Declaring a frame, and every mistake that can be seen while doing so. SPDX-License-Identifier: MIT
+#include "graph/frame_graph.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "base/error.h"
+
+namespace vesper {
+namespace {
+
+using PassInfo = FrameGraph::PassInfo;
+using PassKind = FrameGraph::PassKind;
+using ResourceInfo = FrameGraph::ResourceInfo;
+using Origin = FrameGraph::Origin;
+
+bool is_depth(VkFormat format) {
+    return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT && format != VK_FORMAT_S8_UINT;
+}
+
+struct TexelBytes {
+    VkFormat format;
+    uint64_t bytes;
+};
+constexpr TexelBytes kTexelBytes[] = {
+    {VK_FORMAT_R8_UNORM, 1},           {VK_FORMAT_R16_SFLOAT, 2},    {VK_FORMAT_R8G8B8A8_UNORM, 4},
+    {VK_FORMAT_R8G8B8A8_SRGB, 4},      {VK_FORMAT_R16G16_SFLOAT, 4}, {VK_FORMAT_R32_SFLOAT, 4},
+    {VK_FORMAT_R32_UINT, 4},           {VK_FORMAT_D32_SFLOAT, 4},    {VK_FORMAT_R16G16B16A16_SFLOAT, 8},
+    {VK_FORMAT_R32G32_SFLOAT, 8},      {VK_FORMAT_R32G32_UINT, 8},   {VK_FORMAT_R32G32B32A32_SFLOAT, 16},
+    {VK_FORMAT_R32G32B32A32_UINT, 16},
+};
+
+/// Bytes of one tightly packed texel; 0 for formats the engine does not copy.
+uint64_t texel_bytes(VkFormat format) {
+    const auto found = std::ranges::find(kTexelBytes, format, &TexelBytes::format);
+    return found == std::end(kTexelBytes) ? 0 : found->bytes;
+}
+
+/// Bytes of a buffer, or of an image when tightly packed; 0 if unknown.
+uint64_t packed_bytes(const Shape& shape) {
+    if (!shape.is_image()) return shape.bytes;
+    return texel_bytes(shape.format) * shape.extent.width * shape.extent.height;
+}
+
+std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
+
+[[noreturn]] void fail(const PassInfo& pass, const std::string& reason) {
+    throw Error("pass " + quoted(pass.name) + " " + reason);
+}
+
+bool is_target(Access access) { return access == Access::ColorTarget || access == Access::DepthTarget; }
+bool is_read_first(Access access) {
+    return access != Access::Store && access != Access::CopyTarget && !is_target(access);
+}
+
+bool allowed(PassKind kind, Access access) {
+    switch (access) {
+        case Access::Sample:
+        case Access::Load:
+        case Access::Store:
+        case Access::Update:
+            return kind != PassKind::Transfer;
+        case Access::ColorTarget:
+        case Access::DepthTarget:
+        case Access::Vertices:
+            return kind == PassKind::Raster;
+        case Access::CopySource:
+        case Access::CopyTarget:
+            return kind == PassKind::Transfer;
+        case Access::HostRead:
+            return false;
+    }
+    return false;
+}
+
+std::string access_name(PassKind kind, Access access) {
+    AccessSet one;
+    one.add(kind == PassKind::Dispatch ? Stage::Compute
+            : kind == PassKind::Raster ? Stage::Graphics
+                                       : Stage::Transfer,
+            access);
+    return one.text();
+}
+
+/// What a use may not do to a resource of this origin and shape.
+void check_use(const PassInfo& pass, const Use& use, const ResourceInfo& r) {
+    if (!allowed(pass.kind, use.access))
+        fail(pass, "cannot use " + quoted(r.name) + " as " + access_name(pass.kind, use.access));
+    if (writes(use.access) && r.origin == Origin::HistoryPrevious)
+        fail(pass, "writes " + quoted(r.name) + ", which the last frame left; write its current");
+    if (writes(use.access) && r.origin == Origin::Upload) fail(pass, "writes the upload " + quoted(r.name));
+    if (use.access == Access::Vertices && r.shape.is_image())
+        fail(pass, "reads vertices from the image " + quoted(r.name));
+    if (!is_target(use.access)) return;
+    if (!r.shape.is_image()) fail(pass, "has the buffer " + quoted(r.name) + " as a target");
+    if (r.origin != Origin::Transient)
+        fail(pass, "has the history " + quoted(r.name) + " as a target; draw to a transient");
+    if ((use.access == Access::DepthTarget) != is_depth(r.shape.format))
+        fail(pass, "has " + quoted(r.name) + " as a target its format does not fit");
+}
+
+/// Why this descriptor cannot be filled by this use; empty if it can.
+std::string mismatch(VkDescriptorType type, Access access, const Shape& shape) {
+    bool sampled = false, image = false, texels = false;
+    const char* kind = "";
+    switch (type) {
+        case VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER:
+            sampled = true, image = true, kind = "a sampled image";
+            break;
+        case VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE:
+            sampled = true, image = true, kind = "a sampled image";
+            break;
+        case VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER:
+            sampled = true, texels = true, kind = "a uniform texel buffer";
+            break;
+        case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER:
+            sampled = true, kind = "a uniform buffer";
+            break;
+        case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
+            image = true, kind = "a storage image";
+            break;
+        case VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER:
+            texels = true, kind = "a storage texel buffer";
+            break;
+        case VK_DESCRIPTOR_TYPE_STORAGE_BUFFER:
+            kind = "a storage buffer";
+            break;
+        default:
+            return "a descriptor of a kind the engine does not use";
+    }
+    if (sampled != (access == Access::Sample) || image != shape.is_image()) return kind;
+    if (texels && shape.format == VK_FORMAT_UNDEFINED) return std::string(kind) + ", which needs a texel format";
+    return {};
+}
+
+void check_kernel(const PassInfo& pass, const std::vector<ResourceInfo>& resources) {
+    const KernelInterface& kernel = *pass.kernel;
+    if (pass.uses.size() != kernel.bindings.size())
+        fail(pass, "has " + std::to_string(pass.uses.size()) + " uses, but " + kernel.name + " has " +
+                       std::to_string(kernel.bindings.size()) + " bindings");
+    for (size_t i = 0; i < pass.uses.size(); ++i) {
+        const ResourceInfo& r = resources[pass.uses[i].resource.index];
+        const std::string wanted = mismatch(kernel.bindings[i], pass.uses[i].access, r.shape);
+        if (!wanted.empty())
+            fail(pass, "gives " + quoted(r.name) + " as " + access_name(pass.kind, pass.uses[i].access) + " of " +
+                           (r.shape.is_image() ? "an image" : "a buffer") + " to binding " + std::to_string(i) +
+                           " of " + kernel.name + ": it is " + wanted);
+    }
+    if (pass.push.size() != kernel.push_bytes)
+        fail(pass, "pushes " + std::to_string(pass.push.size()) + " bytes, but " + kernel.name + " takes " +
+                       std::to_string(kernel.push_bytes));
+    if (pass.groups.x == 0 || pass.groups.y == 0 || pass.groups.z == 0) fail(pass, "dispatches zero groups");
+}
+
+void check_targets(const PassInfo& pass, const std::vector<ResourceInfo>& resources) {
+    const ResourceInfo* first = nullptr;
+    uint32_t depths = 0;
+    for (const Use& use : pass.uses) {
+        if (!is_target(use.access)) continue;
+        const ResourceInfo& r = resources[use.resource.index];
+        if (!first) first = &r;
+        if (r.shape.extent.width != first->shape.extent.width || r.shape.extent.height != first->shape.extent.height)
+            fail(pass, "has targets " + quoted(first->name) + " and " + quoted(r.name) + " of different extents");
+        if (use.access == Access::DepthTarget && ++depths > 1)
+            fail(pass, "has a second depth target, " + quoted(r.name));
+    }
+    if (!first) fail(pass, "has no target");
+}
+
+VkBufferImageCopy whole_image(const Shape& shape, uint64_t offset) {
+    VkBufferImageCopy region{};
+    region.bufferOffset = offset;
+    const VkImageAspectFlags aspect = is_depth(shape.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    region.imageSubresource = {aspect, 0, 0, 1};
+    region.imageExtent = {shape.extent.width, shape.extent.height, 1};
+    return region;
+}
+
+}  // namespace
+
+Resource FrameGraph::add(std::string_view name, const Shape& shape, Origin origin) {
+    if (name.empty()) throw Error("a resource has no name");
+    for (const ResourceInfo& r : resources_)
+        if (r.name == name) throw Error("resource " + quoted(name) + " is declared twice");
+    const bool image = shape.extent.width != 0 || shape.extent.height != 0;
+    if (image ? shape.extent.width == 0 || shape.extent.height == 0 : shape.bytes == 0)
+        throw Error("resource " + quoted(name) + " has no size");
+    if (image && shape.bytes != 0) throw Error("resource " + quoted(name) + " is both image and buffer");
+    if (image && shape.format == VK_FORMAT_UNDEFINED) throw Error("image " + quoted(name) + " has no format");
+    ResourceInfo& r = resources_.emplace_back();
+    r.name = name;
+    r.shape = shape;
+    r.origin = origin;
+    return {static_cast<uint32_t>(resources_.size() - 1)};
+}
+
+Resource FrameGraph::transient(std::string_view name, const Shape& shape) {
+    return add(name, shape, Origin::Transient);
+}
+
+Resource FrameGraph::upload(std::string_view name, std::span<const std::byte> contents, VkFormat texel) {
+    const Resource resource = add(name, buffer_shape(contents.size(), texel), Origin::Upload);
+    resources_.back().contents.assign(contents.begin(), contents.end());
+    return resource;
+}
+
+Resource FrameGraph::readback(std::string_view name, uint64_t bytes) {
+    const Resource resource = add(name, buffer_shape(bytes), Origin::Readback);
+    keep(resource);
+    return resource;
+}
+
+History FrameGraph::history(std::string_view name, const Shape& shape) {
+    const Resource current = add(name, shape, Origin::HistoryCurrent);
+    const Resource previous = add(std::string(name) + " (previous)", shape, Origin::HistoryPrevious);
+    resources_[current.index].partner = previous.index;
+    resources_[previous.index].partner = current.index;
+    return {previous, current};
+}
+
+void FrameGraph::add_pass(PassInfo pass) {
+    if (pass.name.empty()) throw Error("a pass has no name");
+    for (size_t i = 0; i < pass.uses.size(); ++i) {
+        const Use& use = pass.uses[i];
+        if (use.resource.index >= resources_.size()) fail(pass, "has no valid resource as use " + std::to_string(i));
+        const ResourceInfo& r = resources_[use.resource.index];
+        check_use(pass, use, r);
+        for (size_t j = 0; j < i; ++j)
+            if (pass.uses[j].resource == use.resource && (writes(use.access) || writes(pass.uses[j].access)))
+                fail(pass, "uses " + quoted(r.name) + " twice and writes it");
+        // An upload or a previous has contents already; everything else has them from an earlier pass.
+        if (!is_read_first(use.access) || r.origin == Origin::Upload || r.origin == Origin::HistoryPrevious) continue;
+        const bool written = std::ranges::any_of(passes_, [&](const PassInfo& earlier) {
+            return std::ranges::any_of(earlier.uses,
+                                       [&](const Use& u) { return u.resource == use.resource && writes(u.access); });
+        });
+        if (!written) fail(pass, "reads " + quoted(r.name) + " before any pass has written it");
+    }
+    if (pass.kind == PassKind::Dispatch) check_kernel(pass, resources_);
+    if (pass.kind == PassKind::Raster) check_targets(pass, resources_);
+    if (pass.kind != PassKind::Dispatch && !pass.record) fail(pass, "records nothing");
+    passes_.push_back(std::move(pass));
+}
+
+void FrameGraph::dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+                          std::span<const std::byte> push, Groups groups) {
+    add_pass({std::string(name), PassKind::Dispatch, uses, &kernel, {push.begin(), push.end()}, groups, {}});
+}
+
+void FrameGraph::raster(std::string_view name, std::vector<Use> uses, Record record) {
+    add_pass({std::string(name), PassKind::Raster, std::move(uses), nullptr, {}, {}, std::move(record)});
+}
+
+void FrameGraph::clear(std::string_view name, Resource buffer) {
+    PassInfo pass{std::string(name), PassKind::Transfer, {{buffer, Access::CopyTarget}}, nullptr, {}, {}, {}};
+    if (buffer.index >= resources_.size()) fail(pass, "has no valid resource to clear");
+    const ResourceInfo& r = resources_[buffer.index];
+    if (r.shape.is_image()) fail(pass, "clears the image " + quoted(r.name) + "; only buffers can be");
+    if (r.shape.bytes % 4 != 0) fail(pass, "clears " + quoted(r.name) + ", whose size is not a multiple of 4 bytes");
+    pass.record = [buffer, bytes = r.shape.bytes](const Recording& frame) {
+        vkCmdFillBuffer(frame.commands(), frame.buffer(buffer), frame.offset(buffer), bytes, 0);
+    };
+    add_pass(std::move(pass));
+}
+
+void FrameGraph::copy(std::string_view name, Resource from, Resource to) {
+    PassInfo pass{std::string(name),
+                  PassKind::Transfer,
+                  {{from, Access::CopySource}, {to, Access::CopyTarget}},
+                  nullptr,
+                  {},
+                  {},
+                  {}};
+    if (from.index >= resources_.size()) fail(pass, "has no valid resource to copy from");
+    if (to.index >= resources_.size()) fail(pass, "has no valid resource to copy to");
+    const ResourceInfo &source = resources_[from.index], &target = resources_[to.index];
+    if (source.shape.is_image() && target.shape.is_image())
+        fail(pass, "copies the image " + quoted(source.name) + " to the image " + quoted(target.name));
+    const uint64_t have = packed_bytes(source.shape), room = packed_bytes(target.shape);
+    if (have != 0 && room != 0 && have != room)
+        fail(pass, "copies " + std::to_string(have) + " bytes of " + quoted(source.name) + " to " +
+                       quoted(target.name) + ", which has " + std::to_string(room));
+    if (source.shape.is_image()) {
+        pass.record = [from, to, shape = source.shape](const Recording& frame) {
+            const VkBufferImageCopy region = whole_image(shape, frame.offset(to));
+            vkCmdCopyImageToBuffer(frame.commands(), frame.image(from), VK_IMAGE_LAYOUT_GENERAL, frame.buffer(to), 1,
+                                   &region);
+        };
+    } else if (target.shape.is_image()) {
+        pass.record = [from, to, shape = target.shape](const Recording& frame) {
+            const VkBufferImageCopy region = whole_image(shape, frame.offset(from));
+            vkCmdCopyBufferToImage(frame.commands(), frame.buffer(from), frame.image(to), VK_IMAGE_LAYOUT_GENERAL, 1,
+                                   &region);
+        };
+    } else {
+        pass.record = [from, to, bytes = have](const Recording& frame) {
+            const VkBufferCopy region{frame.offset(from), frame.offset(to), bytes};
+            vkCmdCopyBuffer(frame.commands(), frame.buffer(from), frame.buffer(to), 1, &region);
+        };
+    }
+    add_pass(std::move(pass));
+}
+
+void FrameGraph::keep(Resource resource) {
+    if (resource.index >= resources_.size()) throw Error("keep: not a resource of this frame");
+    resources_[resource.index].kept = true;
+}
+
+}  // namespace vesper

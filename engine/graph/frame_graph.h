@@ -1,0 +1,153 @@
+// The frame graph: a frame is declared once, as resources and passes in the order they run. SPDX-License-Identifier: MIT
+// A declared frame is compiled to a Plan (graph/plan.h), which knows no device; an Executor (graph/executor.h) runs it.
+#pragma once
+
+#include <cstring>
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/kernel_interface.h"
+#include "graph/plan.h"
+
+namespace vesper {
+
+/// A handle on a declared resource: copy it, pass it, compare it. Valid for the graph that made it.
+struct Resource {
+    uint32_t index = ~0u;
+    bool operator==(const Resource&) const = default;
+    explicit operator bool() const { return index != ~0u; }
+};
+
+/// Something that outlives the frame: what the last frame left, and what this frame leaves.
+struct History {
+    Resource previous, current;
+};
+
+/// What a resource is made of: an image, or a buffer of so many bytes (with a texel format if read as a texel buffer).
+struct Shape {
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkExtent2D extent{0, 0};  ///< px; 0 x 0 for a buffer
+    uint64_t bytes = 0;       ///< of a buffer
+
+    bool is_image() const { return extent.width != 0; }
+    bool operator==(const Shape& o) const {
+        return format == o.format && extent.width == o.extent.width && extent.height == o.extent.height && bytes == o.bytes;
+    }
+};
+
+inline Shape image_shape(VkFormat format, VkExtent2D extent) { return {format, extent, 0}; }
+inline Shape buffer_shape(uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED) { return {texel, {0, 0}, bytes}; }
+
+/// One use of a resource by a pass. For a dispatch, use i is binding i of the kernel.
+struct Use {
+    Resource resource;
+    Access access;
+    VkClearValue clear{};  ///< of a target or a cleared buffer, on its first use in the frame
+};
+
+inline Use sample(Resource r) { return {r, Access::Sample}; }
+inline Use load(Resource r) { return {r, Access::Load}; }
+inline Use store(Resource r) { return {r, Access::Store}; }
+inline Use update(Resource r) { return {r, Access::Update}; }
+
+/// Workgroups of a dispatch.
+struct Groups {
+    uint32_t x = 1, y = 1, z = 1;
+};
+
+/// Workgroups that cover `width` x `height` invocations with groups of `group_x` x `group_y`.
+constexpr Groups cover(uint32_t width, uint32_t height, uint32_t group_x, uint32_t group_y) {
+    return {(width + group_x - 1) / group_x, (height + group_y - 1) / group_y, 1};
+}
+
+/// What a recording callback may ask for while its pass runs. Implemented by the executor.
+class Recording {
+public:
+    virtual ~Recording() = default;
+    virtual VkCommandBuffer commands() const = 0;
+    virtual VkImage image(Resource) const = 0;
+    virtual VkImageView view(Resource) const = 0;
+    virtual VkBuffer buffer(Resource) const = 0;
+    virtual uint64_t offset(Resource) const = 0;  ///< of a buffer resource within buffer(), bytes
+};
+using Record = std::function<void(const Recording&)>;
+
+/// Declares one frame. Throws Error, naming pass and resource, for every misuse that can be seen without a device.
+class FrameGraph {
+public:
+    enum class Origin : uint8_t { Transient, Upload, Readback, HistoryPrevious, HistoryCurrent };
+    enum class PassKind : uint8_t { Dispatch, Raster, Transfer };
+
+    struct ResourceInfo {
+        std::string name;
+        Shape shape;
+        Origin origin = Origin::Transient;
+        uint32_t partner = ~0u;               ///< of a history: the other half
+        std::vector<std::byte> contents;      ///< of an upload
+        bool kept = false;
+    };
+    struct PassInfo {
+        std::string name;
+        PassKind kind = PassKind::Dispatch;
+        std::vector<Use> uses;
+        const KernelInterface* kernel = nullptr;  ///< of a dispatch
+        std::vector<std::byte> push;
+        Groups groups;
+        Record record;                            ///< of a raster or transfer pass
+    };
+
+    /// A resource that lives within the frame and shares memory with others that do not overlap it.
+    Resource transient(std::string_view name, const Shape& shape);
+    /// A buffer the host fills before the frame. `contents` is copied; at least one byte.
+    Resource upload(std::string_view name, std::span<const std::byte> contents, VkFormat texel = VK_FORMAT_UNDEFINED);
+    template <class T>
+    Resource upload(std::string_view name, const std::vector<T>& values, VkFormat texel = VK_FORMAT_UNDEFINED) {
+        return upload(name, std::as_bytes(std::span(values)), texel);
+    }
+    /// A buffer the host can read when the frame is done. It is kept.
+    Resource readback(std::string_view name, uint64_t bytes);
+    /// A resource kept from frame to frame under its name; zero before the first frame.
+    History history(std::string_view name, const Shape& shape);
+
+    /// A compute pass. Use i is binding i of the kernel: the list is both the dependencies and the descriptors.
+    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+                  std::span<const std::byte> push, Groups groups);
+    template <class Push>
+    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses, const Push& push,
+                  Groups groups) {
+        dispatch(name, kernel, uses, std::as_bytes(std::span(&push, 1)), groups);
+    }
+    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses, Groups groups) {
+        dispatch(name, kernel, uses, std::span<const std::byte>{}, groups);
+    }
+    /// A raster pass: its targets are bound, cleared on their first use, and `record` draws.
+    void raster(std::string_view name, std::vector<Use> uses, Record record);
+    /// Fills a buffer with zeros.
+    void clear(std::string_view name, Resource buffer);
+    /// Copies an image or buffer, tightly packed, into a buffer of the same size; or a buffer into an image.
+    void copy(std::string_view name, Resource from, Resource to);
+
+    /// The frame is made for this resource; passes that do not contribute to a kept one are not run.
+    void keep(Resource resource);
+
+    const std::vector<ResourceInfo>& resources() const { return resources_; }
+    const std::vector<PassInfo>& passes() const { return passes_; }
+
+    /// Orders, culls, synchronizes and places the frame. `measure` tells what a resource occupies.
+    Plan compile(const Measure& measure) const;
+    /// The plan as text, for people and for tests.
+    std::string describe(const Plan& plan) const;
+
+private:
+    Resource add(std::string_view name, const Shape& shape, Origin origin);
+    void add_pass(PassInfo pass);
+
+    std::vector<ResourceInfo> resources_;
+    std::vector<PassInfo> passes_;
+};
+
+}  // namespace vesper

@@ -1,0 +1,129 @@
+// Whole files, in and out, with POSIX calls so that every failure is seen. SPDX-License-Identifier: MIT
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <utility>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace vesper {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& doing, int code) {
+    throw Error(one_line(file.string()) + ": " + doing + ": " + std::generic_category().message(code));
+}
+
+/// An open file descriptor, closed when it goes.
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    int number() const { return number_; }
+    /// Closes now and says how that went: some file systems report a full disk only here.
+    int close() { return ::close(std::exchange(number_, -1)) == 0 ? 0 : errno; }
+
+private:
+    int number_;
+};
+
+/// Returns 0 or the error code.
+int write_all(int descriptor, std::span<const uint8_t> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), std::min<size_t>(bytes.size(), 1u << 30));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return errno;
+        bytes = bytes.subspan(static_cast<size_t>(written));
+    }
+    return 0;
+}
+
+void write_directly(const fs::path& file, std::span<const uint8_t> bytes) {
+    Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+    if (out.number() < 0) fail(file, "cannot be opened for writing", errno);
+    int code = write_all(out.number(), bytes);
+    if (code == 0) code = out.close();
+    if (code != 0) fail(file, "cannot be written", code);
+}
+
+/// The name is short and does not derive from the target's, which may already be as long as a name can be.
+fs::path temporary_beside(const fs::path& target) {
+    static std::atomic<unsigned> serial{0};
+    return target.parent_path() / (".vesper-" + std::to_string(::getpid()) + "-" + std::to_string(serial++) + ".tmp");
+}
+
+}  // namespace
+
+std::vector<uint8_t> read_file(const fs::path& file, uint64_t max_bytes) {
+    // O_NONBLOCK: opening a pipe nobody writes to must not hang; it is refused below as not a regular file.
+    Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (in.number() < 0) fail(file, "cannot be opened", errno);
+    struct stat status {};
+    if (::fstat(in.number(), &status) != 0) fail(file, "cannot be read", errno);
+    if (S_ISDIR(status.st_mode)) throw Error(one_line(file.string()) + ": is a folder");
+    if (!S_ISREG(status.st_mode)) throw Error(one_line(file.string()) + ": is not a regular file");
+    const auto size = static_cast<uint64_t>(status.st_size);
+    if (size > max_bytes)
+        throw Error(one_line(file.string()) + ": has " + std::to_string(size) + " bytes, more than the limit of " +
+                    std::to_string(max_bytes));
+    std::vector<uint8_t> bytes(size);
+    size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t got = ::read(in.number(), bytes.data() + done, std::min<size_t>(bytes.size() - done, 1u << 30));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(file, "cannot be read", errno);
+        if (got == 0) break;  // shrunk meanwhile: what is missing shows up as a truncated file
+        done += static_cast<size_t>(got);
+    }
+    bytes.resize(done);
+    return bytes;
+}
+
+void replace_file(const fs::path& file, std::span<const uint8_t> bytes) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(file, ignored);
+    if (fs::is_directory(status)) throw Error(one_line(file.string()) + ": is a folder");
+    if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(file, bytes);
+
+    // A link stays a link: what it points at is replaced.
+    const fs::path resolved = fs::is_symlink(fs::symlink_status(file, ignored)) ? fs::weakly_canonical(file, ignored) : file;
+    const fs::path target = resolved.empty() ? file : resolved;
+    const fs::path temporary = temporary_beside(target);
+    Descriptor out(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (out.number() < 0) fail(file, "cannot be written", errno);
+    int code = write_all(out.number(), bytes);
+    if (code == 0 && fs::exists(status) && ::fchmod(out.number(), static_cast<mode_t>(status.permissions())) != 0) code = errno;
+    const int closing = out.close();
+    if (code == 0) code = closing;
+    if (code == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) code = errno;
+    if (code != 0) {
+        ::unlink(temporary.c_str());
+        fail(file, "cannot be written", code);
+    }
+}
+
+std::string one_line(const std::string& text) {
+    std::string line = text.substr(0, 200);
+    for (char& c : line)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    if (text.size() > line.size()) {
+        while (!line.empty() && (static_cast<unsigned char>(text[line.size()]) & 0xc0) == 0x80) line.pop_back();
+        line += "...";
+    }
+    return line;
+}
+
+}  // namespace vesper

@@ -1,0 +1,210 @@
+// PNG and JPEG, from memory. Both libraries report errors with longjmp, so what must be destroyed lives outside the
+// functions that call setjmp. SPDX-License-Identifier: MIT
+#include "io/image_file.h"
+
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+
+#include <jerror.h>
+#include <jpeglib.h>
+#include <png.h>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+
+namespace vesper {
+namespace {
+
+/// What a decoder works on: its input, where it stops, what it makes and why it gave up.
+struct Job {
+    std::span<const uint8_t> bytes;
+    uint32_t max_side;
+    uint64_t max_texels;
+    size_t read = 0;
+    Image image;
+    std::vector<uint8_t> row;
+    char reason[JMSG_LENGTH_MAX + 100] = "";
+    std::jmp_buf escape;
+};
+
+/// Whether such a picture may be made. A file too short for the pixels it declares is refused before memory is taken
+/// for them: neither format packs more than `max_texels_per_byte`.
+bool acceptable(Job& job, uint64_t width, uint64_t height, uint64_t max_texels_per_byte) {
+    const char* why = nullptr;
+    if (width == 0 || height == 0) why = "has no pixels";
+    if (width > job.max_side || height > job.max_side) why = "is larger than the limit for one side";
+    else if (width * height > job.max_texels) why = "takes the images over the limit of texels";
+    else if (width * height / max_texels_per_byte > job.bytes.size()) why = "is cut off";
+    if (!why) return true;
+    std::snprintf(job.reason, sizeof job.reason, "picture of %llu x %llu px %s", static_cast<unsigned long long>(width),
+                  static_cast<unsigned long long>(height), why);
+    return false;
+}
+
+void make_image(Job& job, uint32_t width, uint32_t height) {
+    job.image.width = width;
+    job.image.height = height;
+    job.image.rgba.resize(static_cast<size_t>(width) * height * 4);
+}
+
+[[noreturn]] void png_fail(png_structp png, png_const_charp message) {
+    Job& job = *static_cast<Job*>(png_get_error_ptr(png));
+    std::snprintf(job.reason, sizeof job.reason, "%s", message);
+    std::longjmp(job.escape, 1);
+}
+
+void png_ignore(png_structp, png_const_charp) {}
+
+void png_feed(png_structp png, png_bytep target, size_t count) {
+    Job& job = *static_cast<Job*>(png_get_io_ptr(png));
+    if (count > job.bytes.size() - job.read) png_error(png, "is cut off");
+    std::memcpy(target, job.bytes.data() + job.read, count);
+    job.read += count;
+}
+
+/// False, with a reason, when it did not work.
+bool decode_png(Job& job) {
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, png_fail, png_ignore);
+    png_infop header = png ? png_create_info_struct(png) : nullptr;
+    if (!header || setjmp(job.escape)) {
+        png_destroy_read_struct(&png, &header, nullptr);
+        return false;
+    }
+    png_set_read_fn(png, &job, png_feed);
+    png_set_user_limits(png, job.max_side, job.max_side);
+    png_set_chunk_malloc_max(png, 64u << 20);
+    png_read_info(png, header);
+    const png_uint_32 width = png_get_image_width(png, header), height = png_get_image_height(png, header);
+    // Deflate packs at most 1032 : 1, and a texel may be a single bit.
+    if (!acceptable(job, width, height, 1040 * 8)) {
+        png_destroy_read_struct(&png, &header, nullptr);
+        return false;
+    }
+    png_set_expand(png);
+    png_set_scale_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+    const int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, header);
+    make_image(job, width, height);
+    const size_t stride = static_cast<size_t>(width) * 4;
+    if (png_get_rowbytes(png, header) != stride) png_error(png, "unexpected row size");
+    for (int pass = 0; pass < passes; ++pass)
+        for (png_uint_32 y = 0; y < height; ++y) png_read_row(png, job.image.rgba.data() + y * stride, nullptr);
+    png_read_end(png, nullptr);
+    png_destroy_read_struct(&png, &header, nullptr);
+    return true;
+}
+
+[[noreturn]] void jpeg_fail(j_common_ptr jpeg) {
+    Job& job = *static_cast<Job*>(jpeg->client_data);
+    (*jpeg->err->format_message)(jpeg, job.reason);
+    std::longjmp(job.escape, 1);
+}
+
+/// libjpeg fills what is missing with grey and only warns: for us the file is damaged. Other warnings are harmless.
+void jpeg_message(j_common_ptr jpeg, int level) {
+    if (level < 0 && (jpeg->err->msg_code == JWRN_JPEG_EOF || jpeg->err->msg_code == JWRN_HIT_MARKER)) jpeg_fail(jpeg);
+}
+
+void jpeg_progress(j_common_ptr jpeg) {
+    // Some kilobytes can ask for thousands of passes over a large picture.
+    if (jpeg->is_decompressor && reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > 500) {
+        std::snprintf(static_cast<Job*>(jpeg->client_data)->reason, JMSG_LENGTH_MAX, "more than 500 scans");
+        std::longjmp(static_cast<Job*>(jpeg->client_data)->escape, 1);
+    }
+}
+
+void expand_row(const uint8_t* row, int components, bool inverted, std::span<uint8_t> rgba) {
+    for (size_t x = 0; x < rgba.size() / 4; ++x) {
+        uint8_t* out = rgba.data() + 4 * x;
+        for (int c = 0; c < 3; ++c) {
+            if (components == 4) {
+                const int ink = inverted ? row[4 * x + c] : 255 - row[4 * x + c];
+                const int key = inverted ? row[4 * x + 3] : 255 - row[4 * x + 3];
+                out[c] = static_cast<uint8_t>((ink * key + 127) / 255);
+            } else {
+                out[c] = row[3 * x + c];
+            }
+        }
+        out[3] = 255;
+    }
+}
+
+bool decode_jpeg(Job& job) {
+    jpeg_error_mgr errors;
+    jpeg_progress_mgr progress{};
+    jpeg_decompress_struct jpeg{};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg.client_data = &job;
+    errors.error_exit = jpeg_fail;
+    errors.emit_message = jpeg_message;
+    if (setjmp(job.escape)) {
+        jpeg_destroy_decompress(&jpeg);
+        return false;
+    }
+    jpeg_create_decompress(&jpeg);
+    progress.progress_monitor = jpeg_progress;
+    jpeg.progress = &progress;
+    jpeg_mem_src(&jpeg, job.bytes.data(), static_cast<unsigned long>(job.bytes.size()));
+    jpeg_read_header(&jpeg, TRUE);
+    // At least one bit for each block of 64 texels, of which subsampling may make sixteen.
+    if (!acceptable(job, jpeg.image_width, jpeg.image_height, 64 * 16 * 8)) {
+        jpeg_destroy_decompress(&jpeg);
+        return false;
+    }
+    // Four inks come as CMYK (libjpeg undoes YCCK); Adobe's files hold them inverted.
+    jpeg.out_color_space = jpeg.num_components == 4 ? JCS_CMYK : JCS_RGB;
+    jpeg_start_decompress(&jpeg);
+    make_image(job, jpeg.output_width, jpeg.output_height);
+    job.row.resize(static_cast<size_t>(jpeg.output_width) * static_cast<size_t>(jpeg.output_components));
+    const size_t stride = static_cast<size_t>(jpeg.output_width) * 4;
+    while (jpeg.output_scanline < jpeg.output_height) {
+        const size_t y = jpeg.output_scanline;
+        JSAMPROW row = job.row.data();
+        jpeg_read_scanlines(&jpeg, &row, 1);
+        expand_row(row, jpeg.output_components, jpeg.saw_Adobe_marker, std::span(job.image.rgba).subspan(y * stride, stride));
+    }
+    jpeg_finish_decompress(&jpeg);
+    jpeg_destroy_decompress(&jpeg);
+    return true;
+}
+
+}  // namespace
+
+std::string media_type(std::span<const uint8_t> bytes) {
+    const auto starts = [&](size_t at, std::string_view magic) {
+        return bytes.size() >= at + magic.size() && std::memcmp(bytes.data() + at, magic.data(), magic.size()) == 0;
+    };
+    using namespace std::string_view_literals;
+    if (starts(0, "\x89PNG\r\n\x1a\n"sv)) return "image/png";
+    if (starts(0, "\xff\xd8\xff"sv)) return "image/jpeg";
+    if (starts(0, "RIFF"sv) && starts(8, "WEBP"sv)) return "image/webp";
+    if (starts(0, "\xabKTX 20"sv)) return "image/ktx2";
+    if (starts(0, "\xabKTX 11"sv)) return "image/ktx";
+    if (starts(0, "DDS "sv)) return "image/vnd-ms.dds";
+    if (starts(4, "ftypavif"sv)) return "image/avif";
+    if (starts(0, "GIF8"sv)) return "image/gif";
+    if (starts(0, "BM"sv)) return "image/bmp";
+    if (starts(0, "II*\0"sv) || starts(0, "MM\0*"sv)) return "image/tiff";
+    if (starts(0, "#?RADIANCE"sv)) return "image/vnd.radiance";
+    if (starts(0, "\x76\x2f\x31\x01"sv)) return "image/x-exr";
+    return "";
+}
+
+Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels) {
+    Job job{};
+    job.bytes = bytes;
+    job.max_side = max_side;
+    job.max_texels = max_texels;
+    const std::string type = media_type(bytes);
+    bool done = false;
+    if (type == "image/png") done = decode_png(job);
+    else if (type == "image/jpeg") done = decode_jpeg(job);
+    else throw Error(type.empty() ? "is neither PNG nor JPEG" : "is " + type + ", neither PNG nor JPEG");
+    if (!done) throw Error(one_line(std::string(type == "image/png" ? "PNG: " : "JPEG: ") + (job.reason[0] ? job.reason : "out of memory")));
+    return std::move(job.image);
+}
+
+}  // namespace vesper

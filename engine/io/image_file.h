@@ -1,0 +1,34 @@
+// Picture files: PNG and JPEG in, PNG and OpenEXR out. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vesper {
+
+/// Decodes a PNG or JPEG held in memory to 8-bit RGBA. Throws Error (reason only; the caller adds the place) when it is
+/// neither, damaged, larger than `max_side` in either direction or of more than `max_texels`. 16-bit, palette, grey and
+/// CMYK files are converted; colour profiles and gamma chunks are ignored, as glTF demands.
+Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels = UINT64_MAX);
+
+/// The media type of a PNG or JPEG ("image/png"), or of another picture format we know but do not read; "" otherwise.
+std::string media_type(std::span<const uint8_t> bytes);
+
+/// Writes 8-bit RGBA (alpha ignored) as an RGB PNG. The file is replaced only when complete. Throws Error.
+void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba);
+
+/// Named text attributes of an OpenEXR header.
+using Header = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes RGBA float pixels (alpha ignored) as a 32-bit RGB OpenEXR, ZIP compressed, in cd/m^2 (whiteLuminance 1).
+/// The file is replaced only when complete. Throws Error.
+void write_exr(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const float> rgba,
+               const Header& header);
+
+}  // namespace vesper

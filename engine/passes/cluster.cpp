@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "passes/passes.h"
+
+namespace vesper {
+namespace {
+
+constexpr float kNear = 1;             // m, where slice 1 begins
+constexpr uint32_t kCoarseTiles = 4;   // side of a coarse cell
+constexpr uint32_t kCoarseSlices = 4;
+constexpr uint64_t kCoarseIndices = 8u << 20;  // bound on the memory of the coarse lists
+
+uint32_t divide_up(uint32_t a, uint32_t b) { return (a + b - 1) / b; }
+
+// The greatest depth at which any light still gives the threshold.
+float lit_depth(const LightList& list, float threshold) {
+    float far = 2 * kNear;
+    for (uint32_t i = 0; i < list.counts.cones + list.counts.powers; ++i)
+        far = std::max(far, std::sqrt(list.lights[i].intensity / threshold) - list.lights[i].position.z);
+    return far;
+}
+
+struct Lists {
+    Resource counts, indices;
+};
+
+}  // namespace
+
+Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList& list, const View& view, const ClusterSettings& settings) {
+    const uint32_t lights = list.counts.cones + list.counts.powers;
+    float far = lit_depth(list, settings.threshold);
+    if (settings.far > 0) far = std::max(2 * kNear, std::min(far, settings.far));
+    const float slice_scale = float(settings.slices - 1) / std::log2(far / kNear);
+
+    Clusters clusters;
+    clusters.push.grid = {divide_up(view.extent.width, shared::kTileSize),
+                          divide_up(view.extent.height, shared::kTileSize),
+                          settings.slices,
+                          settings.capacity,
+                          slice_scale,
+                          1 - std::log2(kNear) * slice_scale,
+                          view.ray_scale(),
+                          view.ray_offset()};
+    clusters.push.lights = list.counts;
+    clusters.push.threshold = settings.threshold;
+    clusters.push.near = kNear;
+    clusters.push.far = far;
+
+    std::vector<shared::Light> padded = list.lights;
+    if (padded.empty()) padded.emplace_back();  // an upload is never empty
+    clusters.lights = graph.upload("lights", padded, VK_FORMAT_R32G32B32A32_SFLOAT);
+
+    // The root is one cell that lists every light; coarse cells choose from it, froxels from coarse cells.
+    std::vector<uint32_t> every_light(std::max(1u, lights));
+    std::iota(every_light.begin(), every_light.end(), 0u);
+    const Lists root{graph.upload("root counts", std::vector{list.counts.cones, list.counts.powers}, VK_FORMAT_R32_UINT),
+                     graph.upload("root indices", every_light, VK_FORMAT_R32_UINT)};
+
+    clusters.report = graph.transient("cluster report", buffer_shape(sizeof(shared::ClusterReport)));
+    graph.clear("clear cluster report", clusters.report);
+
+    const auto add_level = [&](const char* name, const Lists& parents, shared::ClusterLevelPush push) {
+        push.view = clusters.push;
+        const uint32_t cells = push.cells_x * push.cells_y * push.cells_z;
+        const Lists lists{graph.transient(std::string(name) + " counts", buffer_shape(uint64_t(cells) * 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT)),
+                          graph.transient(std::string(name) + " indices", buffer_shape(uint64_t(cells) * push.capacity * sizeof(uint32_t), VK_FORMAT_R32_UINT))};
+        graph.dispatch(name, kernels.cluster,
+                       {sample(clusters.lights), sample(parents.counts), sample(parents.indices), store(lists.counts), store(lists.indices), update(clusters.report)},
+                       push, cover(cells, 1, kernels.cluster.group[0], 1));
+        return lists;
+    };
+
+    const shared::ClusterGrid& grid = clusters.push.grid;
+    const uint32_t coarse_x = divide_up(grid.tiles_x, kCoarseTiles), coarse_y = divide_up(grid.tiles_y, kCoarseTiles);
+    const uint32_t coarse_z = divide_up(grid.slices, kCoarseSlices);
+    const uint32_t coarse_capacity = uint32_t(std::clamp<uint64_t>(lights, 1, kCoarseIndices / (coarse_x * coarse_y * coarse_z)));
+    const Lists coarse = add_level("cluster coarse", root,
+                                   {.cells_x = coarse_x, .cells_y = coarse_y, .cells_z = coarse_z,
+                                    .tiles_per_cell = kCoarseTiles, .slices_per_cell = kCoarseSlices, .capacity = coarse_capacity,
+                                    .parents_x = 1, .parents_y = 1, .tiles_per_parent = coarse_x * kCoarseTiles * coarse_y,
+                                    .slices_per_parent = coarse_z * kCoarseSlices, .parent_capacity = 0, .reports = 0});
+    const Lists fine = add_level("cluster", coarse,
+                                 {.cells_x = grid.tiles_x, .cells_y = grid.tiles_y, .cells_z = grid.slices,
+                                  .tiles_per_cell = 1, .slices_per_cell = 1, .capacity = grid.capacity,
+                                  .parents_x = coarse_x, .parents_y = coarse_y, .tiles_per_parent = kCoarseTiles,
+                                  .slices_per_parent = kCoarseSlices, .parent_capacity = coarse_capacity, .reports = 1});
+    clusters.counts = fine.counts;
+    clusters.indices = fine.indices;
+    return clusters;
+}
+
+}  // namespace vesper

@@ -1,0 +1,147 @@
+// Every pass of the frame: its inputs, its output, its settings. SPDX-License-Identifier: MIT
+// Pixels count from the top left. RGB is linear Rec. 709; luminance is 0.2126 R + 0.7152 G + 0.0722 B.
+#pragma once
+
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "graph/frame_graph.h"
+#include "resident/formats.h"
+#include "resident/kernels.h"
+#include "resident/lights.h"
+#include "resident/view.h"
+#include "shared/cluster.h"
+#include "shared/composite.h"
+#include "shared/light.h"
+#include "shared/shade.h"
+#include "shared/tone.h"
+
+namespace vesper {
+
+/// Surfaces seen by each pixel.
+struct GBuffer {
+    Resource reflectance;  ///< rgba16f: base colour [0, 1], metallic [0, 1]
+    Resource surface;      ///< rgba32f: view-frame normal, octahedral (2), depth along the view axis (m; 0: nothing), roughness
+    Resource emission;     ///< rgba32f: emitted RGB luminance, cd/m^2
+    Resource depth;        ///< d32: near / depth, 0 at infinity
+};
+
+/// Rasterizes what of the scene the view may see, at the poses of `frame`. Textures are filtered as linear reflectance.
+GBuffer add_gbuffer(FrameGraph&, const ResidentScene&, const SceneFrame&, const View&);
+
+struct ClusterSettings {
+    float threshold = 0.001f;      ///< lx: a lamp counts where it gives at least this on a surface facing it
+    uint32_t slices = 32;
+    uint32_t capacity = 256;       ///< lights a froxel lists before it falls back to all lights
+    float far = 0;                 ///< m, where geometry ends; 0: unknown, lamps alone decide
+};
+
+struct Clusters {
+    Resource lights;   ///< rgba32f texels, kTexelsPerLight per light
+    Resource counts;   ///< r32ui, two per froxel: cones, then powers; kAllLights if they did not fit
+    Resource indices;  ///< r32ui, grid.capacity per froxel: indices of cones, then of powers, each ascending
+    Resource report;   ///< shared::ClusterReport
+    shared::ClusterPush push;  ///< grid, counts, threshold, near and far
+};
+
+/// Lists for every froxel all cone and cosine-power lights that may give `threshold` lx somewhere in it. Exact or more,
+/// never less. Slices are of equal ratio from the nearest metre to the farthest depth any lamp reaches with `threshold`
+/// (d = sqrt(I / threshold)), or to `far` if that is nearer.
+Clusters add_clusters(FrameGraph&, const Kernels&, const LightList&, const View&, const ClusterSettings&);
+
+struct ShadeSettings {
+    float lambert = 1 / std::numbers::pi_v<float>;  ///< sr^-1: L = E reflectance / pi; 1: the paper's L = E R
+    float emission_limit = std::numeric_limits<float>::infinity();  ///< cd/m^2
+    glm::vec3 ambient{0};             ///< illuminance, RGB of luminance lx
+    glm::vec3 sky{0};                 ///< cd/m^2 RGB
+    bool all_lights = false;          ///< look at every light in every pixel, for comparison
+};
+
+/// Scene luminance, rgba32f, cd/m^2 RGB (alpha 1):
+/// L = sum_k E_k (rho lambert + specular) + ambient rho lambert + emission, E_k = I_k(direction) cos / d^2, counted where
+/// I_k / d^2 >= threshold. rho = base colour (1 - metallic). Specular: GGX (Walter et al. 2007, a = roughness^2) with
+/// height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel; F0 is the base colour of a metal and
+/// 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert.
+Resource add_shading(FrameGraph&, const Kernels&, const GBuffer&, const Clusters&, const View&, const ShadeSettings&);
+
+/// Luminance at halving resolutions, see shared::PyramidPush. Level 0 is the scene image itself and is not stored.
+struct Pyramid {
+    std::vector<Resource> levels;     ///< levels[k - 1] is level k, rgba32f, up to 1x1 (one level for a 1x1 image)
+    std::vector<VkExtent2D> extents;
+};
+Pyramid add_pyramid(FrameGraph&, const Kernels&, Resource scene, VkExtent2D extent);
+
+/// The pyramid level whose texels are nearest to one degree: round(log2(1 / degrees per pixel)), within the pyramid.
+uint32_t foveal_level(const View&, const Pyramid&);
+
+struct HistogramSettings {
+    uint32_t bins = 100;         ///< 1 .. 256
+    float log10_low = -4;        ///< log10 of the lowest luminance, cd/m^2
+    float log10_high = 6;        ///< and of the highest
+
+    float ln_low() const { return log10_low * std::numbers::ln10_v<float>; }
+    float bins_per_ln() const { return float(bins) / ((log10_high - log10_low) * std::numbers::ln10_v<float>); }
+};
+
+/// Counts ln luminance over the texels of one pyramid level (1-based). A shared::Histogram.
+Resource add_histogram(FrameGraph&, const Kernels&, const Pyramid&, uint32_t level, VkExtent2D image, const HistogramSettings&);
+
+/// A display and the light that falls on it (Mantiuk, Daly and Kerofsky 2008): L(V) = (peak - black) V^gamma + black +
+/// reflection * ambient / pi.
+struct Display {
+    float peak = 200;        ///< cd/m^2, of code 1 in the dark
+    float black = 0.2f;      ///< cd/m^2, of code 0 in the dark
+    float gamma = 2.2f;
+    float ambient = 5;       ///< illuminance on the screen, lx
+    float reflection = 0.01f;///< diffuse reflectance of the screen
+
+    /// Luminance of code 0 and of code 1, cd/m^2.
+    float low() const { return black + reflection * ambient / std::numbers::pi_v<float>; }
+    float high() const { return peak + reflection * ambient / std::numbers::pi_v<float>; }
+};
+
+struct ToneSettings {
+    float key = 0.18f;         ///< Reinhard 2002
+    float white = 0;           ///< Reinhard 2002: cd/m^2 shown as white; 0: the frame's maximum
+    float linear_low = 0;      ///< cd/m^2 shown as black
+    float linear_high = 0;     ///< cd/m^2 shown as white; 0: the frame's maximum
+};
+
+struct Adaptation {
+    Resource curve;  ///< shared::ToneCurve
+    History eye;     ///< shared::EyeState
+};
+
+/// Turns the frame's statistics into a tone curve: histogram adjustment after Ward, Rushmeier and Piatko 1997 with the
+/// cone threshold of Ferwerda et al. 1996 as ceiling, steady state, and the parameters of Reinhard 2002 and of the
+/// linear operator. The adaptation luminance is the log average of the frame.
+Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource histogram, const HistogramSettings&,
+                          const ToneSettings&, const Display&, float seconds);
+
+struct LdrGlareSettings {
+    float threshold = 0.9f;      ///< displayed luminance relative to white from which a pixel glares
+    float sigma_degrees = 0.35f; ///< of the Gaussian
+    float gain = 1;              ///< 0: no glare, no pass
+};
+
+/// The paper's glare: the tone-mapped image where it reaches `threshold`, blurred by a normalised Gaussian. Displayed
+/// light (relative), rgba16f at a quarter of the resolution. `tone` is one of shared::kTone*.
+Resource add_ldr_glare(FrameGraph&, const Kernels&, Resource scene, Resource curve, uint32_t tone, const View&,
+                       const Display&, const LdrGlareSettings&);
+
+struct CompositeInputs {
+    Resource scene;            ///< cd/m^2
+    Resource curve;
+    Resource luminance_glare;  ///< optional: light scattered in the eye, rgba32f at full size, cd/m^2; added before the curve
+    Resource ldr_glare;        ///< optional: what add_ldr_glare gave; added after the curve
+};
+
+/// Maps scene luminance to display codes, rgba8: tone curve, colour at the mapped luminance (desaturated, at constant
+/// luminance, where a channel would exceed white), glare, inverse display model. Non-finite pixels are black.
+Resource add_composite(FrameGraph&, const Kernels&, const CompositeInputs&, uint32_t tone, const View&, const Display&,
+                       float ldr_glare_gain);
+
+}  // namespace vesper

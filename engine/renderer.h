@@ -1,0 +1,99 @@
+// The engine's face: a scene, a view and settings in, a picture in cd/m^2 and on the display out. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/executor.h"
+#include "passes/passes.h"
+#include "resident/cameras.h"
+#include "resident/kernels.h"
+#include "resident/lights.h"
+#include "resident/resident_scene.h"
+
+namespace vesper {
+
+/// How scene luminance becomes display luminance.
+enum class Operator : uint8_t {
+    Irawan,    ///< Irawan, Ferwerda and Marschner 2005; until its temporal model is there, the same as Ward
+    Ward,      ///< Ward, Rushmeier and Piatko 1997: histogram adjustment under the cone threshold, steady state
+    Reinhard,  ///< Reinhard et al. 2002, global
+    Linear,    ///< linear between two luminances
+    Ldr,       ///< no HDR at all: lamps and sources of 1.0, values clamped to [0, 1]
+};
+
+enum class Glare : uint8_t { None, Ldr };
+
+struct RenderSettings {
+    Operator tone_operator = Operator::Ward;
+    bool paper_lambert = false;            ///< L = E R instead of E R / pi
+    bool all_lights = false;               ///< shade without clusters, for comparison
+    ClusterSettings clusters;
+    HistogramSettings histogram;
+    std::optional<uint32_t> foveal_level;  ///< pyramid level of the histogram; default: 1 degree per texel
+    ToneSettings tone;
+    Display display;
+    Glare glare = Glare::None;
+    LdrGlareSettings ldr_glare;
+    float ldr_reference_distance = 6.5f;   ///< m: where an LDR lamp of 1.0 lights with 1.0; the paper's lamp height
+};
+
+/// What to bring back to the host.
+struct Outputs {
+    bool display = true;  ///< codes
+    bool scene = false;   ///< luminance
+};
+
+/// One rendered frame on the host.
+struct Frame {
+    VkExtent2D extent{};
+    std::vector<uint8_t> display;   ///< RGBA codes, row by row; empty unless asked for
+    std::vector<float> scene;       ///< RGBA, cd/m^2 RGB; empty unless asked for
+    shared::ToneCurve curve{};
+    shared::Histogram histogram{};
+    shared::EyeState eye{};
+    shared::ClusterReport clusters{};
+    uint32_t foveal_level = 0;
+    uint32_t lights = 0;            ///< lamps that shine
+    float far = 0;                  ///< m: the far limit of the clusters
+    std::vector<Timing> timings;
+};
+
+/// Renders one scene on one device. Not thread-safe; several renderers may share a device in one thread.
+class Renderer {
+public:
+    Renderer(Device& device, const Scene& scene);
+
+    /// Renders the scene as `view` sees it, with everything at its pose of `frame`. `seconds` have passed since the last
+    /// frame. Throws Error.
+    Frame render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, Outputs outputs);
+
+    /// The plan of the last frame as text.
+    const std::string& plan() const { return plan_; }
+    /// Forgets what the eye was adapted to, as at a camera cut.
+    void reset_adaptation();
+    const ResidentScene& scene() const { return resident_; }
+    uint64_t device_bytes() const { return resident_.bytes() + executor_.heap_bytes(); }
+
+private:
+    /// The frame's resources that the host reads.
+    struct Declared {
+        Resource display, scene, curve, histogram, eye, clusters;
+        uint32_t foveal_level;
+        float far;
+    };
+    Declared declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
+                     const LightList& lights, float seconds, Outputs outputs) const;
+
+    Device& device_;
+    Kernels kernels_;
+    ResidentScene resident_;
+    std::vector<PlacedLight> lights_;
+    float ambient_illuminance_, sky_luminance_;
+    glm::vec3 ambient_colour_, sky_colour_;
+    Executor executor_;
+    std::string plan_;
+};
+
+}  // namespace vesper

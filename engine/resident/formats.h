@@ -1,0 +1,16 @@
+// Formats of the images that pipelines and passes agree on. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+namespace vesper {
+
+constexpr VkFormat kReflectanceFormat = VK_FORMAT_R16G16B16A16_SFLOAT;  ///< base colour, metallic
+constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32B32A32_SFLOAT;      ///< normal (2), depth (m), roughness
+constexpr VkFormat kEmissionFormat = VK_FORMAT_R32G32B32A32_SFLOAT;     ///< cd/m^2 RGB
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat kSceneFormat = VK_FORMAT_R32G32B32A32_SFLOAT;        ///< 1e-4 to 1e8 cd/m^2 in one frame
+constexpr VkFormat kGlareFormat = VK_FORMAT_R16G16B16A16_SFLOAT;        ///< displayed light, relative
+constexpr VkFormat kDisplayFormat = VK_FORMAT_R8G8B8A8_UNORM;
+
+}  // namespace vesper

@@ -1,0 +1,50 @@
+#include "resident/kernels.h"
+
+#include "shaders/adapt.comp.inc"
+#include "shaders/blur.comp.inc"
+#include "shaders/bright.comp.inc"
+#include "shaders/cluster.comp.inc"
+#include "shaders/composite.comp.inc"
+#include "shaders/histogram.comp.inc"
+#include "shaders/pyramid.comp.inc"
+#include "shaders/shade.comp.inc"
+#include "shared/tone.h"
+
+namespace vesper {
+namespace {
+
+constexpr uint32_t kTones = shared::kToneLdr + 1;
+
+std::vector<Kernel> make_bright(const Device& device) {
+    std::vector<Kernel> kernels;
+    for (uint32_t tone = 0; tone < kTones; ++tone) kernels.emplace_back(device, "bright.comp", bright_comp, std::initializer_list{tone});
+    return kernels;
+}
+
+std::vector<Kernel> make_composite(const Device& device) {
+    std::vector<Kernel> kernels;
+    for (uint32_t tone = 0; tone < kTones; ++tone)
+        for (uint32_t luminance_glare : {0u, 1u})
+            for (uint32_t ldr_glare : {0u, 1u})
+                kernels.emplace_back(device, "composite.comp", composite_comp, std::initializer_list{tone, luminance_glare, ldr_glare});
+    return kernels;
+}
+
+}  // namespace
+
+// A CPU device fetches a light once for eight pixels and works on rows of 32; a GPU on squares, a pixel each.
+Kernels::Kernels(const Device& device)
+    : cluster(device, "cluster.comp", cluster_comp),
+      shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{8, 8}),
+      shade_rows(device.is_cpu() ? 8 : 1),
+      shade(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 0}),
+      shade_every_light(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 1}),
+      pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
+      pyramid(device, "pyramid.comp", pyramid_comp, {0}),
+      histogram(device, "histogram.comp", histogram_comp),
+      adapt(device, "adapt.comp", adapt_comp),
+      bright(make_bright(device)),
+      blur(device, "blur.comp", blur_comp),
+      composite(make_composite(device)) {}
+
+}  // namespace vesper

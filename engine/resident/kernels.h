@@ -1,0 +1,29 @@
+// The compute shaders of the frame, made once per device. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "gpu/kernel.h"
+
+namespace vesper {
+
+/// Every compute shader, specialized for the device.
+struct Kernels {
+    Kernel cluster;
+    VkExtent2D shade_group;  ///< invocations per workgroup of the shading kernels
+    uint32_t shade_rows;     ///< pixels of a column that one invocation shades
+    Kernel shade, shade_every_light;
+    Kernel pyramid_first, pyramid;
+    Kernel histogram, adapt;
+    std::vector<Kernel> bright;     ///< by shared::kTone*
+    Kernel blur;
+    std::vector<Kernel> composite;  ///< see composite_index
+
+    explicit Kernels(const Device& device);
+
+    static size_t composite_index(uint32_t tone, bool luminance_glare, bool ldr_glare) {
+        return tone * 4 + (luminance_glare ? 2 : 0) + (ldr_glare ? 1 : 0);
+    }
+};
+
+}  // namespace vesper

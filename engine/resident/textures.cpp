@@ -1,0 +1,172 @@
+#include "resident/textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <glm/gtc/packing.hpp>
+
+namespace vesper {
+namespace {
+
+// The weights with which `size` texels make up texel `to` of `count`: the area it covers of each.
+struct Tap {
+    uint32_t first;
+    std::vector<float> weights;
+};
+
+Tap taps(uint32_t to, uint32_t count, uint32_t size) {
+    const double low = double(to) * size / count, high = double(to + 1) * size / count;
+    Tap tap{uint32_t(low), {}};
+    for (uint32_t i = tap.first; i < size && i < high; ++i)
+        tap.weights.push_back(float((std::min(high, i + 1.0) - std::max(low, double(i))) * count / size));
+    return tap;
+}
+
+VkSamplerAddressMode address_mode(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::Mirror: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case Wrap::Clamp: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        default: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    }
+}
+
+std::vector<Level> mip_chain(const Image& image, const std::vector<float>& table, bool linear_alpha) {
+    Level base{image.width, image.height, std::vector<float>(image.rgba.size())};
+    for (size_t i = 0; i < image.rgba.size(); ++i)
+        base.rgba[i] = linear_alpha && i % 4 == 3 ? float(image.rgba[i]) / 255 : table[image.rgba[i]];
+    std::vector<Level> levels{std::move(base)};
+    while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(half_size(levels.back()));
+    return levels;
+}
+
+}  // namespace
+
+std::vector<float> decode_table(Decode decode, const Transfer& transfer) {
+    std::vector<float> table(256);
+    for (int code = 0; code < 256; ++code) {
+        const double t = code / 255.0;
+        const bool srgb = decode == Decode::Srgb || (decode == Decode::Colour && transfer.kind == Transfer::Kind::Srgb);
+        if (decode == Decode::Data)
+            table[code] = float(t);
+        else if (srgb)  // IEC 61966-2-1
+            table[code] = float(t <= 0.04045 ? t / 12.92 : std::pow((t + 0.055) / 1.055, 2.4));
+        else  // Petit, Bremond and Vienne, Eq. 1
+            table[code] = float(std::pow(t, double(transfer.gamma)));
+    }
+    return table;
+}
+
+Level half_size(const Level& level) {
+    Level half{std::max(1u, level.width / 2), std::max(1u, level.height / 2), {}};
+    half.rgba.assign(size_t(half.width) * half.height * 4, 0.0f);
+    std::vector<Tap> columns;
+    for (uint32_t x = 0; x < half.width; ++x) columns.push_back(taps(x, half.width, level.width));
+    for (uint32_t y = 0; y < half.height; ++y) {
+        const Tap rows = taps(y, half.height, level.height);
+        for (uint32_t x = 0; x < half.width; ++x) {
+            float* to = &half.rgba[(size_t(y) * half.width + x) * 4];
+            for (size_t j = 0; j < rows.weights.size(); ++j)
+                for (size_t i = 0; i < columns[x].weights.size(); ++i) {
+                    const float* from = &level.rgba[(size_t(rows.first + j) * level.width + columns[x].first + i) * 4];
+                    const float weight = rows.weights[j] * columns[x].weights[i];
+                    for (int c = 0; c < 4; ++c) to[c] += weight * from[c];
+                }
+        }
+    }
+    return half;
+}
+
+TextureStore::TextureStore(const Device& device, Arena& arena) : device_(&device), arena_(&arena) {}
+
+VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& use, Decode decode) {
+    const auto key = std::pair(use.image, use.image == kNone ? Decode::Data : decode);
+    auto found = textures_.find(key);
+    if (found == textures_.end()) {
+        const Image white{"white", 1, 1, {255, 255, 255, 255}};
+        const Image& image = use.image == kNone ? white : scene.images[use.image];
+        const auto levels = mip_chain(image, decode_table(key.second, scene.transfer), key.second != Decode::Data);
+        const VkFormat format = key.second == Decode::Data ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
+        found = textures_.emplace(key, upload(levels, format)).first;
+    }
+    return {sampler(use), found->second.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+TextureStore::Texture TextureStore::upload(const std::vector<Level>& levels, VkFormat format) {
+    const bool half = format == VK_FORMAT_R16G16B16A16_SFLOAT;
+    const size_t texel_bytes = half ? 8 : 4;
+    uint64_t bytes = 0;
+    for (const Level& level : levels) bytes += uint64_t(level.width) * level.height * texel_bytes;
+    const HostBuffer staging(*device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
+    std::vector<VkBufferImageCopy> copies;
+    std::byte* to = staging.data();
+    for (const Level& level : levels) {
+        copies.push_back({.bufferOffset = uint64_t(to - staging.data()),
+                          .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, uint32_t(copies.size()), 0, 1},
+                          .imageExtent = {level.width, level.height, 1}});
+        for (size_t i = 0; i < level.rgba.size(); i += 4, to += texel_bytes) {
+            const glm::vec4 texel(level.rgba[i], level.rgba[i + 1], level.rgba[i + 2], level.rgba[i + 3]);
+            if (half) {
+                const uint64_t packed = glm::packHalf4x16(texel);
+                std::memcpy(to, &packed, sizeof packed);
+            } else {
+                const uint32_t packed = glm::packUnorm4x8(texel);
+                std::memcpy(to, &packed, sizeof packed);
+            }
+        }
+    }
+    staging.flush();
+
+    Texture texture;
+    const uint32_t count = uint32_t(levels.size());
+    texture.image = make_image(*device_, image_info(format, {levels[0].width, levels[0].height}, count,
+                                                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+    arena_->bind(texture.image.get());
+    device_->run_once([&](VkCommandBuffer commands) {
+        VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                                      .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                      .dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                      .newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                      .image = texture.image.get(),
+                                      .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, count, 0, 1}};
+        const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                          .imageMemoryBarrierCount = 1,
+                                          .pImageMemoryBarriers = &barrier};
+        vkCmdPipelineBarrier2(commands, &dependency);
+        vkCmdCopyBufferToImage(commands, staging.buffer(), texture.image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                               uint32_t(copies.size()), copies.data());
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT, barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        barrier.dstStageMask = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+        barrier.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+        barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+        barrier.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+        vkCmdPipelineBarrier2(commands, &dependency);
+    });
+    texture.view = make_view(*device_, texture.image.get(), format);
+    return texture;
+}
+
+VkSampler TextureStore::sampler(const TextureUse& use) {
+    OwnedSampler& sampler = samplers_[{use.wrap_u, use.wrap_v, use.nearest}];
+    if (!sampler) {
+        // Between mip levels a CPU device takes the nearer one: blending two costs it as much again.
+        const VkSamplerMipmapMode mips =
+            device_->is_cpu() ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
+        const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                       .magFilter = use.nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
+                                       .minFilter = VK_FILTER_LINEAR,
+                                       .mipmapMode = mips,
+                                       .addressModeU = address_mode(use.wrap_u),
+                                       .addressModeV = address_mode(use.wrap_v),
+                                       .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                       .anisotropyEnable = device_->has_anisotropy() && !use.nearest,
+                                       .maxAnisotropy = std::min(8.0f, device_->limits().maxSamplerAnisotropy),
+                                       .maxLod = VK_LOD_CLAMP_NONE};
+        VkSampler raw = VK_NULL_HANDLE;
+        check(vkCreateSampler(device_->handle(), &info, nullptr, &raw), "making a sampler");
+        sampler = {device_->handle(), raw};
+    }
+    return sampler.get();
+}
+
+}  // namespace vesper

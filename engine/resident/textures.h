@@ -1,0 +1,49 @@
+// Textures on the device, decoded to linear values before they are filtered. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "gpu/memory.h"
+#include "scene/scene.h"
+
+namespace vesper {
+
+/// How the codes of an image become the values a shader filters.
+enum class Decode : uint8_t { Colour, Srgb, Data };  ///< through Scene::transfer; through sRGB; code / 255
+
+/// One mip level: RGBA, row by row.
+struct Level {
+    uint32_t width = 0, height = 0;
+    std::vector<float> rgba;
+};
+
+/// The linear value of each 8-bit code.
+std::vector<float> decode_table(Decode decode, const Transfer& transfer);
+/// Half the size, rounded down: every texel is the mean of the area it covers, whole or in part.
+Level half_size(const Level& level);
+
+/// Uploads images on demand; one texture per image and decoding, one sampler per way of sampling.
+class TextureStore {
+public:
+    TextureStore(const Device& device, Arena& arena);
+
+    /// View and sampler for a use of an image. Without an image: a white texel.
+    VkDescriptorImageInfo get(const Scene& scene, const TextureUse& use, Decode decode);
+
+private:
+    struct Texture {
+        OwnedImage image;
+        OwnedImageView view;
+    };
+    Texture upload(const std::vector<Level>& levels, VkFormat format);
+    VkSampler sampler(const TextureUse& use);
+
+    const Device* device_;
+    Arena* arena_;
+    std::map<std::pair<uint32_t, Decode>, Texture> textures_;
+    std::map<std::tuple<Wrap, Wrap, bool>, OwnedSampler> samplers_;
+};
+
+}  // namespace vesper

@@ -1,0 +1,27 @@
+// One eye's view of the scene. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vulkan/vulkan_core.h>
+
+namespace vesper {
+
+/// Where an eye stands and what its image covers. The view frame: x right, y up, looking along -z, m.
+struct View {
+    VkExtent2D extent{1680, 1050};        ///< px
+    glm::mat4 world_to_view{1};
+    glm::vec2 tangent_low{-0.8f, -0.5f};  ///< tangents of the left and bottom edge of the image
+    glm::vec2 tangent_high{0.8f, 0.5f};   ///< and of the right and top edge
+    float near = 0.1f;                    ///< nothing nearer is drawn, m
+
+    /// A symmetric view of square pixels. `vertical_fov` in rad.
+    static View symmetric(VkExtent2D extent, float vertical_fov, const glm::mat4& world_to_view, float near = 0.1f);
+
+    /// A pixel (x, y), y down, sees along (ray_scale * (pixel + 0.5) + ray_offset, -1).
+    glm::vec2 ray_scale() const;
+    glm::vec2 ray_offset() const;
+    /// Angle a pixel covers in height at the centre of a symmetric view, degrees.
+    double degrees_per_pixel() const;
+};
+
+}  // namespace vesper

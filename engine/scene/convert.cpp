@@ -1,0 +1,127 @@
+// From a daytime database to a photometric one: the table of contents. SPDX-License-Identifier: MIT
+#include "scene/convert.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "scene/convert_rules.h"
+#include "scene/gltf_write.h"
+
+#ifndef VESPER_VERSION
+#define VESPER_VERSION "0.1.0"
+#endif
+
+namespace vesper {
+namespace {
+
+using nlohmann::json;
+
+json colour_of(glm::dvec3 colour) { return {colour.r, colour.g, colour.b}; }
+
+json quantity_of(const char* name, const ColouredQuantity& quantity) {
+    return {{name, quantity.value}, {"colour", colour_of(quantity.colour)}};
+}
+
+/// The extras block, docs/photometry.md.
+json block_of(const Conversion& conversion, const std::filesystem::path& input, const std::filesystem::path& photometry) {
+    const Photometry& p = conversion.photometry;
+    json block = {{"version", 1}};
+    block["transfer"] = {{"kind", p.transfer.kind == Transfer::Kind::Gamma ? "gamma" : "srgb"}};
+    // Through text: 2.2f as a double has a long tail.
+    if (p.transfer.kind == Transfer::Kind::Gamma) block["transfer"]["gamma"] = std::stod(decimal(p.transfer.gamma));
+    if (p.ambient) block["ambient"] = quantity_of("illuminance_lx", *p.ambient);
+    if (p.sky) block["sky"] = quantity_of("luminance_cd_m2", *p.sky);
+    if (!conversion.lobes.empty()) block["lobes"] = conversion.lobes;
+    block["provenance"] = {{"input", input.filename().string()},
+                           {"photometry", photometry.filename().string()},
+                           {"vesper", VESPER_VERSION}};
+    return block;
+}
+
+void describe_rest(Conversion& conversion) {
+    const Photometry& p = conversion.photometry;
+    auto& changes = conversion.report.changes;
+    const bool gamma = p.transfer.kind == Transfer::Kind::Gamma;
+    changes.push_back("textures: " + std::to_string(conversion.document.list("images").size()) + " pictures kept as they are, read as reflectance by " +
+                      (gamma ? "code^" + decimal(p.transfer.gamma) : "the sRGB curve"));
+    if (p.ambient) changes.push_back("ambient: " + decimal(p.ambient->value) + " lx");
+    if (p.sky) changes.push_back("sky: " + decimal(p.sky->value) + " cd/m^2");
+    for (const std::string& note : conversion.original.notes.lines()) conversion.report.warnings.push_back(note);
+}
+
+void check_paths(const std::filesystem::path& input, const std::filesystem::path& photometry, const std::filesystem::path& output) {
+    const std::string extension = output.extension().string();
+    if (extension != ".gltf" && extension != ".glb")
+        throw Error(one_line(output.string()) + ": the output must be named .gltf or .glb");
+    std::error_code ignored;
+    for (const auto& source : {input, photometry})
+        if (std::filesystem::equivalent(source, output, ignored))
+            throw Error(one_line(output.string()) + ": the output would replace an input");
+}
+
+}  // namespace
+
+nlohmann::json& object_member(const GltfDocument& document, nlohmann::json& holder, const std::string& key) {
+    json& member = holder[key];
+    if (member.is_null()) member = json::object();
+    if (!member.is_object()) throw Error(document.name() + ": \"" + key + "\" must be an object");
+    return member;
+}
+
+void use_extension(nlohmann::json& root, const std::string& name) {
+    json& used = root["extensionsUsed"];
+    if (std::find(used.begin(), used.end(), json(name)) == used.end()) used.push_back(name);
+}
+
+std::string decimal(double value) {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.4g", value);
+    return digits;
+}
+
+std::string in_quotes(const std::string& name) { return "'" + one_line(name) + "'"; }
+
+namespace {
+
+ConversionReport convert_checked(const std::filesystem::path& input, const std::filesystem::path& photometry,
+                         const std::filesystem::path& output, const std::optional<Transfer>& transfer,
+                                 const SceneLimits& limits) {
+    check_paths(input, photometry, output);
+    Photometry rules = read_photometry(photometry);
+    if (transfer) rules.transfer = *transfer;
+
+    GltfDocument document(input, limits);
+    if (const auto extras = document.root().find("extras")) {
+        if (!extras->json().is_object()) extras->fail("must be an object to take the vesper block");
+        if (const auto block = extras->find("vesper")) block->fail("the file has been converted already: convert the original");
+    }
+    GltfReader original{.document = document, .limits = limits};
+    read_all(original);
+
+    ConversionReport report;
+    Conversion conversion{document, original, rules, report};
+    convert_lamps(conversion);
+    convert_materials(conversion);
+    describe_rest(conversion);
+    json& root = document.edit();
+    object_member(document, root, "extras")["vesper"] = block_of(conversion, input, photometry);
+    replace_file(output, encode_gltf(document, output.extension() == ".glb"));
+    return report;
+}
+
+}  // namespace
+
+ConversionReport convert(const std::filesystem::path& input, const std::filesystem::path& photometry,
+                         const std::filesystem::path& output, const std::optional<Transfer>& transfer,
+                         const SceneLimits& limits) {
+    try {
+        return convert_checked(input, photometry, output, transfer, limits);
+    } catch (const json::exception& error) {  // parts of the file that reading it did not look at
+        throw Error(one_line(input.string() + ": " + error.what()));
+    } catch (const std::bad_alloc&) {
+        throw Error(one_line(input.string()) + ": not enough memory");
+    }
+}
+
+}  // namespace vesper

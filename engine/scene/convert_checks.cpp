@@ -1,0 +1,139 @@
+// What a conversion warns of: values that cannot be right, and lights that may have been forgotten.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "scene/convert_rules.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kHighestReflectance = 0.9;             // fresh snow; plaster has 0.8
+constexpr double kFaintestLamp = 0.1, kBrightestLamp = 1e6;  // cd: a glow-worm, an aircraft's landing light
+
+/// Mean reflectance of a material, its texture through a transfer.
+double mean_reflectance(const Scene& scene, const Material& material, const Transfer& transfer) {
+    const glm::dvec3 factor(material.base_colour);
+    if (material.base_colour_texture.image == kNone) return luminance(factor);
+    std::array<double, 256> linear{};
+    for (size_t code = 0; code < 256; ++code) {
+        const double c = static_cast<double>(code) / 255;
+        const double srgb = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        linear[code] = transfer.kind == Transfer::Kind::Gamma ? std::pow(c, static_cast<double>(transfer.gamma)) : srgb;
+    }
+    const Image& image = scene.images[material.base_colour_texture.image];
+    // A histogram per channel first: sums over codes are exact and quick.
+    std::array<std::array<uint64_t, 256>, 3> counts{};
+    for (size_t i = 0; i < image.rgba.size(); i += 4)
+        for (size_t c = 0; c < 3; ++c) ++counts[c][image.rgba[i + c]];
+    glm::dvec3 mean(0);
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t code = 0; code < 256; ++code) mean[static_cast<int>(c)] += linear[code] * static_cast<double>(counts[c][code]);
+    mean *= 4.0 / static_cast<double>(image.rgba.size());
+    return luminance(factor * mean);
+}
+
+void check_reflectances(Conversion& conversion) {
+    const Scene& scene = conversion.original.scene;
+    for (const Material& material : scene.materials) {
+        if (material.metallic > 0.5f) continue;  // no diffuse reflectance
+        const double mean = mean_reflectance(scene, material, conversion.photometry.transfer);
+        if (mean > kHighestReflectance)
+            conversion.report.warnings.push_back("material " + in_quotes(material.name) + ": a mean reflectance of " + decimal(mean) +
+                                                 " is more than real surfaces have");
+    }
+}
+
+void check_lamps(Conversion& conversion) {
+    for (const LampRule& rule : conversion.photometry.lamps)
+        if (rule.light.intensity < kFaintestLamp || rule.light.intensity > kBrightestLamp)
+            conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": " + decimal(rule.light.intensity) +
+                                                 " cd is beyond the lamps of a street (0.1 to 1e6 cd)");
+}
+
+void check_size(Conversion& conversion) {
+    const Scene& scene = conversion.original.scene;
+    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    Bounds bounds;
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].mesh == kNone) continue;
+        for (const Primitive& primitive : scene.meshes[scene.nodes[i].mesh].primitives)
+            for (int corner = 0; corner < 8; ++corner) {
+                const Bounds& b = primitive.bounds;
+                const glm::vec4 point(corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y, corner & 4 ? b.high.z : b.low.z, 1);
+                bounds.add(glm::vec3(world[i] * point));
+            }
+    }
+    if (bounds.empty()) return;
+    const glm::vec3 size = bounds.high - bounds.low;
+    const double longest = std::max({size.x, size.y, size.z});
+    if (longest < 1 || longest > 1e5)
+        conversion.report.warnings.push_back("the scene is " + decimal(longest) + " m long: are its lengths in metres? Illuminance falls with their square");
+}
+
+/// Scene nodes that show a material some emitter rule matches.
+std::set<uint32_t> glowing_nodes(const Conversion& conversion) {
+    const Scene& scene = conversion.original.scene;
+    const auto emits = [&](const Primitive& primitive) {
+        const std::string& name = scene.materials[primitive.material].name;
+        for (const EmitterRule& rule : conversion.photometry.emitters)
+            for (const std::string& pattern : rule.materials)
+                if (matches_name(pattern, name)) return true;
+        return false;
+    };
+    std::vector<bool> glowing;
+    for (const Mesh& mesh : scene.meshes) glowing.push_back(std::any_of(mesh.primitives.begin(), mesh.primitives.end(), emits));
+    std::set<uint32_t> nodes;
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].mesh != kNone && glowing[scene.nodes[i].mesh]) nodes.insert(i);
+    return nodes;
+}
+
+/// Nodes that sound like lights, with no lamp on them, above them or below them.
+void check_forgotten(Conversion& conversion, const std::set<size_t>& lamp_nodes) {
+    const auto nodes = conversion.document.list("nodes");
+    std::vector<uint32_t> parents(nodes.size(), kNone);
+    for (uint32_t i = 0; i < nodes.size(); ++i)
+        for (const JsonValue& child : nodes[i].elements_of("children")) parents[child.index(nodes.size(), "nodes")] = i;
+    std::vector<bool> lit(nodes.size()), below(nodes.size());
+    for (const size_t lamp : lamp_nodes) {
+        below[lamp] = true;
+        for (auto i = static_cast<uint32_t>(lamp); i != kNone && !lit[i]; i = parents[i]) lit[i] = true;
+    }
+    const std::set<uint32_t> glowing = glowing_nodes(conversion);
+    std::vector<std::string> forgotten;
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        const std::string name = nodes[i].text_or("name", "");
+        if (lit[i] || !sounds_like_light(name) || glowing.contains(conversion.original.node_of[i])) continue;
+        bool under_a_lamp = false;
+        uint32_t up = i;
+        for (int level = 0; level < 100 && up != kNone && !under_a_lamp; ++level, up = parents[up]) under_a_lamp = below[up];
+        if (!under_a_lamp) forgotten.push_back(name);
+    }
+    if (forgotten.empty()) return;
+    std::string names;
+    for (size_t i = 0; i < std::min<size_t>(3, forgotten.size()); ++i) names += (i ? ", " : "") + in_quotes(forgotten[i]);
+    conversion.report.warnings.push_back(std::to_string(forgotten.size()) + (forgotten.size() == 1 ? " node sounds" : " nodes sound") +
+                                         " like a light, but no lamp rule matches: " + names + (forgotten.size() > 3 ? ", ..." : ""));
+}
+
+}  // namespace
+
+bool sounds_like_light(const std::string& name) {
+    std::string lower;
+    for (const char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const char* word : {"lamp", "light", "lantern", "headl", "taill", "glow", "neon", "bulb", "emissi", "emitter"})
+        if (lower.find(word) != std::string::npos) return true;
+    return false;
+}
+
+void check_plausibility(Conversion& conversion, const std::set<size_t>& lamp_nodes) {
+    check_size(conversion);
+    check_reflectances(conversion);
+    check_lamps(conversion);
+    check_forgotten(conversion, lamp_nodes);
+}
+
+}  // namespace vesper

@@ -1,0 +1,179 @@
+// Lamps on nodes: photometry rules to KHR_lights_punctual. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <numbers>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "scene/convert_rules.h"
+
+namespace vesper {
+namespace {
+
+using nlohmann::json;
+constexpr const char* kLights = "KHR_lights_punctual";
+
+std::string number_of(size_t count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
+
+void remove_extension(json& holder) {
+    const auto extensions = holder.find("extensions");
+    if (extensions == holder.end()) return;
+    if (extensions->is_object()) extensions->erase(kLights);
+    if (extensions->empty()) holder.erase("extensions");
+}
+
+void remove_from_list(json& root, const char* list) {
+    const auto names = root.find(list);
+    if (names == root.end()) return;
+    names->erase(std::remove(names->begin(), names->end(), json(kLights)), names->end());
+    if (names->empty()) root.erase(list);
+}
+
+void remove_lights(Conversion& conversion) {
+    const std::vector<Light>& lights = conversion.original.scene.lights;
+    json& root = conversion.document.edit();
+    remove_extension(root);
+    if (root.contains("nodes"))
+        for (json& node : root["nodes"]) remove_extension(node);
+    remove_from_list(root, "extensionsUsed");
+    remove_from_list(root, "extensionsRequired");
+    if (lights.empty()) return;
+    const auto suns = static_cast<size_t>(
+        std::count_if(lights.begin(), lights.end(), [](const Light& l) { return l.kind == Light::Kind::Directional; }));
+    conversion.report.changes.push_back("lights: removed " + number_of(lights.size(), "light") + " of the original");
+    if (suns > 0)
+        conversion.report.warnings.push_back("lights: " + number_of(suns, "directional light") + " of the original (sun or sky) removed");
+}
+
+/// Names of a node and of as many ancestors as patterns can ask for.
+std::vector<std::string> path_of(std::span<const JsonValue> nodes, const std::vector<uint32_t>& parents, uint32_t node, size_t depth) {
+    std::vector<std::string> path;
+    for (; node != kNone && path.size() < depth; node = parents[node]) path.push_back(nodes[node].text_or("name", ""));
+    return path;
+}
+
+json light_of(const LampRule& rule) {
+    const Light& light = rule.light;
+    // The format wants components of at most 1; the intensity makes up for it, so that intensity * Y(color) is in cd.
+    const glm::dvec3 colour(light.colour);
+    const double brightest = std::max({colour.r, colour.g, colour.b});
+    json made = {{"name", rule.name},
+                 {"type", light.kind == Light::Kind::Point ? "point" : "spot"},
+                 {"intensity", light.intensity * brightest},
+                 {"color", {colour.r / brightest, colour.g / brightest, colour.b / brightest}}};
+    if (light.kind != Light::Kind::Point)
+        made["spot"] = {{"innerConeAngle", light.inner_cone}, {"outerConeAngle", light.outer_cone}};
+    return made;
+}
+
+/// The shortest turn from -Z to an axis.
+glm::dquat turn_to(glm::dvec3 axis) {
+    const glm::dvec3 from(0, 0, -1);
+    const double cosine = glm::dot(from, axis);
+    if (cosine < -1 + 1e-12) return {0, 0, 1, 0};  // half a turn about Y
+    const glm::dvec3 normal = glm::cross(from, axis);
+    return glm::normalize(glm::dquat(1 + cosine, normal.x, normal.y, normal.z));
+}
+
+/// How long the node's axes are in the world: offsets are given in metres, whatever scale lies above.
+glm::dvec3 axis_lengths(const Conversion& conversion, const std::vector<glm::mat4>& world, uint32_t node) {
+    const uint32_t placed = conversion.original.node_of[node];
+    if (placed == kNone) return glm::dvec3(1);
+    const glm::mat4& m = world[placed];
+    glm::dvec3 lengths;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = glm::length(glm::dvec3(m[axis][0], m[axis][1], m[axis][2]));
+        lengths[axis] = length > 0 ? length : 1;
+    }
+    return lengths;
+}
+
+void add_lamp(Conversion& conversion, const LampRule& rule, size_t light, uint32_t node, glm::dvec3 scale) {
+    json& root = conversion.document.edit();
+    const json reference = {{"light", light}};
+    const bool plain = !rule.aim && rule.offset == glm::dvec3(0);
+    json& extensions = object_member(conversion.document, root["nodes"][node], "extensions");
+    if (plain && !extensions.contains(kLights)) {
+        extensions[kLights] = reference;
+        return;
+    }
+    if (extensions.empty()) root["nodes"][node].erase("extensions");
+    json child = {{"name", rule.name}, {"extensions", {{kLights, reference}}}};
+    const glm::dvec3 offset = rule.offset / scale;
+    if (offset != glm::dvec3(0)) child["translation"] = {offset.x, offset.y, offset.z};
+    if (rule.aim) {
+        const glm::dquat turn = turn_to(*rule.aim);
+        child["rotation"] = {turn.x, turn.y, turn.z, turn.w};
+    }
+    root["nodes"][node]["children"].push_back(root["nodes"].size());
+    root["nodes"].push_back(std::move(child));
+}
+
+std::string describe(const LampRule& rule, size_t nodes) {
+    const Light& light = rule.light;
+    const double degrees = 180 / std::numbers::pi;
+    std::string lobe = "point";
+    if (light.kind == Light::Kind::Spot) lobe = "spot " + decimal(light.inner_cone * degrees) + "-" + decimal(light.outer_cone * degrees) + " deg";
+    if (light.kind == Light::Kind::CosinePower) lobe = "cosine power " + decimal(light.exponent);
+    return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + lobe + ", " + decimal(light.intensity) + " cd, " +
+           (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") + decimal(luminous_flux(light)) + " lm each";
+}
+
+void warn_of_instances(Conversion& conversion, const JsonValue& node, const LampRule& rule) {
+    const auto extensions = node.find("extensions");
+    if (extensions && extensions->find("EXT_mesh_gpu_instancing"))
+        conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": node " + in_quotes(node.text_or("name", "")) +
+                                             " is instanced; the lamp is placed once, at the node");
+}
+
+}  // namespace
+
+void convert_lamps(Conversion& conversion) {
+    if (!conversion.photometry.keep_lights) remove_lights(conversion);
+    size_t depth = 1;
+    for (const LampRule& rule : conversion.photometry.lamps)
+        for (const std::string& pattern : rule.nodes)
+            depth = std::max(depth, static_cast<size_t>(std::count(pattern.begin(), pattern.end(), '/')) + 1);
+
+    const size_t count = conversion.original.node_of.size();
+    const std::vector<glm::mat4> world = world_transforms(conversion.original.scene, 0);
+    std::vector<std::vector<uint32_t>> matched(conversion.photometry.lamps.size());
+    std::set<size_t> lamp_nodes;
+    {
+        const auto nodes = conversion.document.list("nodes");
+        std::vector<uint32_t> parents(count, kNone);
+        for (uint32_t i = 0; i < count; ++i)
+            for (const JsonValue& child : nodes[i].elements_of("children")) parents[child.index(count, "nodes")] = i;
+        for (uint32_t i = 0; i < count; ++i) {
+            const auto path = path_of(nodes, parents, i, depth);
+            for (size_t r = 0; r < matched.size(); ++r) {
+                const LampRule& rule = conversion.photometry.lamps[r];
+                if (std::none_of(rule.nodes.begin(), rule.nodes.end(), [&](const auto& p) { return matches_path(p, path); })) continue;
+                matched[r].push_back(i);
+                warn_of_instances(conversion, nodes[i], rule);
+            }
+        }
+        for (const auto& rule : matched) lamp_nodes.insert(rule.begin(), rule.end());
+        check_plausibility(conversion, lamp_nodes);
+    }
+
+    for (size_t r = 0; r < matched.size(); ++r) {
+        const LampRule& rule = conversion.photometry.lamps[r];
+        if (matched[r].empty()) {
+            conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": no node matches " + in_quotes(rule.nodes.front()) +
+                                                 (rule.nodes.size() > 1 ? " or its other patterns" : ""));
+            continue;
+        }
+        json& root = conversion.document.edit();
+        json& extension = object_member(conversion.document, object_member(conversion.document, root, "extensions"), kLights);
+        if (!extension.contains("lights")) extension["lights"] = json::array();
+        const size_t light = extension["lights"].size();
+        extension["lights"].push_back(light_of(rule));
+        use_extension(root, kLights);
+        if (rule.light.kind == Light::Kind::CosinePower)
+            conversion.lobes.push_back({{"light", light}, {"type", "cosine_power"}, {"exponent", rule.light.exponent}});
+        for (const uint32_t node : matched[r]) add_lamp(conversion, rule, light, node, axis_lengths(conversion, world, node));
+        conversion.report.changes.push_back(describe(rule, matched[r].size()));
+    }
+}
+
+}  // namespace vesper

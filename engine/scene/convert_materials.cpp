@@ -1,0 +1,166 @@
+// Materials that emit, and what rules say of their surfaces. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scene/convert_rules.h"
+
+namespace vesper {
+namespace {
+
+using nlohmann::json;
+constexpr const char* kStrength = "KHR_materials_emissive_strength";
+constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+/// For each rule the materials it applies to: a material belongs to the first rule that matches it.
+template <class Rule>
+std::vector<std::vector<uint32_t>> assign(Conversion& conversion, const std::vector<Rule>& rules, const char* what) {
+    const auto materials = conversion.document.list("materials");
+    std::vector<std::vector<uint32_t>> taken(rules.size());
+    std::vector<bool> matched(rules.size());
+    for (uint32_t m = 0; m < materials.size(); ++m) {
+        const std::string name = materials[m].text_or("name", "");
+        bool free = true;
+        for (size_t r = 0; r < rules.size(); ++r) {
+            const auto& patterns = rules[r].materials;
+            if (std::none_of(patterns.begin(), patterns.end(), [&](const auto& p) { return matches_name(p, name); })) continue;
+            matched[r] = true;
+            if (free) taken[r].push_back(m);
+            free = false;
+        }
+    }
+    for (size_t r = 0; r < rules.size(); ++r) {
+        const std::string rule = std::string(what) + " " + in_quotes(rules[r].name);
+        if (!matched[r])
+            conversion.report.warnings.push_back(rule + ": no material matches " + in_quotes(rules[r].materials.front()) +
+                                                 (rules[r].materials.size() > 1 ? " or its other patterns" : ""));
+        else if (taken[r].empty())
+            conversion.report.warnings.push_back(rule + ": matches only materials that earlier rules have taken");
+    }
+    return taken;
+}
+
+/// Largest luminance of an sRGB-coded picture under a light of this colour.
+double brightest_texel(const Image& image, glm::dvec3 colour) {
+    std::array<double, 256> linear{};
+    for (size_t code = 0; code < 256; ++code) {
+        const double c = static_cast<double>(code) / 255;
+        linear[code] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    }
+    double brightest = 0;
+    for (size_t i = 0; i < image.rgba.size(); i += 4)
+        brightest = std::max(brightest, luminance(colour * glm::dvec3(linear[image.rgba[i]], linear[image.rgba[i + 1]], linear[image.rgba[i + 2]])));
+    return brightest;
+}
+
+/// The texture a modulated emitter shines through, as its JSON and picture: its own, or the base colour's.
+std::pair<json, const Image*> emission_texture(const Conversion& conversion, const json& source, const Material& material) {
+    const std::vector<Image>& images = conversion.original.scene.images;
+    if (material.emission_texture.image != kNone) return {source["emissiveTexture"], &images[material.emission_texture.image]};
+    if (material.base_colour_texture.image == kNone) return {json(), nullptr};
+    const Image* image = &images[material.base_colour_texture.image];
+    if (source.contains("extensions") && source["extensions"].contains(kSpecularGlossiness))
+        return {source["extensions"][kSpecularGlossiness]["diffuseTexture"], image};
+    return {source["pbrMetallicRoughness"]["baseColorTexture"], image};
+}
+
+void make_emit(Conversion& conversion, const EmitterRule& rule, uint32_t index) {
+    json& root = conversion.document.edit();
+    json& material = root["materials"][index];
+    const Material& original = conversion.original.scene.materials[index];
+    double scale = rule.luminance;
+    json texture;
+    if (rule.modulate) {
+        const auto [info, image] = emission_texture(conversion, material, original);
+        const double brightest = image ? brightest_texel(*image, rule.colour) : 0;
+        if (brightest > 0) {
+            texture = info;
+            scale = rule.luminance / brightest;
+        } else {
+            conversion.report.warnings.push_back("emitter " + in_quotes(rule.name) + ": material " + in_quotes(original.name) + " has " +
+                                                 (image ? "a black texture" : "no texture") + " to modulate with: it emits evenly");
+        }
+    }
+    material.erase("emissiveTexture");
+    if (!texture.is_null()) material["emissiveTexture"] = texture;
+    // The format wants factors of at most 1; the strength carries the unit.
+    const double largest = std::max({rule.colour.r, rule.colour.g, rule.colour.b});
+    const glm::dvec3 factor = rule.colour / largest;
+    material["emissiveFactor"] = {factor.r, factor.g, factor.b};
+    json& extensions = object_member(conversion.document, material, "extensions");
+    extensions[kStrength] = {{"emissiveStrength", scale * largest}};
+    use_extension(root, kStrength);
+}
+
+void scale_reflectance(Conversion& conversion, const SurfaceRule& rule, json& material, const Material& original) {
+    if (rule.reflectance_scale == 1) return;
+    const bool other_model = material.contains("extensions") && material["extensions"].contains(kSpecularGlossiness);
+    json& model = other_model ? material["extensions"][kSpecularGlossiness]
+                              : object_member(conversion.document, material, "pbrMetallicRoughness");
+    glm::dvec4 factor(original.base_colour);
+    bool limited = false;
+    for (int c = 0; c < 3; ++c) {
+        factor[c] *= rule.reflectance_scale;
+        limited = limited || factor[c] > 1;
+        factor[c] = std::min(factor[c], 1.0);
+    }
+    model[other_model ? "diffuseFactor" : "baseColorFactor"] = {factor.r, factor.g, factor.b, factor.a};
+    if (limited)
+        conversion.report.warnings.push_back("surface " + in_quotes(rule.name) + ": material " + in_quotes(original.name) +
+                                             ": its factor cannot be more than 1 and is limited to that");
+}
+
+void set_roughness(Conversion& conversion, const SurfaceRule& rule, json& material, const Material& original) {
+    if (!rule.roughness && !rule.metallic) return;
+    json& model = object_member(conversion.document, material, "pbrMetallicRoughness");
+    if (rule.roughness) model["roughnessFactor"] = *rule.roughness;
+    if (rule.metallic) model["metallicFactor"] = *rule.metallic;
+    if (rule.roughness && rule.metallic) model.erase("metallicRoughnessTexture");
+    else if (model.contains("metallicRoughnessTexture"))
+        conversion.report.warnings.push_back("surface " + in_quotes(rule.name) + ": material " + in_quotes(original.name) +
+                                             " has a texture for it: what is stated multiplies that texture");
+    if (material.contains("extensions") && material["extensions"].contains(kSpecularGlossiness) && rule.roughness)
+        material["extensions"][kSpecularGlossiness]["glossinessFactor"] = 1 - *rule.roughness;
+}
+
+std::string count_of(size_t materials) { return std::to_string(materials) + (materials == 1 ? " material" : " materials"); }
+
+}  // namespace
+
+void convert_materials(Conversion& conversion) {
+    const Photometry& photometry = conversion.photometry;
+    const auto emitting = assign(conversion, photometry.emitters, "emitter");
+    const auto surfaces = assign(conversion, photometry.surfaces, "surface");
+    std::set<uint32_t> emitters;
+    for (const auto& materials : emitting) emitters.insert(materials.begin(), materials.end());
+    for (uint32_t m = 0; m < conversion.document.list("materials").size(); ++m) {
+        if (emitters.contains(m)) continue;
+        const Material& material = conversion.original.scene.materials[m];
+        if (material.emission != glm::vec3(0))
+            conversion.report.warnings.push_back("material " + in_quotes(material.name) + " emits " + decimal(luminance(material.emission)) +
+                                                 " cd/m^2 in the original and no emitter rule matches it: kept");
+        else if (sounds_like_light(material.name))
+            conversion.report.warnings.push_back("material " + in_quotes(material.name) + " sounds like a light, but no emitter rule matches it");
+    }
+    for (size_t r = 0; r < emitting.size(); ++r) {
+        const EmitterRule& rule = photometry.emitters[r];
+        for (const uint32_t material : emitting[r]) make_emit(conversion, rule, material);
+        if (!emitting[r].empty())
+            conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " + count_of(emitting[r].size()) + ", " +
+                                                decimal(rule.luminance) + " cd/m^2" + (rule.modulate ? " at most" : ""));
+    }
+    for (size_t r = 0; r < surfaces.size(); ++r) {
+        const SurfaceRule& rule = photometry.surfaces[r];
+        for (const uint32_t m : surfaces[r]) {
+            json& material = conversion.document.edit()["materials"][m];
+            scale_reflectance(conversion, rule, material, conversion.original.scene.materials[m]);
+            set_roughness(conversion, rule, material, conversion.original.scene.materials[m]);
+        }
+        if (!surfaces[r].empty())
+            conversion.report.changes.push_back("surface " + in_quotes(rule.name) + ": " + count_of(surfaces[r].size()) + ", reflectance times " +
+                                                decimal(rule.reflectance_scale) + (rule.roughness ? ", roughness " + decimal(*rule.roughness) : "") +
+                                                (rule.metallic ? ", metallic " + decimal(*rule.metallic) : ""));
+    }
+}
+
+}  // namespace vesper

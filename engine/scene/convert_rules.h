@@ -1,0 +1,39 @@
+// The steps of a conversion. Not a public header. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <set>
+
+#include "scene/convert.h"
+#include "scene/gltf_reader.h"
+#include "scene/photometry.h"
+
+namespace vesper {
+
+/// A conversion under way.
+struct Conversion {
+    GltfDocument& document;
+    const GltfReader& original;  ///< the scene as it was read, unconverted
+    const Photometry& photometry;
+    ConversionReport& report;
+    nlohmann::json lobes = nlohmann::json::array();  ///< of the extras block
+};
+
+/// The object member of that name, made when missing. Throws Error when it is something else.
+nlohmann::json& object_member(const GltfDocument& document, nlohmann::json& holder, const std::string& key);
+/// Puts an extension on the list of those used.
+void use_extension(nlohmann::json& root, const std::string& name);
+/// "%.4g"
+std::string decimal(double value);
+std::string in_quotes(const std::string& name);
+
+/// Removes the lights there are, puts lamps on nodes.
+void convert_lamps(Conversion& conversion);
+/// Emission and reflectance of materials.
+void convert_materials(Conversion& conversion);
+/// Warns of what cannot be right: sizes, reflectances, lamps, things that look like lights and were not matched.
+void check_plausibility(Conversion& conversion, const std::set<size_t>& lamp_nodes);
+
+/// Whether a name sounds like a source of light.
+bool sounds_like_light(const std::string& name);
+
+}  // namespace vesper

@@ -1,0 +1,34 @@
+// Reading scenes from glTF 2.0 files (.gltf, .glb). SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vesper {
+
+/// Upper bounds on what a file may ask for. A file that states more is refused before anything is allocated for it.
+struct SceneLimits {
+    uint64_t file_bytes = 1ull << 30;       ///< of the glTF file and of every file it names, each
+    uint64_t vertices = 50'000'000;         ///< of all meshes together
+    uint64_t indices = 150'000'000;
+    uint64_t texels = 512ull << 20;         ///< of all images together
+    uint32_t image_side = 16384;            ///< px
+    uint32_t nodes = 1'000'000;
+    uint32_t lights = 100'000;
+};
+
+struct LoadedScene {
+    Scene scene;
+    std::vector<std::string> notes;  ///< what was left out or read with a change, one line each
+};
+
+/// Reads a scene: meshes, materials, node tree, cameras, KHR_lights_punctual (cd), KHR_materials_emissive_strength
+/// (cd/m^2), animations of nodes, and the vesper extras block (docs/photometry.md) where there is one.
+/// Throws Error naming the file, the place in it (JSON pointer or byte) and the reason.
+LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limits = {});
+
+}  // namespace vesper

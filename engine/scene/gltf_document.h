@@ -1,0 +1,59 @@
+// A glTF file as it stands on disk: its JSON, and the bytes that JSON names. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scene/gltf.h"
+#include "scene/json_value.h"
+
+namespace vesper {
+
+/// JSON and binary parts of a .gltf or .glb file. Format, version, required extensions and every range it hands out
+/// are checked; everything else is for the reader.
+class GltfDocument {
+public:
+    /// Throws Error.
+    GltfDocument(const std::filesystem::path& file, const SceneLimits& limits);
+    GltfDocument(const GltfDocument&) = delete;
+    GltfDocument& operator=(const GltfDocument&) = delete;
+
+    JsonValue root() const { return JsonValue(json_); }
+    const std::string& name() const { return json_.name; }
+
+    /// An array of the root object: "nodes", "meshes", ...; empty where missing.
+    std::span<const JsonValue> list(const char* key);
+    /// The element an index names. `reference` is the value that holds the index.
+    JsonValue element(const char* key, const JsonValue& reference);
+
+    /// Whether a buffer has bytes at all: one without uri is a placeholder that some extension was to fill.
+    bool has_bytes(uint32_t buffer);
+    /// Bytes of buffer or buffer view `index`, valid as long as the document.
+    std::span<const uint8_t> buffer(uint32_t index);
+    std::span<const uint8_t> view(uint32_t index);
+    /// Bytes of an encoded picture, from buffer view, data URI or file.
+    std::vector<uint8_t> image(uint32_t index);
+
+    /// For the converter. Whatever was obtained above is invalid after a change.
+    nlohmann::json& edit();
+
+private:
+    void check_format();
+    std::vector<uint8_t> bytes_of_uri(const JsonValue& uri);
+
+    std::filesystem::path folder_;
+    SceneLimits limits_;
+    JsonFile json_;
+    std::vector<uint8_t> binary_chunk_;
+    bool has_binary_chunk_ = false;
+    uint64_t bytes_read_ = 0;
+    std::vector<std::pair<std::string, std::vector<JsonValue>>> lists_;
+    std::vector<std::optional<std::vector<uint8_t>>> buffers_;
+};
+
+/// Whether we read, or may ignore, a glTF extension that a file requires.
+bool is_supported_extension(std::string_view name);
+
+}  // namespace vesper

@@ -1,0 +1,103 @@
+// Lamps of a glTF file, and what our extras block says of them, the ambient light and the sky. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+
+#include "scene/colour.h"
+#include "scene/gltf_reader.h"
+
+namespace vesper {
+namespace {
+
+glm::vec3 rgb_of(const JsonValue& value) {
+    const auto c = value.numbers<3>(0);
+    return {c[0], c[1], c[2]};
+}
+
+/// KHR_lights_punctual multiplies colour by intensity; we keep a colour of luminance 1, so that intensity is what a
+/// photometer measures.
+void normalise(Light& light, double stored_intensity, glm::vec3 stored_colour, const JsonValue& source) {
+    const double y = luminance(stored_colour);
+    light.intensity = static_cast<float>(stored_intensity * y);
+    light.colour = y > 0 ? glm::vec3(glm::dvec3(stored_colour) / y) : glm::vec3(1);
+    if (!std::isfinite(light.intensity) || !std::isfinite(light.colour.r + light.colour.g + light.colour.b))
+        source.fail("intensity times colour is not finite");
+}
+
+void read_cones(Light& light, const JsonValue& source) {
+    constexpr double kRight = std::numbers::pi / 2;
+    // Blender and others write a hair more than a right angle.
+    light.outer_cone = static_cast<float>(std::min(source.number_or("outerConeAngle", kRight / 2, 0, kRight + 0.01), kRight));
+    light.inner_cone = static_cast<float>(source.number_or("innerConeAngle", 0, 0, kRight + 0.01));
+    if (light.outer_cone < 1e-3f) source.fail("outerConeAngle must be more than 0.001");
+    // The ramp between the cones must have a width.
+    light.inner_cone = std::min(light.inner_cone, light.outer_cone * 0.9999f);
+}
+
+Light read_light(GltfReader& reader, const JsonValue& source) {
+    Light light;
+    light.name = source.text_or("name", "");
+    const std::string& type = source.at("type").text();
+    if (type == "point") light.kind = Light::Kind::Point;
+    else if (type == "spot") light.kind = Light::Kind::Spot;
+    else if (type == "directional") light.kind = Light::Kind::Directional;
+    else source.at("type").fail("is none of point, spot and directional");
+    const auto colour = source.find("color");
+    normalise(light, source.number_or("intensity", 1, 0), colour ? rgb_of(*colour) : glm::vec3(1), source);
+    if (light.kind == Light::Kind::Spot)
+        if (const auto spot = source.find("spot")) read_cones(light, *spot);
+    if (source.find("range")) reader.notes.add("the range of a light is ignored: light follows the square law");
+    return light;
+}
+
+void read_lobe(GltfReader& reader, const JsonValue& lobe) {
+    lobe.allow_only({"light", "type", "exponent"});
+    Light& light = reader.scene.lights[lobe.at("light").index(reader.scene.lights.size(), "lights")];
+    if (lobe.at("type").text() != "cosine_power") lobe.at("type").fail("is no lobe this version knows: cosine_power");
+    light.kind = Light::Kind::CosinePower;
+    light.exponent = static_cast<float>(lobe.at("exponent").number(0, 1e5));
+}
+
+/// {"<quantity>": number, "colour": [r, g, b]}; the colour is brought to luminance 1.
+void read_uniform(const JsonValue& source, const char* quantity, float& value, glm::vec3& colour) {
+    source.allow_only({quantity, "colour"});
+    value = static_cast<float>(source.at(quantity).number(0));
+    const auto stated = source.find("colour");
+    if (!stated) return;
+    const glm::dvec3 rgb = rgb_of(*stated);
+    if (!(luminance(rgb) > 0)) stated->fail("must not be black");
+    colour = glm::vec3(rgb / luminance(rgb));
+}
+
+}  // namespace
+
+void read_lights(GltfReader& reader) {
+    const auto extensions = reader.document.root().find("extensions");
+    const auto punctual = extensions ? extensions->find("KHR_lights_punctual") : std::nullopt;
+    if (!punctual) return;
+    const auto lights = punctual->elements_of("lights");
+    if (lights.size() > reader.limits.lights) punctual->fail("more lights than the limit of " + std::to_string(reader.limits.lights));
+    for (const JsonValue& light : lights) reader.scene.lights.push_back(read_light(reader, light));
+}
+
+void read_photometry_block(GltfReader& reader) {
+    const auto extras = reader.document.root().find("extras");
+    const auto block = extras && extras->json().is_object() ? extras->find("vesper") : std::nullopt;
+    if (!block) return;
+    const JsonValue version = block->at("version");
+    if (version.integer() != 1) version.fail("vesper extras of version " + std::to_string(version.integer()) + ": this program reads version 1");
+    block->allow_only({"version", "transfer", "ambient", "sky", "lobes", "provenance"});
+    if (const auto transfer = block->find("transfer")) {
+        transfer->allow_only({"kind", "gamma"});
+        const std::string& kind = transfer->at("kind").text();
+        if (kind != "gamma" && kind != "srgb") transfer->at("kind").fail("is neither gamma nor srgb");
+        reader.scene.transfer.kind = kind == "gamma" ? Transfer::Kind::Gamma : Transfer::Kind::Srgb;
+        reader.scene.transfer.gamma = static_cast<float>(transfer->number_or("gamma", 2.2, 0.1, 10));
+    }
+    if (const auto ambient = block->find("ambient"))
+        read_uniform(*ambient, "illuminance_lx", reader.scene.ambient_illuminance, reader.scene.ambient_colour);
+    if (const auto sky = block->find("sky"))
+        read_uniform(*sky, "luminance_cd_m2", reader.scene.sky_luminance, reader.scene.sky_colour);
+    for (const JsonValue& lobe : block->elements_of("lobes")) read_lobe(reader, lobe);
+}
+
+}  // namespace vesper

@@ -1,0 +1,244 @@
+// glTF meshes: any accessors to triangles of one vertex format. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "scene/gltf_reader.h"
+
+namespace vesper {
+namespace {
+
+enum class Mode : uint8_t { Points, Lines, LineLoop, LineStrip, Triangles, Strip, Fan };
+
+/// Material for primitives that name none: grey, reflectance 0.5, Lambert.
+uint32_t default_material(GltfReader& reader) {
+    if (reader.default_material == kNone) {
+        Material grey;
+        grey.name = "default";
+        grey.base_colour = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
+        reader.scene.materials.push_back(grey);
+        reader.uv_mappings.emplace_back();
+        reader.default_material = static_cast<uint32_t>(reader.scene.materials.size() - 1);
+    }
+    return reader.default_material;
+}
+
+/// Corner numbers of a list, strip or fan to a list of triangles.
+std::vector<uint32_t> triangles(GltfReader& reader, const std::vector<uint32_t>& corners, Mode mode) {
+    std::vector<uint32_t> list;
+    const size_t count = corners.size();
+    const auto add = [&](size_t a, size_t b, size_t c) {
+        const uint32_t i = corners[a], j = corners[b], k = corners[c];
+        if (i != j && j != k && k != i) list.insert(list.end(), {i, j, k});  // strips are joined by empty triangles
+    };
+    if (mode == Mode::Triangles) {
+        list.reserve(count);
+        for (size_t i = 0; i + 2 < count; i += 3) add(i, i + 1, i + 2);
+        if (count % 3 != 0) reader.notes.add("a primitive whose corners are no multiple of three: the rest is left out");
+    } else if (mode == Mode::Strip) {
+        list.reserve(3 * count);
+        for (size_t i = 0; i + 2 < count; ++i) i % 2 == 0 ? add(i, i + 1, i + 2) : add(i + 1, i, i + 2);
+    } else {
+        list.reserve(3 * count);
+        for (size_t i = 1; i + 1 < count; ++i) add(i, i + 1, 0);
+    }
+    return list;
+}
+
+/// Normal of a triangle; length is twice its area.
+glm::vec3 area_normal(const std::vector<Vertex>& vertices, const uint32_t* corner) {
+    const glm::vec3 a = vertices[corner[0]].position;
+    return glm::cross(vertices[corner[1]].position - a, vertices[corner[2]].position - a);
+}
+
+glm::vec3 unit_or_up(glm::vec3 v) {
+    // In double: squares of small and of large coordinates leave the range of float.
+    const glm::dvec3 d(v);
+    const double length = glm::length(d);
+    return length > 0 && std::isfinite(length) ? glm::vec3(d / length) : glm::vec3(0, 1, 0);
+}
+
+/// Without normals glTF means flat shading: every triangle gets corners of its own.
+void make_flat(Primitive& primitive) {
+    std::vector<Vertex> corners(primitive.indices.size());
+    for (size_t i = 0; i < primitive.indices.size(); i += 3) {
+        const glm::vec3 normal = unit_or_up(area_normal(primitive.vertices, &primitive.indices[i]));
+        for (size_t c = i; c < i + 3; ++c) {
+            corners[c] = primitive.vertices[primitive.indices[c]];
+            corners[c].normal = normal;
+            primitive.indices[c] = static_cast<uint32_t>(c);
+        }
+    }
+    primitive.vertices = std::move(corners);
+}
+
+/// Normals from the file; those of no direction are made from the triangles around.
+void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normals) {
+    std::vector<char> missing(primitive.vertices.size(), 0);
+    bool any = false;
+    for (size_t i = 0; i < primitive.vertices.size(); ++i) {
+        const auto n = normals[i];
+        const glm::dvec3 normal(n[0], n[1], n[2]);
+        const double length = glm::length(normal);
+        const bool usable = length > 1e-6 && std::isfinite(length);
+        primitive.vertices[i].normal = usable ? glm::vec3(normal / length) : glm::vec3(0);
+        missing[i] = !usable;
+        any = any || !usable;
+    }
+    if (!any) return;
+    reader.notes.add("a primitive with normals of no direction: those are made from its triangles");
+    for (size_t i = 0; i < primitive.indices.size(); i += 3) {
+        const glm::vec3 normal = area_normal(primitive.vertices, &primitive.indices[i]);
+        for (size_t c = i; c < i + 3; ++c)
+            if (missing[primitive.indices[c]]) primitive.vertices[primitive.indices[c]].normal += normal;
+    }
+    for (size_t i = 0; i < primitive.vertices.size(); ++i)
+        if (missing[i]) primitive.vertices[i].normal = unit_or_up(primitive.vertices[i].normal);
+}
+
+void take_uv(GltfReader& reader, Primitive& primitive, const Floats& coordinates) {
+    const UvMapping& mapping = reader.uv_mappings[primitive.material];
+    bool all_finite = true;
+    for (size_t i = 0; i < primitive.vertices.size(); ++i) {
+        const glm::vec2 uv = mapping.apply({coordinates[i][0], coordinates[i][1]});
+        const bool finite = std::isfinite(uv.x) && std::isfinite(uv.y);
+        if (finite) primitive.vertices[i].uv = uv;
+        all_finite = all_finite && finite;
+    }
+    if (!all_finite) reader.notes.add("a primitive with texture coordinates that are not finite: those are read as 0");
+}
+
+void take_colours(GltfReader& reader, Primitive& primitive, const Floats& colours) {
+    bool all_inside = true;
+    for (size_t i = 0; i < primitive.vertices.size(); ++i) {
+        for (uint32_t c = 0; c < colours.components; ++c) {
+            const float value = colours[i][c];
+            all_inside = all_inside && value >= 0 && value <= 1;
+            const float limited = std::isnan(value) ? 0.0f : std::clamp(value, 0.0f, 1.0f);
+            primitive.vertices[i].colour[c] = static_cast<uint8_t>(std::lround(limited * 255));
+        }
+    }
+    if (!all_inside) reader.notes.add("a primitive with vertex colours outside [0, 1]: those are limited to it");
+}
+
+/// Exporters let many primitives share one large set of vertices: each keeps those it uses.
+void drop_unused(Primitive& primitive) {
+    std::vector<uint32_t> place(primitive.vertices.size(), kNone);
+    std::vector<Vertex> used;
+    for (uint32_t& index : primitive.indices) {
+        if (place[index] == kNone) {
+            place[index] = static_cast<uint32_t>(used.size());
+            used.push_back(primitive.vertices[index]);
+        }
+        index = place[index];
+    }
+    primitive.vertices = std::move(used);
+}
+
+/// An attribute beside POSITION; it must have as many elements.
+std::optional<Floats> read_attribute(GltfReader& reader, const JsonValue& attributes, const std::string& name, size_t count,
+                                     std::initializer_list<std::string_view> types) {
+    const auto reference = attributes.find(name.c_str());
+    if (!reference) return std::nullopt;
+    Floats floats = read_floats(reader.document, *reference, types, reader.limits.vertices);
+    if (floats.count != count)
+        reference->fail(name + " has " + std::to_string(floats.count) + " elements, POSITION " + std::to_string(count));
+    return floats;
+}
+
+/// Where the data is compressed, accessors may be empty shells: to be told from those that mean zeros.
+void refuse_compressed(GltfReader& reader, const JsonValue& primitive, const JsonValue& position) {
+    const auto extensions = primitive.find("extensions");
+    if (extensions && extensions->find("KHR_draco_mesh_compression") &&
+        !reader.document.element("accessors", position).find("bufferView"))
+        primitive.fail("is compressed with KHR_draco_mesh_compression, which is not supported");
+}
+
+std::vector<Vertex> read_positions(GltfReader& reader, const JsonValue& reference) {
+    const Floats positions = read_floats(reader.document, reference, {"VEC3"}, reader.limits.vertices);
+    // The same accessor may be named by any number of primitives.
+    reader.decoded += positions.count;
+    if (reader.decoded / 8 > reader.limits.vertices) reference.fail("the primitives together read their vertices too often");
+    std::vector<Vertex> vertices(positions.count);
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        const auto p = positions[i];
+        if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+            reader.document.element("accessors", reference).fail("position " + std::to_string(i) + " is not finite");
+        vertices[i].position = {p[0], p[1], p[2]};
+    }
+    return vertices;
+}
+
+std::vector<uint32_t> read_corners(GltfReader& reader, const JsonValue& primitive, size_t vertices) {
+    const uint64_t left = reader.limits.indices - reader.indices;
+    if (const auto reference = primitive.find("indices")) return read_indices(reader.document, *reference, left, vertices);
+    if (vertices > left) primitive.fail("takes the meshes over the limit of indices");
+    std::vector<uint32_t> corners(vertices);
+    for (uint32_t i = 0; i < corners.size(); ++i) corners[i] = i;
+    return corners;
+}
+
+void spend(const JsonValue& primitive, uint64_t& used, uint64_t more, uint64_t limit, const char* what) {
+    if (more > limit - used) primitive.fail("takes the meshes over the limit of " + std::to_string(limit) + " " + what);
+    used += more;
+}
+
+/// Nothing for what is not made of triangles.
+std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& source) {
+    const auto mode = static_cast<Mode>(source.integer_or("mode", 4, 6));
+    const JsonValue attributes = source.at("attributes");
+    const auto position = attributes.find("POSITION");
+    if (mode < Mode::Triangles || !position) {
+        reader.notes.add(position ? "a primitive of points or lines is left out" : "a primitive without positions is left out");
+        return std::nullopt;
+    }
+    refuse_compressed(reader, source, *position);
+    Primitive made;
+    if (const auto material = source.find("material"))
+        made.material = material->index(reader.document.list("materials").size(), "materials");
+    else made.material = default_material(reader);
+    made.vertices = read_positions(reader, *position);
+    const size_t count = made.vertices.size();
+    made.indices = triangles(reader, read_corners(reader, source, count), mode);
+    spend(source, reader.indices, made.indices.size(), reader.limits.indices, "indices");
+
+    const std::string uv_set = "TEXCOORD_" + std::to_string(reader.uv_mappings[made.material].set);
+    if (const auto uv = read_attribute(reader, attributes, uv_set, count, {"VEC2"})) take_uv(reader, made, *uv);
+    if (const auto colours = read_attribute(reader, attributes, "COLOR_0", count, {"VEC3", "VEC4"}))
+        take_colours(reader, made, *colours);
+    const auto normals = read_attribute(reader, attributes, "NORMAL", count, {"VEC3"});
+    if (normals) {
+        take_normals(reader, made, *normals);
+        drop_unused(made);
+        spend(source, reader.vertices, made.vertices.size(), reader.limits.vertices, "vertices");
+    } else {
+        spend(source, reader.vertices, made.indices.size(), reader.limits.vertices, "vertices");
+        make_flat(made);
+    }
+
+    if (source.find("targets")) reader.notes.add("a primitive with morph targets is shown at rest");
+    for (const Vertex& vertex : made.vertices) made.bounds.add(vertex.position);
+    if (made.indices.empty()) return std::nullopt;
+    return made;
+}
+
+Mesh make_mesh(GltfReader& reader, const JsonValue& source) {
+    Mesh mesh;
+    mesh.name = source.text_or("name", "");
+    for (const JsonValue& primitive : source.at("primitives").elements())
+        if (auto made = read_primitive(reader, primitive)) mesh.primitives.push_back(std::move(*made));
+    return mesh;
+}
+
+}  // namespace
+
+void check_mesh(GltfReader& reader, const JsonValue& mesh) { make_mesh(reader, mesh); }
+
+uint32_t read_mesh(GltfReader& reader, const JsonValue& reference) {
+    const JsonValue source = reader.document.element("meshes", reference);
+    uint32_t& place = reader.mesh_of[reference.index(UINT32_MAX, "meshes")];
+    if (place != kNone) return place;
+    reader.scene.meshes.push_back(make_mesh(reader, source));
+    return place = static_cast<uint32_t>(reader.scene.meshes.size() - 1);
+}
+
+}  // namespace vesper

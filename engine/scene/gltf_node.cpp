@@ -1,0 +1,212 @@
+// The node tree of a glTF file, with cameras and instances. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/atomic_file.h"
+#include "scene/gltf_reader.h"
+
+namespace vesper {
+namespace {
+
+/// The parent of every node; a node with two, or above itself, is refused.
+std::vector<uint32_t> read_parents(std::span<const JsonValue> nodes, std::vector<std::vector<uint32_t>>& children) {
+    std::vector<uint32_t> parents(nodes.size(), kNone);
+    children.resize(nodes.size());
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        for (const JsonValue& reference : nodes[i].elements_of("children")) {
+            const uint32_t child = reference.index(nodes.size(), "nodes");
+            if (parents[child] != kNone) reference.fail("node " + std::to_string(child) + " has more than one parent");
+            parents[child] = i;
+            children[i].push_back(child);
+        }
+    }
+    // With one parent each, nodes not reached from a root go round in circles.
+    std::vector<uint32_t> reached;
+    for (uint32_t i = 0; i < nodes.size(); ++i)
+        if (parents[i] == kNone) reached.push_back(i);
+    for (size_t i = 0; i < reached.size(); ++i)
+        reached.insert(reached.end(), children[reached[i]].begin(), children[reached[i]].end());
+    if (reached.size() != nodes.size()) {
+        std::vector<bool> seen(nodes.size());
+        for (const uint32_t i : reached) seen[i] = true;
+        const auto lost = static_cast<size_t>(std::find(seen.begin(), seen.end(), false) - seen.begin());
+        nodes[lost].fail("is its own ancestor");
+    }
+    return parents;
+}
+
+/// Roots of the default scene, of the first one, or of all nodes. Some files list nodes that are no roots: those come
+/// last, to be read as roots when their parents have not brought them in.
+std::vector<uint32_t> read_roots(GltfReader& reader, const std::vector<uint32_t>& parents) {
+    GltfDocument& document = reader.document;
+    const auto scenes = document.list("scenes");
+    const auto chosen = document.root().find("scene");
+    std::vector<uint32_t> roots;
+    if (!chosen && scenes.empty()) {
+        for (uint32_t i = 0; i < parents.size(); ++i)
+            if (parents[i] == kNone) roots.push_back(i);
+        return roots;
+    }
+    const JsonValue scene = chosen ? document.element("scenes", *chosen) : scenes[0];
+    if (!chosen && scenes.size() > 1) reader.notes.add("the file has several scenes and no default: the first one is read");
+    reader.scene.name = scene.text_or("name", "");
+    std::vector<uint32_t> others;
+    for (const JsonValue& reference : scene.elements_of("nodes")) {
+        const uint32_t root = reference.index(parents.size(), "nodes");
+        (parents[root] == kNone ? roots : others).push_back(root);
+    }
+    if (!others.empty()) reader.notes.add("the scene lists nodes that have parents");
+    roots.insert(roots.end(), others.begin(), others.end());
+    return roots;
+}
+
+glm::quat rotation_of(const JsonValue& holder, float x, float y, float z, float w) {
+    const glm::dvec4 q(x, y, z, w);
+    const double length = glm::length(q);
+    if (!(length > 1e-6) || !std::isfinite(length)) holder.fail("is no rotation");
+    return glm::quat(static_cast<float>(w / length), static_cast<float>(x / length), static_cast<float>(y / length),
+                     static_cast<float>(z / length));
+}
+
+void read_transform(Node& node, const JsonValue& source) {
+    if (const auto matrix = source.find("matrix")) {
+        const auto m = matrix->numbers<16>();
+        if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) matrix->fail("must have 0 0 0 1 as its last row");
+        glm::mat4 made(1);
+        for (int c = 0; c < 4; ++c)
+            for (int r = 0; r < 4; ++r) made[c][r] = m[static_cast<size_t>(4 * c + r)];
+        node.matrix = made;
+        return;
+    }
+    if (const auto translation = source.find("translation")) {
+        const auto t = translation->numbers<3>();
+        node.translation = {t[0], t[1], t[2]};
+    }
+    if (const auto rotation = source.find("rotation")) {
+        const auto q = rotation->numbers<4>();
+        node.rotation = rotation_of(*rotation, q[0], q[1], q[2], q[3]);
+    }
+    if (const auto scale = source.find("scale")) {
+        const auto s = scale->numbers<3>();
+        node.scale = {s[0], s[1], s[2]};
+    }
+}
+
+/// Cameras are kept once per node that has one, so that each can have a name of its own.
+uint32_t read_camera(GltfReader& reader, const JsonValue& reference, const std::string& node_name, bool shared) {
+    const JsonValue source = reader.document.element("cameras", reference);
+    const std::string& type = source.at("type").text();
+    if (type == "orthographic") {
+        reader.notes.add("an orthographic camera is left out");
+        return kNone;
+    }
+    if (type != "perspective") source.at("type").fail("is neither perspective nor orthographic");
+    const JsonValue perspective = source.at("perspective");
+    Camera camera;
+    const std::string own_name = source.text_or("name", "");
+    camera.name = own_name.empty() || shared ? node_name : own_name;
+    camera.vertical_fov = static_cast<float>(perspective.at("yfov").number(1e-4, std::numbers::pi - 1e-4));
+    camera.near = static_cast<float>(perspective.at("znear").number(1e-6));
+    reader.scene.cameras.push_back(camera);
+    return static_cast<uint32_t>(reader.scene.cameras.size() - 1);
+}
+
+uint32_t add_node(GltfReader& reader, const JsonValue& source, Node node) {
+    if (reader.scene.nodes.size() >= reader.limits.nodes)
+        source.fail("more nodes than the limit of " + std::to_string(reader.limits.nodes));
+    reader.scene.nodes.push_back(std::move(node));
+    return static_cast<uint32_t>(reader.scene.nodes.size() - 1);
+}
+
+/// EXT_mesh_gpu_instancing: a child with the mesh for each instance.
+void read_instances(GltfReader& reader, const JsonValue& instancing, uint32_t parent) {
+    const JsonValue attributes = instancing.at("attributes");
+    const auto read = [&](const char* name, const char* type) -> std::optional<Floats> {
+        const auto reference = attributes.find(name);
+        if (!reference) return std::nullopt;
+        return read_floats(reader.document, *reference, {type}, reader.limits.nodes);
+    };
+    const auto translations = read("TRANSLATION", "VEC3"), rotations = read("ROTATION", "VEC4"), scales = read("SCALE", "VEC3");
+    uint32_t count = 0;
+    for (const auto* floats : {&translations, &rotations, &scales}) {
+        if (!*floats) continue;
+        if (count != 0 && count != (*floats)->count) attributes.fail("the instance attributes differ in count");
+        count = (*floats)->count;
+        for (const float value : (*floats)->values)
+            if (!std::isfinite(value)) attributes.fail("an instance transform is not finite");
+    }
+    if (count == 0) return;  // nothing we know of: the mesh stays where it is
+    const uint32_t mesh = std::exchange(reader.scene.nodes[parent].mesh, kNone);
+    for (uint32_t i = 0; i < count; ++i) {
+        Node instance;
+        instance.name = reader.scene.nodes[parent].name + " #" + std::to_string(i);
+        instance.parent = parent;
+        instance.mesh = mesh;
+        if (translations) instance.translation = {(*translations)[i][0], (*translations)[i][1], (*translations)[i][2]};
+        if (scales) instance.scale = {(*scales)[i][0], (*scales)[i][1], (*scales)[i][2]};
+        if (rotations) {
+            const auto q = (*rotations)[i];
+            instance.rotation = rotation_of(attributes, q[0], q[1], q[2], q[3]);
+        }
+        add_node(reader, instancing, std::move(instance));
+    }
+}
+
+void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint32_t parent, bool camera_shared) {
+    Node node;
+    node.name = source.text_or("name", "");
+    node.parent = parent;
+    read_transform(node, source);
+    if (const auto mesh = source.find("mesh")) node.mesh = read_mesh(reader, *mesh);
+    if (const auto camera = source.find("camera"))
+        node.camera = read_camera(reader, *camera, node.name.empty() ? "node " + std::to_string(index) : node.name, camera_shared);
+    if (source.find("skin")) reader.notes.add("a node with a skin is shown at rest");
+
+    const auto extensions = source.find("extensions");
+    if (extensions) {
+        if (const auto light = extensions->find("KHR_lights_punctual"))
+            node.light = light->at("light").index(reader.scene.lights.size(), "lights");
+    }
+    const bool has_mesh = node.mesh != kNone;
+    const uint32_t made = add_node(reader, source, std::move(node));
+    reader.node_of[index] = made;
+    if (extensions && has_mesh)
+        if (const auto instancing = extensions->find("EXT_mesh_gpu_instancing")) read_instances(reader, *instancing, made);
+}
+
+}  // namespace
+
+void read_nodes(GltfReader& reader) {
+    const auto nodes = reader.document.list("nodes");
+    if (nodes.size() > reader.limits.nodes)
+        reader.document.root().at("nodes").fail("more nodes than the limit of " + std::to_string(reader.limits.nodes));
+    reader.mesh_of.assign(reader.document.list("meshes").size(), kNone);
+    reader.node_of.assign(nodes.size(), kNone);
+    std::vector<std::vector<uint32_t>> children;
+    const std::vector<uint32_t> parents = read_parents(nodes, children);
+
+    std::vector<uint32_t> cameras(reader.document.list("cameras").size());
+    for (const JsonValue& node : nodes)
+        if (const auto camera = node.find("camera")) ++cameras[camera->index(cameras.size(), "cameras")];
+
+    std::vector<uint32_t> waiting = read_roots(reader, parents);
+    std::reverse(waiting.begin(), waiting.end());
+    while (!waiting.empty()) {  // no recursion: a tree may be as deep as it has nodes
+        const uint32_t index = waiting.back();
+        waiting.pop_back();
+        if (reader.node_of[index] != kNone) continue;
+        const auto camera = nodes[index].find("camera");
+        read_node(reader, nodes[index], index, parents[index] == kNone ? kNone : reader.node_of[parents[index]],
+                  camera && cameras[camera->index(cameras.size(), "cameras")] > 1);
+        waiting.insert(waiting.end(), children[index].rbegin(), children[index].rend());
+    }
+
+    const auto lit = std::count_if(reader.scene.nodes.begin(), reader.scene.nodes.end(), [](const Node& n) { return n.light != kNone; });
+    if (static_cast<uint64_t>(lit) > reader.limits.lights)
+        reader.document.root().fail("more lights than the limit of " + std::to_string(reader.limits.lights));
+    if (reader.scene.nodes.empty() && !reader.document.list("meshes").empty())
+        reader.notes.add("no node shows any of the file's meshes: the scene is empty");
+}
+
+}  // namespace vesper

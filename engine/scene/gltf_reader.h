@@ -1,0 +1,63 @@
+// The parts of the glTF reader, and what they share. Not a public header. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_document.h"
+
+namespace vesper {
+
+/// What the user should know, each said once with how often it applies.
+class Notes {
+public:
+    void add(const std::string& text) {
+        if (++times_[text] == 1) order_.push_back(text);
+    }
+    std::vector<std::string> lines() const;
+
+private:
+    std::map<std::string, uint64_t> times_;
+    std::vector<std::string> order_;
+};
+
+/// How the vertices of a material get their uv: a TEXCOORD set and KHR_texture_transform.
+struct UvMapping {
+    uint32_t set = 0;
+    glm::vec2 offset{0}, scale{1};
+    float rotation = 0;  ///< rad
+
+    glm::vec2 apply(glm::vec2 uv) const;
+    bool operator==(const UvMapping&) const = default;
+};
+
+/// State of one reading. The index of a thing in the file is `*_of[...]` in the scene, or kNone.
+struct GltfReader {
+    GltfDocument& document;
+    const SceneLimits& limits;
+    Scene scene{};
+    Notes notes{};
+    std::vector<UvMapping> uv_mappings{};  ///< one per scene material
+    std::vector<uint32_t> mesh_of{}, node_of{}, image_of{};
+    uint32_t default_material = kNone;
+    uint64_t vertices = 0, indices = 0, texels = 0, keys = 0;  ///< kept so far
+    uint64_t decoded = 0;                                      ///< vertices read so far, also those not kept
+};
+
+void read_materials(GltfReader& reader);
+/// The mesh a node refers to, read when first needed.
+uint32_t read_mesh(GltfReader& reader, const JsonValue& reference);
+/// Reads a mesh that nothing refers to and forgets it.
+void check_mesh(GltfReader& reader, const JsonValue& mesh);
+void read_lights(GltfReader& reader);
+void read_nodes(GltfReader& reader);
+void read_animations(GltfReader& reader);
+/// The extras block of a converted file (docs/photometry.md).
+void read_photometry_block(GltfReader& reader);
+
+/// All of the above in order, and the checks that need the whole scene.
+void read_all(GltfReader& reader);
+
+}  // namespace vesper

@@ -1,0 +1,215 @@
+// Reading the photometry file, strictly: what is misspelt must not be ignored in silence. SPDX-License-Identifier: MIT
+#include "scene/photometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/atomic_file.h"
+#include "scene/colour.h"
+#include "scene/json_value.h"
+
+namespace vesper {
+namespace {
+
+constexpr uint64_t kMaxBytes = 64u << 20;
+constexpr double kRadians = std::numbers::pi / 180;
+
+glm::dvec3 read_vector(const JsonValue& value) {
+    const auto v = value.numbers<3>();
+    return {v[0], v[1], v[2]};
+}
+
+/// colour_temperature_K or colour_rgb, brought to luminance 1; white where neither is given.
+glm::dvec3 read_colour(const JsonValue& holder, double* kelvin = nullptr) {
+    const auto temperature = holder.find("colour_temperature_K"), rgb = holder.find("colour_rgb");
+    if (temperature && rgb) rgb->fail("is given beside colour_temperature_K: one of them is wanted");
+    if (temperature) {
+        const double stated = temperature->number(1000, 25000);
+        if (kelvin) *kelvin = stated;
+        return colour_of_temperature(stated);
+    }
+    if (!rgb) return glm::dvec3(1);
+    const auto c = rgb->numbers<3>(0, 1e4);
+    const glm::dvec3 colour(c[0], c[1], c[2]);
+    if (!(luminance(colour) > 1e-6)) rgb->fail("must not be black");
+    return colour / luminance(colour);
+}
+
+std::vector<std::string> read_patterns(const JsonValue& rule, const char* key) {
+    const JsonValue value = rule.at(key);
+    std::vector<std::string> patterns;
+    if (value.json().is_array())
+        for (const JsonValue& element : value.elements()) patterns.push_back(element.text());
+    else patterns.push_back(value.text());
+    if (patterns.empty()) value.fail("must name at least one pattern");
+    if (std::any_of(patterns.begin(), patterns.end(), [](const std::string& p) { return p.empty(); }))
+        value.fail("must not contain an empty pattern");
+    return patterns;
+}
+
+void read_lobe(Light& light, const JsonValue& rule) {
+    const JsonValue type = rule.at("type");
+    if (type.text() == "point") {
+        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m"});
+        light.kind = Light::Kind::Point;
+    } else if (type.text() == "spot") {
+        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m", "aim",
+                         "inner_cone_deg", "outer_cone_deg"});
+        light.kind = Light::Kind::Spot;
+        const double outer = rule.at("outer_cone_deg").number(0.1, 90);
+        const double inner = rule.number_or("inner_cone_deg", 0, 0, 90);
+        if (inner > outer) rule.at("inner_cone_deg").fail("must not be more than outer_cone_deg");
+        light.outer_cone = static_cast<float>(outer * kRadians);
+        // KHR_lights_punctual wants the inner angle to be less.
+        light.inner_cone = static_cast<float>(std::min(inner, outer * 0.9999) * kRadians);
+    } else if (type.text() == "cosine_power") {
+        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m", "aim",
+                         "exponent"});
+        light.kind = Light::Kind::CosinePower;
+        light.exponent = static_cast<float>(rule.at("exponent").number(0, 1e5));
+        // For viewers that know only spots: the cone ends where the lobe has fallen to a thousandth.
+        const double edge = std::acos(std::pow(1e-3, 1 / std::max<double>(light.exponent, 1e-3)));
+        light.inner_cone = 0;
+        light.outer_cone = static_cast<float>(std::min(edge, std::numbers::pi / 2));
+    } else {
+        type.fail("is none of point, spot and cosine_power");
+    }
+}
+
+LampRule read_lamp(const JsonValue& source) {
+    LampRule rule;
+    read_lobe(rule.light, source);
+    rule.nodes = read_patterns(source, "nodes");
+    rule.name = source.text_or("name", rule.nodes.front());
+    rule.light.name = rule.name;
+    rule.light.intensity = static_cast<float>(source.at("intensity_cd").number(0, 1e9));
+    if (!(rule.light.intensity > 0)) source.at("intensity_cd").fail("must be more than 0");
+    rule.light.colour = glm::vec3(read_colour(source, &rule.kelvin));
+    if (const auto aim = source.find("aim")) {
+        const glm::dvec3 axis = read_vector(*aim);
+        if (!(glm::length(axis) > 1e-6)) aim->fail("must not be of length 0");
+        rule.aim = glm::normalize(axis);
+    }
+    if (const auto offset = source.find("offset_m")) rule.offset = read_vector(*offset);
+    return rule;
+}
+
+EmitterRule read_emitter(const JsonValue& source) {
+    source.allow_only({"name", "materials", "luminance_cd_m2", "colour_temperature_K", "colour_rgb", "modulate"});
+    EmitterRule rule;
+    rule.materials = read_patterns(source, "materials");
+    rule.name = source.text_or("name", rule.materials.front());
+    rule.luminance = source.at("luminance_cd_m2").number(0, 1e10);
+    rule.colour = read_colour(source);
+    rule.modulate = source.boolean_or("modulate", false);
+    return rule;
+}
+
+SurfaceRule read_surface(const JsonValue& source) {
+    source.allow_only({"name", "materials", "reflectance_scale", "roughness", "metallic"});
+    SurfaceRule rule;
+    rule.materials = read_patterns(source, "materials");
+    rule.name = source.text_or("name", rule.materials.front());
+    rule.reflectance_scale = source.number_or("reflectance_scale", 1, 0, 100);
+    if (const auto roughness = source.find("roughness")) rule.roughness = roughness->number(0, 1);
+    if (const auto metallic = source.find("metallic")) rule.metallic = metallic->number(0, 1);
+    return rule;
+}
+
+ColouredQuantity read_quantity(const JsonValue& source, const char* key, double high) {
+    source.allow_only({key, "colour_temperature_K", "colour_rgb"});
+    return {source.at(key).number(0, high), read_colour(source)};
+}
+
+Transfer read_transfer(const JsonValue& textures) {
+    textures.allow_only({"transfer", "gamma"});
+    Transfer transfer{Transfer::Kind::Gamma, 2.2f};
+    const auto kind = textures.find("transfer");
+    if (kind && kind->text() == "srgb") transfer.kind = Transfer::Kind::Srgb;
+    else if (kind && kind->text() != "gamma") kind->fail("is neither gamma nor srgb");
+    const auto gamma = textures.find("gamma");
+    if (gamma && transfer.kind == Transfer::Kind::Srgb) gamma->fail("has no meaning beside the transfer srgb");
+    if (gamma) transfer.gamma = static_cast<float>(gamma->number(0.1, 10));
+    return transfer;
+}
+
+/// Wildcards match any character but `barrier` (0: none). Backtracks to the last star only: at most |pattern| |text|.
+bool matches(const char* pattern, const char* text, char barrier) {
+    const char *star = nullptr, *retry = nullptr;
+    while (*text) {
+        if (*pattern == '*') {
+            star = pattern++;
+            retry = text;
+        } else if (*pattern == '?' && *text != barrier) {
+            ++pattern, ++text;
+            while ((static_cast<unsigned char>(*text) & 0xc0) == 0x80) ++text;  // the rest of a UTF-8 character
+        } else if (*pattern == *text) {
+            ++pattern, ++text;
+        } else if (star && *retry != barrier) {
+            pattern = star + 1;
+            text = ++retry;
+        } else {
+            return false;
+        }
+    }
+    while (*pattern == '*') ++pattern;
+    return *pattern == 0;
+}
+
+}  // namespace
+
+Photometry read_photometry(const std::filesystem::path& file) {
+    const JsonFile json = parse_json(read_file(file, kMaxBytes), file.string());
+    const JsonValue root(json);
+    root.allow_only({"$schema", "version", "textures", "ambient", "sky", "lights", "lamps", "emitters", "surfaces"});
+    const JsonValue version = root.at("version");
+    if (version.integer() != 1) version.fail("must be 1: this program knows no other");
+    Photometry made;
+    if (const auto textures = root.find("textures")) made.transfer = read_transfer(*textures);
+    if (const auto ambient = root.find("ambient")) made.ambient = read_quantity(*ambient, "illuminance_lx", 2e5);
+    if (const auto sky = root.find("sky")) made.sky = read_quantity(*sky, "luminance_cd_m2", 1e6);
+    if (const auto lights = root.find("lights")) {
+        lights->allow_only({"keep"});
+        made.keep_lights = lights->boolean_or("keep", false);
+    }
+    for (const JsonValue& rule : root.elements_of("lamps")) made.lamps.push_back(read_lamp(rule));
+    for (const JsonValue& rule : root.elements_of("emitters")) made.emitters.push_back(read_emitter(rule));
+    for (const JsonValue& rule : root.elements_of("surfaces")) made.surfaces.push_back(read_surface(rule));
+    return made;
+}
+
+double luminous_flux(const Light& light) {
+    constexpr double kPi = std::numbers::pi;
+    const double intensity = light.intensity;
+    switch (light.kind) {
+        case Light::Kind::Point: return 4 * kPi * intensity;
+        case Light::Kind::Spot: {
+            // Full within the inner cone; between, the squared ramp in cos(angle), whose mean is a third.
+            const double inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
+            return 2 * kPi * intensity * ((1 - inner) + (inner - outer) / 3);
+        }
+        case Light::Kind::CosinePower: return 2 * kPi * intensity / (light.exponent + 1.0);
+        case Light::Kind::Directional: break;
+    }
+    return 0;
+}
+
+bool matches_name(const std::string& pattern, const std::string& name) { return matches(pattern.c_str(), name.c_str(), 0); }
+
+bool matches_path(const std::string& pattern, const std::vector<std::string>& path) {
+    if (path.empty()) return false;
+    const auto slashes = std::count(pattern.begin(), pattern.end(), '/');
+    if (slashes == 0) return matches_name(pattern, path.front());
+    // Names may hold slashes themselves, so there can be several ends of the path with the right number of them.
+    std::string end;
+    for (const std::string& name : path) {
+        end = end.empty() ? name : name + "/" + end;
+        const auto there = std::count(end.begin(), end.end(), '/');
+        if (there > slashes) return false;
+        if (there == slashes && matches(pattern.c_str(), end.c_str(), '/')) return true;
+    }
+    return false;
+}
+
+}  // namespace vesper

@@ -1,0 +1,70 @@
+// The photometry file: what turns a daytime database into a night one (docs/photometry.md). SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vesper {
+
+/// A rule that puts a lamp on every node its patterns match.
+struct LampRule {
+    std::string name;
+    std::vector<std::string> nodes;  ///< patterns
+    Light light;                     ///< intensity, lobe and colour
+    double kelvin = 0;               ///< colour temperature, K; 0 where a colour was given
+    std::optional<glm::dvec3> aim;   ///< axis of the lobe in the node's frame, unit length; -Z where missing
+    glm::dvec3 offset{0};            ///< m, along the node's axes
+};
+
+/// A rule that makes materials emit.
+struct EmitterRule {
+    std::string name;
+    std::vector<std::string> materials;  ///< patterns
+    double luminance = 0;                ///< cd/m^2
+    glm::dvec3 colour{1};                ///< linear, luminance 1
+    bool modulate = false;               ///< the material's texture times the above; its brightest texel has `luminance`
+};
+
+/// A rule that changes how materials reflect.
+struct SurfaceRule {
+    std::string name;
+    std::vector<std::string> materials;  ///< patterns
+    double reflectance_scale = 1;
+    std::optional<double> roughness, metallic;
+};
+
+/// A quantity with a colour of luminance 1.
+struct ColouredQuantity {
+    double value = 0;
+    glm::dvec3 colour{1};
+};
+
+struct Photometry {
+    Transfer transfer{Transfer::Kind::Gamma, 2.2f};
+    std::optional<ColouredQuantity> ambient;  ///< illuminance, lx
+    std::optional<ColouredQuantity> sky;      ///< luminance, cd/m^2
+    bool keep_lights = false;
+    std::vector<LampRule> lamps;
+    std::vector<EmitterRule> emitters;
+    std::vector<SurfaceRule> surfaces;
+};
+
+/// Reads and checks a photometry file. Throws Error naming file, JSON pointer and reason.
+Photometry read_photometry(const std::filesystem::path& file);
+
+/// Luminous flux of a lamp, lm: its intensity integrated over all directions.
+double luminous_flux(const Light& light);
+
+/// Whether a name matches a pattern of `*` (any characters) and `?` (one character).
+bool matches_name(const std::string& pattern, const std::string& name);
+
+/// Whether a pattern with '/' matches the end of a path: `path` holds the names from the node up to its root. Names of
+/// the path are joined with '/', the match begins at the start of a name, and wildcards do not match a '/'. A pattern
+/// without '/' is compared with the node's own name. Returns at once when more names are needed than there are slashes.
+bool matches_path(const std::string& pattern, const std::vector<std::string>& path);
+
+}  // namespace vesper

@@ -1,0 +1,150 @@
+// A scene in memory: what a glTF file holds once it is photometric. SPDX-License-Identifier: MIT
+// Lengths in m, angles in rad, intensities in cd, luminances in cd/m^2, illuminances in lx. Y is up, cameras and lamps
+// look along their local -Z, matrices are column-major.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace vesper {
+
+constexpr uint32_t kNone = ~0u;  ///< "no such element" wherever an index is kept
+
+/// An axis-aligned box, m. Empty (low > high) until something is added.
+struct Bounds {
+    glm::vec3 low{std::numeric_limits<float>::infinity()};
+    glm::vec3 high{-std::numeric_limits<float>::infinity()};
+
+    void add(glm::vec3 point) { low = glm::min(low, point), high = glm::max(high, point); }
+    bool empty() const { return !(low.x <= high.x); }
+};
+
+/// How the 8-bit code T of a colour texture becomes a linear value in [0, 1].
+struct Transfer {
+    enum class Kind : uint8_t { Srgb, Gamma };
+    Kind kind = Kind::Srgb;
+    float gamma = 2.2f;  ///< Kind::Gamma: value = T^gamma (Petit, Bremond and Vienne, Eq. 1: gamma = 2.2)
+};
+
+/// A picture as its file had it: 8 bit per channel RGBA, rows from the top, not yet linear.
+struct Image {
+    std::string name;
+    uint32_t width = 0, height = 0;
+    std::vector<uint8_t> rgba;  ///< width * height * 4 codes
+};
+
+enum class Wrap : uint8_t { Repeat, Mirror, Clamp };
+
+/// One use of an image by a material. Its UV set and KHR_texture_transform are baked into the vertices at loading.
+struct TextureUse {
+    uint32_t image = kNone;
+    Wrap wrap_u = Wrap::Repeat, wrap_v = Wrap::Repeat;
+    bool nearest = false;  ///< magnify without interpolation
+
+    bool operator==(const TextureUse&) const = default;
+};
+
+/// A surface. The diffuse reflectance is base_colour * (1 - metallic); roughness 1 is a pure Lambert surface.
+struct Material {
+    enum class Alpha : uint8_t { Opaque, Mask };
+    std::string name;
+    glm::vec4 base_colour{1};          ///< linear reflectance and opacity, [0, 1]; times base_colour_texture
+    TextureUse base_colour_texture;    ///< codes through Scene::transfer
+    float metallic = 0, roughness = 1; ///< [0, 1]; times blue and green of metallic_roughness_texture
+    TextureUse metallic_roughness_texture;
+    glm::vec3 emission{0};             ///< emitted RGB luminance, cd/m^2; times emission_texture
+    TextureUse emission_texture;       ///< codes through sRGB
+    Alpha alpha = Alpha::Opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+};
+
+struct Vertex {
+    glm::vec3 position{0};                                  ///< m, in the mesh's frame
+    glm::vec3 normal{0, 1, 0};                              ///< unit length
+    glm::vec2 uv{0};
+    std::array<uint8_t, 4> colour{255, 255, 255, 255};      ///< linear, multiplies base_colour
+};
+
+/// Triangles of one material.
+struct Primitive {
+    uint32_t material = 0;  ///< index into Scene::materials
+    std::vector<Vertex> vertices;
+    std::vector<uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the front, all < vertices.size()
+    Bounds bounds;
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+};
+
+/// A lamp's distribution of luminous intensity about its axis (local -Z).
+struct Light {
+    enum class Kind : uint8_t { Point, Spot, CosinePower, Directional };
+    std::string name;
+    Kind kind = Kind::Point;
+    float intensity = 0;       ///< on the axis, cd; Directional: illuminance on a surface facing it, lx
+    glm::vec3 colour{1};       ///< linear Rec. 709 of luminance 1: (0.2126, 0.7152, 0.0722) . colour == 1
+    float inner_cone = 0;      ///< Spot: half angle of full intensity, rad
+    float outer_cone = 0.785f; ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
+    float exponent = 1;        ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
+};
+
+struct Camera {
+    std::string name;       ///< of the camera, or of its node where that has none
+    float vertical_fov = 0.6435f;  ///< rad, in (0, pi)
+    float near = 0.1f;      ///< m; there is no far plane
+};
+
+struct Node {
+    std::string name;
+    uint32_t parent = kNone;  ///< always smaller than the node's own index
+    glm::vec3 translation{0};
+    glm::quat rotation{1, 0, 0, 0};
+    glm::vec3 scale{1};
+    std::optional<glm::mat4> matrix;  ///< replaces the three above where the file gave one
+    uint32_t mesh = kNone, light = kNone, camera = kNone;
+};
+
+/// Key frames of one property of one node. Times in s, ascending.
+struct Channel {
+    enum class Path : uint8_t { Translation, Rotation, Scale };
+    enum class Interpolation : uint8_t { Step, Linear, Cubic };
+    uint32_t node = 0;
+    Path path = Path::Translation;
+    Interpolation interpolation = Interpolation::Linear;
+    std::vector<float> times;
+    std::vector<glm::vec4> values;  ///< xyz or quaternion xyzw; Cubic: in-tangent, value, out-tangent per key
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Image> images;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    std::vector<Node> nodes;       ///< parents before children
+    std::vector<Channel> channels; ///< of all animations, played together
+    Transfer transfer;             ///< of base colour textures
+    float ambient_illuminance = 0; ///< E on any surface, lx: adds E * reflectance / pi
+    glm::vec3 ambient_colour{1};   ///< linear, luminance 1
+    float sky_luminance = 0;       ///< of the background, cd/m^2
+    glm::vec3 sky_colour{1};       ///< linear, luminance 1
+};
+
+/// Where every node stands at a time: node frame to world, one matrix per node. Channels hold their first and last
+/// values outside their keys. `seconds` >= 0.
+std::vector<glm::mat4> world_transforms(const Scene& scene, double seconds);
+
+/// Duration of the longest channel, s; 0 without animation.
+double animation_length(const Scene& scene);
+
+}  // namespace vesper

@@ -1,0 +1,27 @@
+// URIs as glTF uses them: relative paths and data. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vesper {
+
+/// Whether the URI holds its bytes itself ("data:...").
+bool is_data_uri(std::string_view uri);
+
+/// The bytes of a data URI, base64 or percent-encoded. Throws Error (reason only).
+std::vector<uint8_t> decode_data_uri(std::string_view uri);
+
+/// Makes a base64 data URI.
+std::string encode_data_uri(std::string_view media_type, std::span<const uint8_t> bytes);
+
+/// The file a relative URI names, from the folder of the file that names it. Percent-encoding is undone, unless a file
+/// of just that name exists. `..` is allowed (databases share texture folders), schemes and absolute paths are not.
+/// Throws Error (reason only).
+std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std::string& uri);
+
+}  // namespace vesper

@@ -1,0 +1,117 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+
+// Light clustering, one cell per invocation. A light is listed unless its illuminance stays under the threshold all over
+// the sphere around the cell: the largest intensity in the cone of directions that the sphere subtends, over the square
+// of the nearest distance. Lights are tried in ascending order, so lists are ascending and the same on every run.
+
+#include "shared/cluster.h"
+
+layout(local_size_x = 64) in;
+
+layout(binding = 0) uniform samplerBuffer lights;
+layout(binding = 1) uniform usamplerBuffer parent_counts;
+layout(binding = 2) uniform usamplerBuffer parent_indices;
+layout(binding = 3, r32ui) writeonly uniform uimageBuffer counts;
+layout(binding = 4, r32ui) writeonly uniform uimageBuffer indices;
+layout(binding = 5, scalar) buffer Report { ClusterReport report; };
+layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
+
+const float kSlack = 1.001;  // float rounding never costs a light
+
+vec3 centre;
+float radius;
+
+// Where the cell lies in the view frame: the sphere through its farthest corner.
+void bound_cell(uvec3 cell) {
+    const ClusterGrid grid = push.view.grid;
+    const float side = float(kTileSize * push.tiles_per_cell);
+    const vec2 low = grid.ray_scale * (side * vec2(cell.xy)) + grid.ray_offset;
+    const vec2 high = grid.ray_scale * (side * vec2(cell.xy + 1u)) + grid.ray_offset;
+    const float first = float(cell.z * push.slices_per_cell), last = float((cell.z + 1u) * push.slices_per_cell);
+    const float z0 = cell.z == 0u ? 0.0 : exp2((first - grid.slice_bias) / grid.slice_scale);
+    const float z1 = last >= float(grid.slices) ? push.view.far : exp2((last - grid.slice_bias) / grid.slice_scale);
+    centre = vec3(0.5 * (low + high), -1.0) * (0.5 * (z0 + z1));
+    radius = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec2 ray = vec2((corner & 1) == 0 ? low.x : high.x, (corner & 2) == 0 ? low.y : high.y);
+        radius = max(radius, distance(centre, vec3(ray, -1.0) * ((corner & 4) == 0 ? z0 : z1)));
+    }
+    radius *= kSlack;
+}
+
+// Distance to the cell's centre, and the cosine of the smallest angle between the lamp's axis and the cell.
+vec2 nearest_direction(vec3 position, vec3 axis) {
+    const vec3 to = centre - position;
+    const float away = length(to);
+    if (away <= radius) return vec2(away, 1.0);
+    const float cosine = clamp(dot(axis, to) / away, -1.0, 1.0);
+    const float sin_half = radius / away, cos_half = sqrt(1.0 - sin_half * sin_half);
+    if (cosine >= cos_half) return vec2(away, 1.0);
+    return vec2(away, min(1.0, cosine * cos_half + sqrt(1.0 - cosine * cosine) * sin_half + 1e-4));
+}
+
+bool reaches(float intensity, float away) {
+    const float nearest = away - radius;
+    return nearest <= 0.0 || kSlack * intensity >= push.view.threshold * nearest * nearest;
+}
+
+bool cone_reaches(int light) {
+    const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
+    const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
+    const float offset = texelFetch(lights, light * int(kTexelsPerLight) + 2).w;
+    const vec2 nearest = nearest_direction(a.xyz, b.xyz);
+    const float ramp = clamp(b.w * nearest.y + offset, 0.0, 1.0);
+    return ramp > 0.0 && reaches(a.w * ramp * ramp, nearest.x);
+}
+
+bool power_reaches(int light) {
+    const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
+    const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
+    const vec2 nearest = nearest_direction(a.xyz, b.xyz);
+    return nearest.y > 0.0 && reaches(a.w * exp2(b.w * log2(nearest.y)), nearest.x);
+}
+
+void main() {
+    const uint index = gl_GlobalInvocationID.x;
+    const uvec3 cells = uvec3(push.cells_x, push.cells_y, push.cells_z);
+    if (index >= cells.x * cells.y * cells.z) return;
+    const uvec3 cell = uvec3(index % cells.x, index / cells.x % cells.y, index / (cells.x * cells.y));
+    bound_cell(cell);
+
+    const uvec3 parent = uvec3(cell.xy * push.tiles_per_cell / push.tiles_per_parent,
+                               cell.z * push.slices_per_cell / push.slices_per_parent);
+    const uint parent_index = (parent.z * push.parents_y + parent.y) * push.parents_x + parent.x;
+    const uint listed_cones = texelFetch(parent_counts, int(2u * parent_index)).r;
+    const uint listed_powers = texelFetch(parent_counts, int(2u * parent_index + 1u)).r;
+    const bool all_of_them = listed_cones == kAllLights;
+    const uint cones = all_of_them ? push.view.lights.cones : listed_cones;
+    const uint powers = all_of_them ? push.view.lights.powers : listed_powers;
+    const uint list = all_of_them ? 0u : parent_index * push.parent_capacity;
+
+    const uint base = index * push.capacity;
+    uint count = 0u;
+    for (uint i = 0u; i < cones; ++i) {
+        const uint light = all_of_them ? i : texelFetch(parent_indices, int(list + i)).r;
+        if (!cone_reaches(int(light))) continue;
+        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
+        ++count;
+    }
+    const uint kept_cones = count;
+    for (uint i = 0u; i < powers; ++i) {
+        const uint light = all_of_them ? cones + i : texelFetch(parent_indices, int(list + cones + i)).r;
+        if (!power_reaches(int(light))) continue;
+        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
+        ++count;
+    }
+
+    const bool fits = count <= push.capacity;
+    imageStore(counts, int(2u * index), uvec4(fits ? kept_cones : kAllLights));
+    imageStore(counts, int(2u * index + 1u), uvec4(fits ? count - kept_cones : kAllLights));
+    if (push.reports != 0u) {
+        atomicAdd(report.overflowed, fits ? 0u : 1u);
+        atomicMax(report.longest, count);
+        atomicAdd(report.listed, count);
+    }
+}

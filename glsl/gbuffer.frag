@@ -1,0 +1,45 @@
+#version 460
+
+// G-buffer, fragments: the surface seen by each pixel. Variants without some texture never sample it.
+
+layout(constant_id = 0) const uint kBaseTexture = 1u;
+layout(constant_id = 1) const uint kMetallicRoughnessTexture = 1u;
+layout(constant_id = 2) const uint kEmissionTexture = 1u;
+layout(constant_id = 3) const uint kMask = 0u;
+
+layout(location = 0) in vec3 view_normal;
+layout(location = 1) in vec2 texture_uv;
+layout(location = 2) in vec4 base_colour;
+layout(location = 3) flat in vec4 emission_cutoff;
+layout(location = 4) flat in vec2 metallic_roughness;
+
+layout(binding = 0) uniform sampler2D base_texture;                // linear reflectance, opacity
+layout(binding = 1) uniform sampler2D metallic_roughness_texture;  // green roughness, blue metallic
+layout(binding = 2) uniform sampler2D emission_texture;            // linear
+
+layout(location = 0) out vec4 out_reflectance;
+layout(location = 1) out vec4 out_surface;
+layout(location = 2) out vec4 out_emission;
+
+// Octahedral map of a unit vector (Meyer et al. 2010): two numbers in [-1, 1].
+vec2 octahedral(vec3 n) {
+    const vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    const vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+    return n.z < 0.0 ? folded : p;
+}
+
+void main() {
+    vec4 base = base_colour;
+    if (kBaseTexture != 0u) base *= texture(base_texture, texture_uv);
+    if (kMask != 0u && base.a < emission_cutoff.a) discard;
+
+    vec2 m = metallic_roughness;
+    if (kMetallicRoughnessTexture != 0u) m *= texture(metallic_roughness_texture, texture_uv).bg;
+    vec3 emission = emission_cutoff.rgb;
+    if (kEmissionTexture != 0u) emission *= texture(emission_texture, texture_uv).rgb;
+
+    const vec3 normal = normalize(gl_FrontFacing ? view_normal : -view_normal);
+    out_reflectance = vec4(base.rgb, m.x);
+    out_surface = vec4(octahedral(normal), 1.0 / gl_FragCoord.w, m.y);
+    out_emission = vec4(emission, 1.0);
+}

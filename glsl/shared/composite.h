@@ -1,0 +1,36 @@
+// Glare of the display image, and the last step to codes. SPDX-License-Identifier: MIT
+#ifndef VESPER_SHARED_COMPOSITE_H
+#define VESPER_SHARED_COMPOSITE_H
+#include "tone.h"
+SHARED_BEGIN
+
+const uint kGlareShrink = 4u;  // the LDR glare is blurred at a quarter of the resolution
+
+// Displayed light is relative: 0 at the display's darkest luminance, 1 at its brightest, linear in between.
+struct BrightPush {
+    uvec2 size;           // px of the full image
+    uvec2 small_size;     // texels: size / kGlareShrink, rounded up
+    float display_low;    // cd/m^2
+    float display_high;
+    float threshold;      // displayed luminance, relative, from which a pixel glares
+};
+SHARED_SIZE(BrightPush, 28)
+
+struct BlurPush {
+    uvec2 size;    // texels
+    uvec2 step;    // (1, 0) or (0, 1)
+    uint radius;   // weights 0 .. radius, symmetric, summing to 1
+};
+SHARED_SIZE(BlurPush, 20)
+
+struct CompositePush {
+    uvec2 size;           // px
+    float display_low;    // cd/m^2
+    float display_high;
+    float inverse_gamma;  // code = displayed light ^ inverse_gamma
+    float ldr_glare;      // gain of the LDR glare; 0: none
+};
+SHARED_SIZE(CompositePush, 24)
+
+SHARED_END
+#endif

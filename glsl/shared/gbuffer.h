@@ -1,0 +1,28 @@
+// What a batch of triangles is drawn with. SPDX-License-Identifier: MIT
+#ifndef VESPER_SHARED_GBUFFER_H
+#define VESPER_SHARED_GBUFFER_H
+#include "types.h"
+SHARED_BEGIN
+
+struct GBufferPush {
+    vec4 base_colour;     // linear reflectance and opacity
+    vec3 emission;        // cd/m^2 RGB
+    float alpha_cutoff;   // of masked materials
+    float metallic;
+    float roughness;
+    vec2 clip_scale;      // clip.xy = clip_scale * view.xy + clip_offset * view.z
+    vec2 clip_offset;
+    float near;           // depth buffer = near / depth
+};
+SHARED_SIZE(GBufferPush, 60)
+
+// One instance of a mesh: the rows of its model-to-view matrix, read at instance rate.
+struct Instance {
+    vec4 row_x;
+    vec4 row_y;
+    vec4 row_z;
+};
+SHARED_SIZE(Instance, 48)
+
+SHARED_END
+#endif

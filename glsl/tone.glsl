@@ -1,0 +1,47 @@
+// From scene luminance to displayed light, for bright.comp and composite.comp.
+
+#include "shared/composite.h"
+#include "shared/photometry.h"
+
+layout(constant_id = 0) const uint kTone = kToneCurve;
+
+struct Tone {
+    float scale, white;          // Reinhard
+    float low, gain;             // linear
+    float ln_low, bins_per_ln;   // curve
+    float bins;
+};
+
+Tone read_tone(samplerBuffer curve) {
+    return Tone(texelFetch(curve, 3).r, texelFetch(curve, 4).r, texelFetch(curve, 5).r, texelFetch(curve, 6).r,
+                texelFetch(curve, 7).r, texelFetch(curve, 8).r, texelFetch(curve, 9).r);
+}
+
+float luminance_of(vec3 rgb) { return dot(rgb, vec3(kRed, kGreen, kBlue)); }
+
+// Displayed luminance, relative: 0 at the display's darkest, 1 at its brightest.
+float displayed_luminance(samplerBuffer curve, Tone tone, float luminance, float display_low, float display_high) {
+    if (kTone == kToneReinhard) {
+        const float x = tone.scale * luminance;
+        return x * (1.0 + x * tone.white) / (1.0 + x);
+    }
+    if (kTone == kToneLinear) return (luminance - tone.low) * tone.gain;
+    const float at = clamp((log(max(luminance, kLuminanceFloor)) - tone.ln_low) * tone.bins_per_ln, 0.0, tone.bins);
+    const float bin = min(floor(at), tone.bins - 1.0);
+    const float below = texelFetch(curve, int(kToneNode0) + int(bin)).r;
+    const float above = texelFetch(curve, int(kToneNode0) + int(bin) + 1).r;
+    return (exp(mix(below, above, at - bin)) - display_low) / (display_high - display_low);
+}
+
+// Displayed light of a pixel, RGB in [0, 1]. Colour keeps its ratios; where a channel would exceed white the pixel fades
+// towards the grey of its own luminance. Pixels that are not finite, or have no luminance, are black.
+vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, float display_low, float display_high) {
+    if (kTone == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(rgb, 0.0, 1.0) : vec3(0.0);
+    const float luminance = luminance_of(rgb);
+    if (!(luminance > 0.0 && luminance <= 3.4e38)) return vec3(0.0);
+    const float d = clamp(displayed_luminance(curve, tone, luminance, display_low, display_high), 0.0, 1.0);
+    const vec3 light = max(rgb * (d / luminance), vec3(0.0));
+    const float brightest = max(light.r, max(light.g, light.b));
+    if (brightest <= 1.0) return light;
+    return clamp(d + (light - d) * ((1.0 - d) / (brightest - d)), 0.0, 1.0);
+}

@@ -1,0 +1,123 @@
+// The shape of the source tree: who may include whom, and that every pass has its reference and its test.
+// SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kSource = VESPER_SOURCE_DIR;
+const std::regex kInclude(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"([^"]+)")re");
+
+// What the files of each folder of engine/ may include, besides their own; "" is the top level, "glsl" the headers
+// of glsl/shared/ and the embedded shaders. Folders that do not appear here are refused, so a new one has to find its
+// place.
+const std::map<std::string, std::set<std::string>> kMayInclude{
+    {"base", {}},
+    {"io", {"base"}},
+    {"scene", {"base", "io"}},
+    {"gpu", {"base"}},
+    {"graph", {"base", "gpu"}},
+    {"resident", {"base", "scene", "gpu", "glsl"}},
+    {"passes", {"base", "scene", "gpu", "graph", "resident", "glsl"}},
+    {"", {"base", "io", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
+};
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> quoted_includes(const fs::path& file) {
+    const std::string text = text_of(file);
+    std::vector<std::string> found;
+    for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) found.push_back((*it)[1]);
+    return found;
+}
+
+std::string first_folder(const fs::path& relative) {
+    return relative.has_parent_path() ? relative.begin()->string() : std::string();
+}
+
+/// Why `from` (relative to engine/) may not include `what`; empty if it may.
+std::string objection(const fs::path& from, const std::string& what) {
+    const std::string folder = first_folder(from);
+    if (!kMayInclude.contains(folder)) return "has no layer";
+    if (what.find("..") != what.npos) return "climbs";
+    const std::string top = first_folder(what);
+    const bool glsl = top == "shaders" || (top == "shared" && fs::exists(kSource / "glsl" / what));
+    if (!glsl && !fs::exists(kSource / "engine" / what))
+        return "names a file neither in engine/ nor in glsl/ (others belong in <>)";
+    const std::string layer = glsl ? "glsl" : top;
+    // Pictures are part of a scene and are decoded by io; that is all io knows of it, and no header of scene knows io.
+    if (folder == "io" && what == "scene/scene.h") return {};
+    if (folder == "scene" && layer == "io" && from.extension() != ".cpp") return "is a header of scene/";
+    if (layer != folder && !kMayInclude.at(folder).contains(layer)) return "is a step up";
+    return {};
+}
+
+std::vector<fs::path> files_under(const fs::path& folder, const std::set<std::string>& extensions) {
+    std::vector<fs::path> files;
+    if (!fs::exists(folder)) return files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file() && extensions.contains(entry.path().extension().string()))
+            files.push_back(entry.path());
+    return files;
+}
+
+TEST(Layering, EveryIncludeGoesDown) {
+    const auto files = files_under(kSource / "engine", {".h", ".cpp"});
+    ASSERT_FALSE(files.empty());
+    for (const fs::path& file : files)
+        for (const std::string& what : quoted_includes(file)) {
+            const fs::path from = fs::relative(file, kSource / "engine");
+            EXPECT_EQ(objection(from, what), "") << from << " includes " << what;
+        }
+}
+
+TEST(Layering, TheRulesRefuse) {
+    EXPECT_NE(objection("base/error.h", "graph/plan.h"), "");
+    EXPECT_NE(objection("gpu/kernel.h", "scene/scene.h"), "");
+    EXPECT_NE(objection("gpu/kernel.h", "graph/plan.h"), "");
+    EXPECT_NE(objection("scene/scene.h", "io/image_file.h"), "");
+    EXPECT_NE(objection("io/image_file.h", "scene/convert.h"), "");
+    EXPECT_NE(objection("passes/a.cpp", "io/image_file.h"), "");
+    EXPECT_NE(objection("graph/plan.h", "../gpu/kernel.h"), "");
+    EXPECT_NE(objection("elsewhere/a.cpp", "base/error.h"), "");
+    EXPECT_EQ(objection("scene/gltf.cpp", "io/image_file.h"), "");
+    EXPECT_EQ(objection("io/image_file.h", "scene/scene.h"), "");
+    EXPECT_EQ(objection("passes/a.cpp", "graph/plan.h"), "");
+    EXPECT_EQ(objection("renderer.cpp", "io/image_file.h"), "");
+}
+
+TEST(Layering, EveryPassHasAReferenceAndATest) {
+    const fs::path tests = kSource / "tests" / "passes";
+    for (const fs::path& file : files_under(kSource / "engine" / "passes", {".cpp"})) {
+        const std::string text = text_of(file), pass = file.stem().string();
+        if (text.find(".dispatch(") == text.npos && text.find(".raster(") == text.npos) continue;  // declares no pass
+        EXPECT_TRUE(fs::exists(tests / (pass + "_reference.h"))) << pass;
+        EXPECT_TRUE(fs::exists(tests / (pass + "_test.cpp"))) << pass;
+    }
+}
+
+TEST(Layering, EveryTestOfAPassHasAReference) {
+    const std::string test = "_test", reference = "_reference";
+    for (const fs::path& file : files_under(kSource / "tests" / "passes", {".cpp"})) {
+        std::string stem = file.stem().string();
+        if (!stem.ends_with(test)) continue;
+        stem.resize(stem.size() - test.size());
+        // A reference is itself tested against the literature.
+        if (stem.ends_with(reference)) stem.resize(stem.size() - reference.size());
+        EXPECT_TRUE(fs::exists(file.parent_path() / (stem + "_reference.h"))) << file;
+    }
+}
+
+}  // namespace

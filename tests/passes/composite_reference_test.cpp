@@ -1,0 +1,125 @@
+// Tone mapping, colour and display model in double. SPDX-License-Identifier: MIT
+#include "passes/composite_reference.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace vesper::reference {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+
+/// A curve that shows 1 cd/m^2 and less as 1 cd/m^2, 100 and more as 100, and is straight in ln between: identity there.
+shared::ToneCurve identity() {
+    shared::ToneCurve c{};
+    c.bins = 20, c.ln_low = 0, c.bins_per_ln = float(20 / std::log(100.0));
+    for (int i = 0; i <= 20; ++i) c.node[i] = float(std::log(100.0) * i / 20);
+    return c;
+}
+
+shared::ToneCurve reinhard(double log_average, double key, double white) {
+    shared::ToneCurve c{};
+    c.reinhard_scale = float(key / log_average);
+    c.reinhard_white = float(std::pow(log_average / (key * white), 2));
+    return c;
+}
+
+// Mantiuk et al. 2008, the "lcd" preset of pfstools: 200 cd/m^2, black 0.8, 60 lx, k 0.01.
+TEST(CompositeReference, DisplayModel) {
+    EXPECT_NEAR(display_luminance(0, 200, 0.8, 2.2, 60, 0.01), 0.8 + 0.6 / 3.14159265358979, 1e-12);
+    EXPECT_NEAR(display_luminance(1, 200, 0.8, 2.2, 60, 0.01), 200 + 0.190986, 1e-6);
+    EXPECT_NEAR(display_luminance(0.5, 200, 0, 2, 0, 0), 50, 1e-12);
+}
+
+// tone-mapping.md, section 5: what pfstmo_reinhard02 gives for six decades with key 0.18 (its log average adds 1e-5).
+TEST(CompositeReference, ReinhardGivesThePublishedDigits) {
+    const shared::ToneCurve c = reinhard(3.162863, 0.18, 1000);
+    const std::pair<double, double> table[]{{0.01, 5.68781e-4}, {0.1, 5.65885e-3}, {1, 5.38470e-2},
+                                            {10, 0.3627576},    {100, 0.8520411},  {1000, 1}};
+    for (auto [scene, shown] : table)
+        EXPECT_NEAR(tone_mapped(scene, shared::kToneReinhard, c, 0, 1) / shown, 1, 3e-6) << scene;
+}
+
+TEST(CompositeReference, CurveIsRelativeToTheDisplaysRange) {
+    const shared::ToneCurve c = identity();
+    for (double y : {1.0, 3.0, 42.0, 100.0})
+        EXPECT_NEAR(tone_mapped(y, shared::kToneCurve, c, 1, 100), (y - 1) / 99, 1e-6) << y;
+    EXPECT_EQ(tone_mapped(1e-9, shared::kToneCurve, c, 1, 100), 0);
+    EXPECT_NEAR(tone_mapped(1e9, shared::kToneCurve, c, 1, 100), 1, 1e-6);
+}
+
+TEST(CompositeReference, LinearRunsFromLowToHigh) {
+    shared::ToneCurve c{};
+    c.linear_low = 10, c.linear_gain = 1.0f / 40;
+    EXPECT_EQ(tone_mapped(5, shared::kToneLinear, c, 0, 1), 0);
+    EXPECT_NEAR(tone_mapped(20, shared::kToneLinear, c, 0, 1), 0.25, 1e-7);
+    EXPECT_EQ(tone_mapped(1e6, shared::kToneLinear, c, 0, 1), 1);
+}
+
+TEST(CompositeReference, LuminanceIsKeptWhateverTheColour) {
+    const shared::ToneCurve c = identity();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 2000; ++i) {
+        const dvec3 rgb = dvec3(uniform(random), uniform(random), uniform(random)) * std::pow(10, 4 * uniform(random) - 1);
+        const dvec3 shown = displayed(rgb, shared::kToneCurve, c, 1, 100);
+        EXPECT_NEAR(luminance(shown), tone_mapped(luminance(rgb), shared::kToneCurve, c, 1, 100), 1e-12);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_GE(shown[k], 0);
+            EXPECT_LE(shown[k], 1 + 1e-12);
+        }
+    }
+}
+
+TEST(CompositeReference, BrightColoursGoTowardsGreyNoFartherThanTheyMust) {
+    shared::ToneCurve c{};
+    c.linear_gain = 1;
+    const dvec3 red = displayed({1.8, 0.1, 0.1}, shared::kToneLinear, c, 0, 1);
+    EXPECT_NEAR(red.x, 1, 1e-12) << "just in gamut";
+    EXPECT_NEAR(luminance(red), luminance({1.8, 0.1, 0.1}), 1e-7);
+    EXPECT_GT(red.y, 0.1);
+    EXPECT_EQ(displayed({0.9, 0.5, 0.1}, shared::kToneLinear, c, 0, 1), dvec3(0.9, 0.5, 0.1)) << "others are left alone";
+    EXPECT_EQ(displayed({30, 1, 1}, shared::kToneLinear, c, 0, 1), dvec3(1)) << "as bright as white: white";
+}
+
+TEST(CompositeReference, NeitherNanNorInfinityNorNegativeLightIsShown) {
+    const shared::ToneCurve c = identity();
+    for (uint32_t tone : {shared::kToneCurve, shared::kToneReinhard, shared::kToneLinear, shared::kToneLdr})
+        for (dvec3 rgb : {dvec3(kNan, 1, 1), dvec3(1, kInf, 1), dvec3(-kInf), dvec3(-1), dvec3(0)})
+            EXPECT_EQ(displayed(rgb, tone, c, 1, 100), dvec3(0));
+    EXPECT_EQ(displayed({0.5, 2, -1}, shared::kToneLdr, c, 1, 100), dvec3(0.5, 1, 0));
+    EXPECT_EQ(displayed({50, 50, -1}, shared::kToneCurve, c, 1, 100).z, 0);
+}
+
+TEST(CompositeReference, BilinearHitsTexelsAndTheMeansBetween) {
+    const std::vector<dvec3> image{dvec3(1), dvec3(2), dvec3(3), dvec3(8)};
+    const std::span<const dvec3> texels(image);
+    EXPECT_EQ(bilinear(texels, 2, 2, {1, 0}), dvec3(2));
+    EXPECT_EQ(bilinear(texels, 2, 2, {0.5, 0.5}), dvec3(3.5));
+    EXPECT_EQ(bilinear(texels, 2, 2, {-3, 0.25}), dvec3(1.5));
+    EXPECT_EQ(bilinear(texels, 2, 2, {9, 9}), dvec3(8));
+}
+
+TEST(CompositeReference, CodesInvertTheDisplaysGamma) {
+    EXPECT_EQ(code(dvec3(0, 1, 4), 1 / 2.2), dvec3(0, 255, 255));
+    EXPECT_NEAR(code(dvec3(std::pow(0.5, 2.2)), 1 / 2.2).x, 127.5, 1e-9);
+}
+
+TEST(CompositeReference, GlareOfEitherKindIsAdded) {
+    shared::ToneCurve c{};
+    c.linear_gain = 0.01f;
+    const std::vector<dvec3> scene(25, dvec3(20)), veil(25, dvec3(30)), ldr(4, dvec3(0.1));
+    const shared::CompositePush p{{5, 5}, 0, 1, 1, 2};
+    const auto value = [&](bool with_veil, bool with_ldr) {
+        const CompositeFrame<dvec3> frame{scene, with_veil ? std::span(veil) : std::span<const dvec3>{},
+                                          with_ldr ? std::span(ldr) : std::span<const dvec3>{}};
+        return composite(frame, {4, 2}, shared::kToneLinear, c, p).y / 255;
+    };
+    EXPECT_NEAR(value(false, false), 0.2, 1e-7);
+    EXPECT_NEAR(value(true, false), 0.5, 1e-7) << "luminance, before the curve";
+    EXPECT_NEAR(value(false, true), 0.4, 1e-7) << "displayed light times its gain, after it";
+}
+
+}  // namespace
+}  // namespace vesper::reference

@@ -1,0 +1,121 @@
+// Photometric shading, one pixel and one light after another. SPDX-License-Identifier: MIT
+// L = sum_k E_k (rho lambert + f_specular) + ambient rho lambert + emission, E_k = I_k cos / d^2 (Petit, Bremond and
+// Vienne; Lambert 1760).
+#pragma once
+
+#include <numbers>
+
+#include "passes/cluster_reference.h"
+#include "shared/shade.h"
+
+namespace vesper::reference {
+
+/// One pixel of the G-buffer.
+struct SurfaceTexel {
+    dvec4 reflectance{0};  ///< base colour, metallic
+    dvec4 surface{0};      ///< octahedral normal (2), depth in m (0: nothing), roughness
+    dvec3 emission{0};     ///< cd/m^2
+};
+
+/// Unit vector of an octahedral map (Meyer et al. 2010; Cigolle et al. 2014).
+inline dvec3 octahedral_decode(dvec2 e) {
+    const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
+    dvec3 n(e, 1 - std::abs(e.x) - std::abs(e.y));
+    if (n.z < 0) n = dvec3((1 - std::abs(e.y)) * sign(e.x), (1 - std::abs(e.x)) * sign(e.y), n.z);
+    return glm::normalize(n);
+}
+
+/// Its inverse.
+inline dvec2 octahedral_encode(dvec3 n) {
+    const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
+    n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    if (n.z >= 0) return dvec2(n);
+    return {(1 - std::abs(n.y)) * sign(n.x), (1 - std::abs(n.x)) * sign(n.y)};
+}
+
+/// Normal-incidence reflectance: the base colour of a metal, 0.04 (1 - a^2) of a dielectric, a = roughness^2.
+inline dvec3 normal_reflectance(dvec3 base, double metallic, double roughness) {
+    const double a = roughness * roughness;
+    return glm::mix(dvec3(0.04 * (1 - a * a)), base, metallic);
+}
+
+/// Specular reflection, sr^-1, and the part of it that rounding dot products by `epsilon` may change.
+struct Specular {
+    dvec3 value{0};
+    double relative_rounding = 0;
+};
+
+/// GGX (Walter et al. 2007, Eq. 33) with height-correlated Smith masking (Heitz 2014, Eq. 99) and Schlick's Fresnel term
+/// (1994), whose grazing reflectance fades with F0 (Lagarde and de Rousiers 2014: clamp(F0 / 0.04)).
+inline Specular specular(dvec3 n, dvec3 l, dvec3 v, dvec3 f0, double roughness, double epsilon = 3e-7) {
+    const double a = std::max(roughness * roughness, 1e-3), a2 = a * a;
+    const dvec3 h = glm::normalize(l + v);
+    const double nl = glm::dot(n, l), nv = std::max(glm::dot(n, v), 1e-4);
+    const double nh = std::max(glm::dot(n, h), 0.0), vh = glm::dot(v, h);
+    const double q = nh * nh * (a2 - 1) + 1;
+    const double distribution = a2 / (std::numbers::pi * q * q);
+    const double masking = 0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
+    const double f90 = std::clamp(25 * std::max({f0.x, f0.y, f0.z}), 0.0, 1.0);
+    const dvec3 fresnel = f0 + (f90 - f0) * std::pow(1 - vh, 5);
+    // d(1/q^2) = 2 dq / q with dq = 2 nh d(nh); masking moves with n.l and n.v relative to their size.
+    const double rounding = 4 * epsilon / q + epsilon / std::max(nl, a) + epsilon / std::max(nv, a);
+    return {distribution * masking * fresnel, std::min(rounding, 1.0)};
+}
+
+/// Scene luminance, and what single precision may change of it.
+struct Shaded {
+    dvec3 luminance{0};  ///< cd/m^2 RGB
+    dvec3 rounding{0};   ///< cd/m^2, first order
+};
+
+/// Adds one light. A lamp counts where it gives at least `threshold` lx on a surface facing it; a directional light
+/// always does. Light that arrives from below the surface does not count.
+inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
+                      double roughness, double threshold, Shaded& sum) {
+    const dvec3 v = glm::normalize(-point);
+    const bool lamp = kind != LightKind::Directional;
+    const dvec3 path = lamp ? dvec3(light.position) - point : -dvec3(light.axis);
+    const double d = glm::length(path);
+    if (!(d > 0)) return;
+    const dvec3 l = path / d;
+    // Positions are rounded relative to their distance from the eye, which weighs more the nearer the lamp is.
+    const double epsilon = 3e-7 * (lamp ? 1 + (glm::length(point) + glm::length(dvec3(light.position))) / d : 1);
+    const double cosine = glm::dot(dvec3(light.axis), -l), d2 = lamp ? d * d : 1.0;
+    const double e = intensity(light, kind, cosine) / d2;
+    const double more = intensity(light, kind, std::min(cosine + epsilon, 1.0)) / d2 * (1 + 3 * epsilon);
+    const double less = intensity(light, kind, cosine - epsilon) / d2 * (1 - 3 * epsilon);
+    const double nl = glm::dot(n, l);
+    if (nl <= -epsilon || (lamp && std::max(more, less) < threshold)) return;
+
+    const Specular s = specular(n, l, v, f0, roughness, epsilon);
+    const dvec3 reflected = dvec3(light.colour) * (rho_lambert + s.value);
+    if (nl > 0 && (!lamp || e >= threshold)) sum.luminance += reflected * e * nl;
+    const bool uncertain = lamp && (std::min(more, less) < threshold) != (std::max(more, less) < threshold);
+    const double brightest = std::max(more, less);
+    sum.rounding += uncertain ? reflected * brightest * std::max(nl, 0.0) : reflected * std::abs(more - less) * std::max(nl, 0.0);
+    sum.rounding += glm::abs(reflected) * brightest * epsilon +
+                    dvec3(light.colour) * s.value * brightest * std::max(nl, 0.0) * s.relative_rounding;
+}
+
+/// One pixel, in the view frame with the eye at the origin. Lights sorted as p.lights counts them.
+inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<const shared::Light> lights,
+                    const shared::ShadePush& p) {
+    const double depth = texel.surface.z;
+    if (!(depth > 0)) return {dvec3(p.sky), dvec3(0)};
+    const dvec3 point = view_position(p.grid, dvec2(pixel) + 0.5, depth);
+    const dvec3 n = octahedral_decode(dvec2(texel.surface));
+    const dvec3 base(texel.reflectance);
+    const double metallic = texel.reflectance.w, roughness = texel.surface.w;
+    const dvec3 rho_lambert = base * (1 - metallic) * double(p.lambert);
+    const dvec3 f0 = normal_reflectance(base, metallic, roughness);
+
+    Shaded sum;
+    const size_t count = size_t(p.lights.cones) + p.lights.powers + p.lights.directional;
+    for (size_t i = 0; i < count; ++i)
+        add_light(lights[i], kind_of(i, p.lights), point, n, rho_lambert, f0, roughness, p.threshold, sum);
+    sum.luminance += dvec3(p.ambient) * base * double(p.lambert);  // a metal reflects its base colour too
+    sum.luminance += glm::min(texel.emission, dvec3(double(p.emission_limit)));
+    return sum;
+}
+
+}  // namespace vesper::reference

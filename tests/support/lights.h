@@ -1,0 +1,62 @@
+// Lamps to test with, in the view frame. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include <glm/glm.hpp>
+
+#include "passes/passes.h"
+
+namespace vesper::test {
+
+/// How many lamps of each kind.
+struct LampMix {
+    uint32_t cones = 0, powers = 0, directional = 0;
+};
+
+/// Half of them points and spots, half of them cosine powers.
+inline LampMix half_and_half(uint32_t count) { return {(count + 1) / 2, count / 2, 0}; }
+
+/// Lamps at random along a street 400 m long that begins 20 m behind the eye, `candela` (within a factor of ten) each.
+inline LightList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(0, 1);
+    std::normal_distribution<float> normal;
+    const auto direction = [&](glm::vec3 towards) {
+        return glm::normalize(towards + 0.6f * glm::vec3(normal(random), normal(random), normal(random)));
+    };
+    const auto colour = [&] {
+        const glm::vec3 c(0.4f + unit(random), 0.4f + unit(random), 0.4f + unit(random));
+        return c / glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    };
+    LightList list;
+    list.counts = {mix.cones, mix.powers, mix.directional};
+    for (uint32_t i = 0; i < mix.cones + mix.powers; ++i) {
+        shared::Light lamp{};
+        lamp.position = {40 * unit(random) - 20, 8 * unit(random) - 1.2f, 20 - 400 * unit(random)};
+        lamp.intensity = candela * std::pow(10.0f, 2 * unit(random) - 1);
+        lamp.axis = direction({0, -1, 0});
+        lamp.colour = colour();
+        lamp.right = {1, 0, 0};
+        lamp.distribution = -1;
+        if (i >= mix.cones) {
+            lamp.lobe_a = 1 + 60 * unit(random) * unit(random);
+        } else if (i % 2 == 0) {
+            lamp.lobe_a = 0, lamp.lobe_b = 1;  // a point
+        } else {
+            const float inner = 0.2f + 0.4f * unit(random), outer = inner + 0.1f + 0.5f * unit(random);
+            lamp.lobe_a = 1 / (std::cos(inner) - std::cos(outer));
+            lamp.lobe_b = -std::cos(outer) * lamp.lobe_a;
+        }
+        list.lights.push_back(lamp);
+    }
+    for (uint32_t i = 0; i < mix.directional; ++i) {
+        shared::Light moon{};
+        moon.intensity = 0.3f * unit(random), moon.axis = direction({0, -1, -1}), moon.colour = colour(), moon.distribution = -1;
+        list.lights.push_back(moon);
+    }
+    return list;
+}
+
+}  // namespace vesper::test

@@ -6,7 +6,7 @@
 // the sphere around the cell: the largest intensity in the cone of directions that the sphere subtends, over the square
 // of the nearest distance. Lights are tried in ascending order, so lists are ascending and the same on every run.
 
-#include "shared/cluster.h"
+#include "reach.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -17,8 +17,6 @@ layout(binding = 3, r32ui) writeonly uniform uimageBuffer counts;
 layout(binding = 4, r32ui) writeonly uniform uimageBuffer indices;
 layout(binding = 5, scalar) buffer Report { ClusterReport report; };
 layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
-
-const float kSlack = 1.001;  // float rounding never costs a light
 
 vec3 centre;
 float radius;
@@ -41,36 +39,19 @@ void bound_cell(uvec3 cell) {
     radius *= kSlack;
 }
 
-// Distance to the cell's centre, and the cosine of the smallest angle between the lamp's axis and the cell.
-vec2 nearest_direction(vec3 position, vec3 axis) {
-    const vec3 to = centre - position;
-    const float away = length(to);
-    if (away <= radius) return vec2(away, 1.0);
-    const float cosine = clamp(dot(axis, to) / away, -1.0, 1.0);
-    const float sin_half = radius / away, cos_half = sqrt(1.0 - sin_half * sin_half);
-    if (cosine >= cos_half) return vec2(away, 1.0);
-    return vec2(away, min(1.0, cosine * cos_half + sqrt(1.0 - cosine * cosine) * sin_half + 1e-4));
-}
-
-bool reaches(float intensity, float away) {
-    const float nearest = away - radius;
-    return nearest <= 0.0 || kSlack * intensity >= push.view.threshold * nearest * nearest;
-}
-
 bool cone_reaches(int light) {
     const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
     const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
-    const float offset = texelFetch(lights, light * int(kTexelsPerLight) + 2).w;
-    const vec2 nearest = nearest_direction(a.xyz, b.xyz);
-    const float ramp = clamp(b.w * nearest.y + offset, 0.0, 1.0);
-    return ramp > 0.0 && reaches(a.w * ramp * ramp, nearest.x);
+    const float lobe_b = texelFetch(lights, light * int(kTexelsPerLight) + 2).w;
+    const float largest = a.w * largest_cone(b.w, lobe_b, nearest_cosine(a.xyz, b.xyz, centre, radius));
+    return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
 bool power_reaches(int light) {
     const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
     const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
-    const vec2 nearest = nearest_direction(a.xyz, b.xyz);
-    return nearest.y > 0.0 && reaches(a.w * exp2(b.w * log2(nearest.y)), nearest.x);
+    const float largest = a.w * largest_power(b.w, nearest_cosine(a.xyz, b.xyz, centre, radius));
+    return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
 void main() {

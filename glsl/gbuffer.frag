@@ -1,6 +1,9 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
 
 // G-buffer, fragments: the surface seen by each pixel. Variants without some texture never sample it.
+
+#include "normal.glsl"
 
 layout(constant_id = 0) const uint kBaseTexture = 1u;
 layout(constant_id = 1) const uint kMetallicRoughnessTexture = 1u;
@@ -21,13 +24,6 @@ layout(location = 0) out vec4 out_reflectance;
 layout(location = 1) out vec4 out_surface;
 layout(location = 2) out vec4 out_emission;
 
-// Octahedral map of a unit vector (Meyer et al. 2010): two numbers in [-1, 1].
-vec2 octahedral(vec3 n) {
-    const vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
-    const vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
-    return n.z < 0.0 ? folded : p;
-}
-
 void main() {
     vec4 base = base_colour;
     if (kBaseTexture != 0u) base *= texture(base_texture, texture_uv);
@@ -40,6 +36,6 @@ void main() {
 
     const vec3 normal = normalize(gl_FrontFacing ? view_normal : -view_normal);
     out_reflectance = vec4(base.rgb, m.x);
-    out_surface = vec4(octahedral(normal), 1.0 / gl_FragCoord.w, m.y);
+    out_surface = vec4(encode_normal(normal), 1.0 / gl_FragCoord.w, m.y);
     out_emission = vec4(emission, 1.0);
 }

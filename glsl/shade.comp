@@ -1,11 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 
 // Photometric shading: L = sum_k E_k (rho lambert + specular) + ambient + emission in cd/m^2, without any windowing of
-// the inverse square. Every invocation shades kRows pixels of one column, so that a light is fetched once for all of them;
-// it walks the froxels its pixels lie in, and adds to each pixel only the lights of that pixel's own froxel.
+// the inverse square. Every invocation shades kRows pixels of one column, so that a light is fetched once for all of them.
+// Every block of pixels has a list of lights; each of its pixels takes those for its own slice.
 
+#include "normal.glsl"
 #include "shared/photometry.h"
 #include "shared/shade.h"
 
@@ -17,25 +19,20 @@ layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) readonly uniform image2D emission_image;
 layout(binding = 3) uniform samplerBuffer lights;
-layout(binding = 4) uniform usamplerBuffer counts;
-layout(binding = 5) uniform usamplerBuffer indices;
+layout(binding = 4) uniform usamplerBuffer block_counts;
+layout(binding = 5) uniform usamplerBuffer entries;
 layout(binding = 6, rgba32f) writeonly uniform image2D scene_image;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
-const uint kNoSlice = 32u;  // of a pixel where nothing is drawn
+const uint kNoSlice = 32u;     // of a pixel where nothing is drawn
+const uint kEverySlice = 33u;  // of a light that all pixels take
 
 vec3 position[kRows], normal[kRows], toward_eye[kRows];
 float alpha_squared[kRows], normal_eye[kRows];  // GGX a^2, cosine towards the eye
 uint slice[kRows];
 vec3 diffuse[kRows];                  // illuminance, lx RGB
 vec3 specular[kRows], grazing[kRows]; // sums that F0 and F90 multiply, cd/m^2 RGB
-uint shiny;                           // 1 if any of the pixels has a specular lobe
-
-vec3 decode_normal(vec2 p) {
-    const float z = 1.0 - abs(p.x) - abs(p.y);
-    const vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
-    return normalize(vec3(z < 0.0 ? folded : p, z));
-}
+bool shiny;                           // true if any of the pixels has a specular lobe
 
 // GGX distribution (Walter et al. 2007) times height-correlated Smith visibility (Heitz 2014), without Fresnel.
 float microfacets(uint r, float normal_half, float normal_light) {
@@ -46,13 +43,17 @@ float microfacets(uint r, float normal_half, float normal_light) {
     return 0.5 * a2 / (kPi * bump * bump * smith);
 }
 
-// Light of illuminance e (lx RGB, on the surface) arriving from a direction.
+// Light of illuminance e (lx RGB, on the surface) arriving from a direction. The half vector is not needed itself: with
+// l and v of unit length, n.h = (n.l + n.v) / |l + v| and v.h = |l + v| / 2. |l + v|^2 is summed, not taken as 2 + 2 l.v:
+// towards a headlamp down the road l is nearly -v, and that difference would be nothing but rounding.
 void reflect_light(uint r, vec3 e, vec3 toward_light, float normal_light) {
-    const vec3 half_way = normalize(toward_light + toward_eye[r]);
-    const float lobe = microfacets(r, clamp(dot(normal[r], half_way), 0.0, 1.0), normal_light);
-    const float off = 1.0 - clamp(dot(toward_eye[r], half_way), 0.0, 1.0);
-    const float off2 = off * off;
-    const float schlick = off2 * off2 * off;
+    const vec3 sum = toward_light + toward_eye[r];
+    const float squared = max(dot(sum, sum), 1e-8);
+    const float inverse = inversesqrt(squared);
+    const float normal_half = clamp((normal_light + dot(normal[r], toward_eye[r])) * inverse, 0.0, 1.0);
+    const float off = max(1.0 - 0.5 * squared * inverse, 0.0);
+    const float lobe = microfacets(r, normal_half, normal_light);
+    const float schlick = off * off * off * off * off;
     specular[r] += e * (lobe * (1.0 - schlick));
     grazing[r] += e * (lobe * schlick);
 }
@@ -72,9 +73,9 @@ Lamp fetch(uint index) {
     return Lamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w);
 }
 
-// Adds a lamp to the pixels whose froxel is `at`. `power`: cosine power rather than cone.
-void add_lamp(Lamp lamp, uint at, bool power) {
-    for (uint r = 0u; r < kRows; ++r) {
+// Adds a lamp to the pixels of a slice. `power`: cosine power rather than cone. `glossy`: with specular lobe.
+void add_lamp(Lamp lamp, uint at, bool power, bool glossy) {
+    [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const vec3 to = lamp.position - position[r];
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
         const vec3 toward_light = to * inverse;
@@ -88,57 +89,60 @@ void add_lamp(Lamp lamp, uint at, bool power) {
             relative = ramp * ramp;
         }
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
-        const bool counts_here = facing >= push.threshold && normal_light > 0.0 && slice[r] == at;
+        const bool counts_here = facing >= push.threshold && normal_light > 0.0 && (slice[r] == at || at == kEverySlice);
         const vec3 e = lamp.colour * (counts_here ? facing * normal_light : 0.0);
         diffuse[r] += e;
-        // A loop of no or one turn: a CPU device jumps over it where no pixel is shiny, and would not over an if.
-        for (uint turn = 0u; turn < shiny; ++turn)
-            if (counts_here) reflect_light(r, e, toward_light, normal_light);
+        if (glossy) reflect_light(r, e, toward_light, max(normal_light, 0.0));
     }
 }
 
-void add_froxel(uvec2 pixel, uint at) {
-    uint cones = push.lights.cones, powers = push.lights.powers, list = 0u;
-    bool all_of_them = true;
-    if (kEveryLight == 0u) {
-        const uvec2 tile = pixel / kTileSize;
-        const uint cell = (at * push.grid.tiles_y + tile.y) * push.grid.tiles_x + tile.x;
-        const uint listed = texelFetch(counts, int(2u * cell)).r;
-        all_of_them = listed == kAllLights;
-        if (!all_of_them) {
-            cones = listed;
-            powers = texelFetch(counts, int(2u * cell + 1u)).r;
-            list = cell * push.grid.capacity;
-        }
-    }
-    for (uint i = 0u; i < cones; ++i)
-        add_lamp(fetch(all_of_them ? i : texelFetch(indices, int(list + i)).r), at, false);
-    for (uint i = 0u; i < powers; ++i)
-        add_lamp(fetch(all_of_them ? cones + i : texelFetch(indices, int(list + cones + i)).r), at, true);
+// The list of a block: entries of cones from the front, of powers from the back. Or, all of them, every light there is.
+struct List {
+    uint cones, powers, first, last;
+    bool all_of_them;
+};
+
+List list_of(uint block) {
+    const List every_light = List(push.lights.cones, push.lights.powers, 0u, push.lights.cones + push.lights.powers - 1u, true);
+    if (kEveryLight != 0u) return every_light;
+    const uint cones = texelFetch(block_counts, int(2u * block)).r;
+    if (cones == kAllLights) return every_light;
+    const uint first = block * push.capacity;
+    return List(cones, texelFetch(block_counts, int(2u * block + 1u)).r, first, first + push.capacity - 1u, false);
+}
+
+void add_entry(List list, uint at, uint number, bool power, bool glossy) {
+    const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
+    const uint light = list.all_of_them ? number : entry & ((1u << kSliceShift) - 1u);
+    add_lamp(fetch(light), list.all_of_them ? kEverySlice : entry >> kSliceShift, power, glossy);
+}
+
+void add_lamps(List list, bool glossy) {
+    for (uint i = 0u; i < list.cones; ++i) add_entry(list, list.first + i, i, false, glossy);
+    for (uint i = 0u; i < list.powers; ++i) add_entry(list, list.last - i, list.cones + i, true, glossy);
 }
 
 void add_directional() {
     const uint first = push.lights.cones + push.lights.powers;
     for (uint i = 0u; i < push.lights.directional; ++i) {
         const Lamp lamp = fetch(first + i);
-        for (uint r = 0u; r < kRows; ++r) {
+        [[unroll]] for (uint r = 0u; r < kRows; ++r) {
             const float normal_light = dot(normal[r], -lamp.axis);
             const bool lit = normal_light > 0.0 && slice[r] != kNoSlice;
             const vec3 e = lamp.colour * (lit ? lamp.intensity * normal_light : 0.0);
             diffuse[r] += e;
-            if (lit && shiny != 0u) reflect_light(r, e, -lamp.axis, normal_light);
+            if (lit && shiny) reflect_light(r, e, -lamp.axis, normal_light);
         }
     }
 }
 
 void main() {
-    const uint block = gl_WorkGroupID.x * push.block_step % push.blocks;
-    const uvec2 corner = uvec2(block % push.blocks_x, block / push.blocks_x) * gl_WorkGroupSize.xy * uvec2(1u, kRows);
-    const uvec2 first = corner + gl_LocalInvocationID.xy * uvec2(1u, kRows);
+    const uint group = gl_WorkGroupID.x * push.group_step % push.groups;
+    const uvec2 invocation = uvec2(group % push.groups_x, group / push.groups_x) * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
+    const uvec2 first = invocation * uvec2(1u, kRows);
 
-    uint slices = 0u;
-    shiny = 0u;
-    for (uint r = 0u; r < kRows; ++r) {
+    shiny = false;
+    [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const uvec2 pixel = first + uvec2(0u, r);
         const vec4 surface = imageLoad(surface_image, ivec2(pixel));
         const bool drawn = surface.z > 0.0 && all(lessThan(pixel, push.size));
@@ -153,21 +157,21 @@ void main() {
         slice[r] = kNoSlice;
         if (drawn) {
             slice[r] = uint(clamp(log2(depth) * push.grid.slice_scale + push.grid.slice_bias, 0.0, float(push.grid.slices) - 1.0));
-            slices |= 1u << slice[r];
             const float metallic = imageLoad(reflectance_image, ivec2(pixel)).a;
-            if (surface.w < 1.0 || metallic > 0.0) shiny = 1u;
+            if (surface.w < 1.0 || metallic > 0.0) shiny = true;
         }
         diffuse[r] = specular[r] = grazing[r] = vec3(0.0);
     }
 
-    while (slices != 0u) {
-        const uint at = uint(findLSB(slices));
-        slices &= slices - 1u;
-        add_froxel(first, at);
-    }
+    // Two loops, of which a CPU device skips the one that none of its lanes takes; it would not skip an if.
+    const uvec2 block = min(first, push.size - 1u) / kBlockSize;
+    const List list = list_of(block.y * push.blocks_x + block.x);
+    const List none = List(0u, 0u, 0u, 0u, false);
+    add_lamps(shiny ? none : list, false);
+    add_lamps(shiny ? list : none, true);
     add_directional();
 
-    for (uint r = 0u; r < kRows; ++r) {
+    [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const uvec2 pixel = first + uvec2(0u, r);
         const vec4 reflectance = imageLoad(reflectance_image, ivec2(pixel));
         const vec3 base = reflectance.rgb, rho = base * (1.0 - reflectance.a);

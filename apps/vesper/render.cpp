@@ -132,7 +132,7 @@ void run(RenderArguments& arguments) {
         file_of_frame(output, 0, arguments.frames);
         (ends_with(output, ".png") ? outputs.display : outputs.scene) = true;
     }
-    if (arguments.outputs.empty() && !arguments.statistics && !arguments.plan) throw Error("nothing to do: give -o, --stats or --plan");
+    if (arguments.outputs.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan) throw Error("nothing to do: give -o, --stats, --stats-json or --plan");
     if (arguments.lambert != "physical" && arguments.lambert != "paper") throw Error("--lambert " + arguments.lambert + ": physical or paper");
     arguments.settings.paper_lambert = arguments.lambert == "paper";
     if (arguments.foveal_level > 0) arguments.settings.foveal_level = uint32_t(arguments.foveal_level);

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Generate the *Rivoli* street database beside this file, or check that the files here are what it generates.
 
-    python3 data/rivoli/generate.py            write rivoli.gltf, rivoli.bin, rivoli.photometry.json, textures/
-    python3 data/rivoli/generate.py --check    regenerate into a temporary folder and compare byte for byte
+python3 data/rivoli/generate.py            write rivoli.gltf, rivoli.bin, rivoli.photometry.json, textures/
+python3 data/rivoli/generate.py --check    regenerate into a temporary folder and compare byte for byte
 """
 
 import argparse

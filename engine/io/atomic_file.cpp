@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <utility>
 #include <system_error>
+#include <utility>
 
 #include "base/error.h"
 
@@ -99,13 +99,15 @@ void replace_file(const fs::path& file, std::span<const uint8_t> bytes) {
     if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(file, bytes);
 
     // A link stays a link: what it points at is replaced.
-    const fs::path resolved = fs::is_symlink(fs::symlink_status(file, ignored)) ? fs::weakly_canonical(file, ignored) : file;
+    const fs::path resolved =
+        fs::is_symlink(fs::symlink_status(file, ignored)) ? fs::weakly_canonical(file, ignored) : file;
     const fs::path target = resolved.empty() ? file : resolved;
     const fs::path temporary = temporary_beside(target);
     Descriptor out(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (out.number() < 0) fail(file, "cannot be written", errno);
     int code = write_all(out.number(), bytes);
-    if (code == 0 && fs::exists(status) && ::fchmod(out.number(), static_cast<mode_t>(status.permissions())) != 0) code = errno;
+    if (code == 0 && fs::exists(status) && ::fchmod(out.number(), static_cast<mode_t>(status.permissions())) != 0)
+        code = errno;
     const int closing = out.close();
     if (code == 0) code = closing;
     if (code == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) code = errno;

@@ -33,9 +33,12 @@ struct Job {
 bool acceptable(Job& job, uint64_t width, uint64_t height, uint64_t max_texels_per_byte) {
     const char* why = nullptr;
     if (width == 0 || height == 0) why = "has no pixels";
-    if (width > job.max_side || height > job.max_side) why = "is larger than the limit for one side";
-    else if (width * height > job.max_texels) why = "takes the images over the limit of texels";
-    else if (width * height / max_texels_per_byte > job.bytes.size()) why = "is cut off";
+    if (width > job.max_side || height > job.max_side)
+        why = "is larger than the limit for one side";
+    else if (width * height > job.max_texels)
+        why = "takes the images over the limit of texels";
+    else if (width * height / max_texels_per_byte > job.bytes.size())
+        why = "is cut off";
     if (!why) return true;
     std::snprintf(job.reason, sizeof job.reason, "picture of %llu x %llu px %s", static_cast<unsigned long long>(width),
                   static_cast<unsigned long long>(height), why);
@@ -164,7 +167,8 @@ bool decode_jpeg(Job& job) {
         const size_t y = jpeg.output_scanline;
         JSAMPROW row = job.row.data();
         jpeg_read_scanlines(&jpeg, &row, 1);
-        expand_row(row, jpeg.output_components, jpeg.saw_Adobe_marker, std::span(job.image.rgba).subspan(y * stride, stride));
+        expand_row(row, jpeg.output_components, jpeg.saw_Adobe_marker,
+                   std::span(job.image.rgba).subspan(y * stride, stride));
     }
     jpeg_finish_decompress(&jpeg);
     jpeg_destroy_decompress(&jpeg);
@@ -200,10 +204,15 @@ Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t m
     job.max_texels = max_texels;
     const std::string type = media_type(bytes);
     bool done = false;
-    if (type == "image/png") done = decode_png(job);
-    else if (type == "image/jpeg") done = decode_jpeg(job);
-    else throw Error(type.empty() ? "is neither PNG nor JPEG" : "is " + type + ", neither PNG nor JPEG");
-    if (!done) throw Error(one_line(std::string(type == "image/png" ? "PNG: " : "JPEG: ") + (job.reason[0] ? job.reason : "out of memory")));
+    if (type == "image/png")
+        done = decode_png(job);
+    else if (type == "image/jpeg")
+        done = decode_jpeg(job);
+    else
+        throw Error(type.empty() ? "is neither PNG nor JPEG" : "is " + type + ", neither PNG nor JPEG");
+    if (!done)
+        throw Error(one_line(std::string(type == "image/png" ? "PNG: " : "JPEG: ") +
+                             (job.reason[0] ? job.reason : "out of memory")));
     return std::move(job.image);
 }
 

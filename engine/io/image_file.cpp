@@ -22,8 +22,8 @@ namespace {
 
 void check_size(const std::filesystem::path& file, uint32_t width, uint32_t height, size_t values) {
     if (width == 0 || height == 0 || static_cast<uint64_t>(width) * height * 4 != values)
-        throw Error(one_line(file.string()) + ": a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                    " px does not have " + std::to_string(values) + " values");
+        throw Error(one_line(file.string()) + ": a picture of " + std::to_string(width) + " x " +
+                    std::to_string(height) + " px does not have " + std::to_string(values) + " values");
 }
 
 struct PngJob {

@@ -35,7 +35,7 @@ GBuffer add_gbuffer(FrameGraph&, const ResidentScene&, const SceneFrame&, const 
 struct ClusterSettings {
     float threshold = 0.001f;      ///< lx: a lamp counts where it gives at least this on a surface facing it
     uint32_t slices = 32;
-    uint32_t capacity = 256;       ///< lights a froxel lists before it falls back to all lights
+    uint32_t capacity = 512;       ///< lights a froxel lists before it falls back to all lights
     float far = 0;                 ///< m, where geometry ends; 0: unknown, lamps alone decide
 };
 

@@ -7,21 +7,34 @@
 namespace vesper {
 namespace {
 
-// A stride through `blocks` that visits each once and keeps neighbours in time far apart: near the golden section.
-uint32_t scatter_step(uint32_t blocks) {
-    uint32_t step = std::max(1u, uint32_t(blocks * 0.618));
-    while (std::gcd(step, blocks) != 1) ++step;
+constexpr uint32_t kBlockCapacity = 256;  // lights of a block of pixels; more, and it looks at every light
+
+// A stride through `groups` that visits each once and keeps neighbours in time far apart: near the golden section.
+uint32_t scatter_step(uint32_t groups) {
+    uint32_t step = std::max(1u, uint32_t(groups * 0.618));
+    while (std::gcd(step, groups) != 1) ++step;
     return step;
 }
 
 }  // namespace
 
 Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g, const Clusters& clusters, const View& view, const ShadeSettings& settings) {
+    const Groups block_grid = cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
+    const uint32_t blocks = block_grid.x * block_grid.y;
+    const Groups group_grid = cover(view.extent.width, view.extent.height, kernels.shade_group.width, kernels.shade_group.height * kernels.shade_rows);
+    const uint32_t groups = group_grid.x * group_grid.y;
+    const glm::uvec2 pixels{view.extent.width, view.extent.height};
+    constexpr uint64_t kWord = sizeof(uint32_t);
+
+    const Resource counts = graph.transient("block counts", buffer_shape(blocks * 2 * kWord, VK_FORMAT_R32_UINT));
+    const Resource entries = graph.transient("block entries", buffer_shape(blocks * kBlockCapacity * kWord, VK_FORMAT_R32_UINT));
+    graph.dispatch("select", kernels.select,
+                   {load(g.surface), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(counts), store(entries)},
+                   shared::SelectPush{clusters.push, pixels, block_grid.x, blocks, kBlockCapacity},
+                   cover(blocks, 1, kernels.select.group[0], 1));
+
     const Resource scene = graph.transient("scene", image_shape(kSceneFormat, view.extent));
-    const Kernel& kernel = settings.all_lights ? kernels.shade_every_light : kernels.shade;
-    const Groups grid = cover(view.extent.width, view.extent.height, kernels.shade_group.width, kernels.shade_group.height * kernels.shade_rows);
-    const uint32_t blocks = grid.x * grid.y;
-    const shared::ShadePush push{.size = {view.extent.width, view.extent.height},
+    const shared::ShadePush push{.size = pixels,
                                  .grid = clusters.push.grid,
                                  .lights = clusters.push.lights,
                                  .threshold = clusters.push.threshold,
@@ -29,12 +42,14 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
                                  .emission_limit = settings.emission_limit,
                                  .ambient = settings.ambient,
                                  .sky = settings.sky,
-                                 .blocks_x = grid.x,
-                                 .blocks = blocks,
-                                 .block_step = scatter_step(blocks)};
-    graph.dispatch("shade", kernel,
-                   {load(g.reflectance), load(g.surface), load(g.emission), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(scene)},
-                   push, {blocks, 1, 1});
+                                 .blocks_x = block_grid.x,
+                                 .capacity = kBlockCapacity,
+                                 .groups_x = group_grid.x,
+                                 .groups = groups,
+                                 .group_step = scatter_step(groups)};
+    graph.dispatch("shade", settings.all_lights ? kernels.shade_every_light : kernels.shade,
+                   {load(g.reflectance), load(g.surface), load(g.emission), sample(clusters.lights), sample(counts), sample(entries), store(scene)},
+                   push, {groups, 1, 1});
     return scene;
 }
 

@@ -7,6 +7,7 @@
 #include "shaders/composite.comp.inc"
 #include "shaders/histogram.comp.inc"
 #include "shaders/pyramid.comp.inc"
+#include "shaders/select.comp.inc"
 #include "shaders/shade.comp.inc"
 #include "shared/tone.h"
 
@@ -37,6 +38,7 @@ Kernels::Kernels(const Device& device)
     : cluster(device, "cluster.comp", cluster_comp),
       shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{8, 8}),
       shade_rows(device.is_cpu() ? 8 : 1),
+      select(device, "select.comp", select_comp),
       shade(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 0}),
       shade_every_light(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 1}),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),

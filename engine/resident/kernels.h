@@ -11,7 +11,8 @@ namespace vesper {
 struct Kernels {
     Kernel cluster;
     VkExtent2D shade_group;  ///< invocations per workgroup of the shading kernels
-    uint32_t shade_rows;     ///< pixels of a column that one invocation shades
+    uint32_t shade_rows;     ///< pixels of a column that one invocation shades; divides shared::kBlockSize
+    Kernel select;
     Kernel shade, shade_every_light;
     Kernel pyramid_first, pyramid;
     Kernel histogram, adapt;

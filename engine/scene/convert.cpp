@@ -24,7 +24,8 @@ json quantity_of(const char* name, const ColouredQuantity& quantity) {
 }
 
 /// The extras block, docs/photometry.md.
-json block_of(const Conversion& conversion, const std::filesystem::path& input, const std::filesystem::path& photometry) {
+json block_of(const Conversion& conversion, const std::filesystem::path& input,
+              const std::filesystem::path& photometry) {
     const Photometry& p = conversion.photometry;
     json block = {{"version", 1}};
     block["transfer"] = {{"kind", p.transfer.kind == Transfer::Kind::Gamma ? "gamma" : "srgb"}};
@@ -43,14 +44,15 @@ void describe_rest(Conversion& conversion) {
     const Photometry& p = conversion.photometry;
     auto& changes = conversion.report.changes;
     const bool gamma = p.transfer.kind == Transfer::Kind::Gamma;
-    changes.push_back("textures: " + std::to_string(conversion.document.list("images").size()) + " pictures kept as they are, read as reflectance by " +
+    changes.push_back("textures: " + std::to_string(conversion.document.list("images").size()) +
+                      " pictures kept as they are, read as reflectance by " +
                       (gamma ? "code^" + decimal(p.transfer.gamma) : "the sRGB curve"));
     if (p.ambient) changes.push_back("ambient: " + decimal(p.ambient->value) + " lx");
     if (p.sky) changes.push_back("sky: " + decimal(p.sky->value) + " cd/m^2");
-    for (const std::string& note : conversion.original.notes.lines()) conversion.report.warnings.push_back(note);
 }
 
-void check_paths(const std::filesystem::path& input, const std::filesystem::path& photometry, const std::filesystem::path& output) {
+void check_paths(const std::filesystem::path& input, const std::filesystem::path& photometry,
+                 const std::filesystem::path& output) {
     const std::string extension = output.extension().string();
     if (extension != ".gltf" && extension != ".glb")
         throw Error(one_line(output.string()) + ": the output must be named .gltf or .glb");
@@ -85,7 +87,7 @@ std::string in_quotes(const std::string& name) { return "'" + one_line(name) + "
 namespace {
 
 ConversionReport convert_checked(const std::filesystem::path& input, const std::filesystem::path& photometry,
-                         const std::filesystem::path& output, const std::optional<Transfer>& transfer,
+                                 const std::filesystem::path& output, const std::optional<Transfer>& transfer,
                                  const SceneLimits& limits) {
     check_paths(input, photometry, output);
     Photometry rules = read_photometry(photometry);
@@ -94,7 +96,8 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     GltfDocument document(input, limits);
     if (const auto extras = document.root().find("extras")) {
         if (!extras->json().is_object()) extras->fail("must be an object to take the vesper block");
-        if (const auto block = extras->find("vesper")) block->fail("the file has been converted already: convert the original");
+        if (const auto block = extras->find("vesper"))
+            block->fail("the file has been converted already: convert the original");
     }
     GltfReader original{.document = document, .limits = limits};
     read_all(original);
@@ -106,6 +109,13 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     describe_rest(conversion);
     json& root = document.edit();
     object_member(document, root, "extras")["vesper"] = block_of(conversion, input, photometry);
+
+    // What will be written is read first: it must load, and be plausible, with nothing else beside it.
+    original.scene = {};  // two large scenes at once would be one too many
+    GltfReader result{.document = document, .limits = limits};
+    read_all(result);
+    check_reflectances(result.scene, report);
+    for (const std::string& note : result.notes.lines()) report.warnings.push_back(note);
     replace_file(output, encode_gltf(document, output.extension() == ".glb"));
     return report;
 }

@@ -10,7 +10,7 @@
 namespace vesper {
 namespace {
 
-constexpr double kHighestReflectance = 0.9;             // fresh snow; plaster has 0.8
+constexpr double kHighestReflectance = 0.9;                  // fresh snow; plaster has 0.8
 constexpr double kFaintestLamp = 0.1, kBrightestLamp = 1e6;  // cd: a glow-worm, an aircraft's landing light
 
 /// Mean reflectance of a material, its texture through a transfer.
@@ -30,21 +30,27 @@ double mean_reflectance(const Scene& scene, const Material& material, const Tran
         for (size_t c = 0; c < 3; ++c) ++counts[c][image.rgba[i + c]];
     glm::dvec3 mean(0);
     for (size_t c = 0; c < 3; ++c)
-        for (size_t code = 0; code < 256; ++code) mean[static_cast<int>(c)] += linear[code] * static_cast<double>(counts[c][code]);
+        for (size_t code = 0; code < 256; ++code)
+            mean[static_cast<int>(c)] += linear[code] * static_cast<double>(counts[c][code]);
     mean *= 4.0 / static_cast<double>(image.rgba.size());
     return luminance(factor * mean);
 }
 
-void check_reflectances(Conversion& conversion) {
-    const Scene& scene = conversion.original.scene;
+}  // namespace
+
+void check_reflectances(const Scene& scene, ConversionReport& report) {
     for (const Material& material : scene.materials) {
         if (material.metallic > 0.5f) continue;  // no diffuse reflectance
-        const double mean = mean_reflectance(scene, material, conversion.photometry.transfer);
+        if (material.alpha == Material::Alpha::Mask && material.base_colour.a < material.alpha_cutoff)
+            continue;  // glass
+        const double mean = mean_reflectance(scene, material, scene.transfer);
         if (mean > kHighestReflectance)
-            conversion.report.warnings.push_back("material " + in_quotes(material.name) + ": a mean reflectance of " + decimal(mean) +
-                                                 " is more than real surfaces have");
+            report.warnings.push_back("material " + in_quotes(material.name) + ": a mean reflectance of " +
+                                      decimal(mean) + " is more than real surfaces have");
     }
 }
+
+namespace {
 
 void check_lamps(Conversion& conversion) {
     for (const LampRule& rule : conversion.photometry.lamps)
@@ -62,7 +68,8 @@ void check_size(Conversion& conversion) {
         for (const Primitive& primitive : scene.meshes[scene.nodes[i].mesh].primitives)
             for (int corner = 0; corner < 8; ++corner) {
                 const Bounds& b = primitive.bounds;
-                const glm::vec4 point(corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y, corner & 4 ? b.high.z : b.low.z, 1);
+                const glm::vec4 point(corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y,
+                                      corner & 4 ? b.high.z : b.low.z, 1);
                 bounds.add(glm::vec3(world[i] * point));
             }
     }
@@ -70,7 +77,8 @@ void check_size(Conversion& conversion) {
     const glm::vec3 size = bounds.high - bounds.low;
     const double longest = std::max({size.x, size.y, size.z});
     if (longest < 1 || longest > 1e5)
-        conversion.report.warnings.push_back("the scene is " + decimal(longest) + " m long: are its lengths in metres? Illuminance falls with their square");
+        conversion.report.warnings.push_back("the scene is " + decimal(longest) +
+                                             " m long: are its lengths in metres? Illuminance falls with their square");
 }
 
 /// Scene nodes that show a material some emitter rule matches.
@@ -84,7 +92,8 @@ std::set<uint32_t> glowing_nodes(const Conversion& conversion) {
         return false;
     };
     std::vector<bool> glowing;
-    for (const Mesh& mesh : scene.meshes) glowing.push_back(std::any_of(mesh.primitives.begin(), mesh.primitives.end(), emits));
+    for (const Mesh& mesh : scene.meshes)
+        glowing.push_back(std::any_of(mesh.primitives.begin(), mesh.primitives.end(), emits));
     std::set<uint32_t> nodes;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].mesh != kNone && glowing[scene.nodes[i].mesh]) nodes.insert(i);
@@ -98,25 +107,33 @@ void check_forgotten(Conversion& conversion, const std::set<size_t>& lamp_nodes)
     for (uint32_t i = 0; i < nodes.size(); ++i)
         for (const JsonValue& child : nodes[i].elements_of("children")) parents[child.index(nodes.size(), "nodes")] = i;
     std::vector<bool> lit(nodes.size()), below(nodes.size());
+    const auto light_up = [&](uint32_t node) {
+        for (; node != kNone && !lit[node]; node = parents[node]) lit[node] = true;
+    };
     for (const size_t lamp : lamp_nodes) {
         below[lamp] = true;
-        for (auto i = static_cast<uint32_t>(lamp); i != kNone && !lit[i]; i = parents[i]) lit[i] = true;
+        light_up(static_cast<uint32_t>(lamp));
     }
     const std::set<uint32_t> glowing = glowing_nodes(conversion);
+    for (uint32_t i = 0; i < nodes.size(); ++i)
+        if (glowing.contains(conversion.original.node_of[i])) light_up(i);
     std::vector<std::string> forgotten;
     for (uint32_t i = 0; i < nodes.size(); ++i) {
         const std::string name = nodes[i].text_or("name", "");
-        if (lit[i] || !sounds_like_light(name) || glowing.contains(conversion.original.node_of[i])) continue;
+        if (lit[i] || !sounds_like_light(name)) continue;
         bool under_a_lamp = false;
         uint32_t up = i;
-        for (int level = 0; level < 100 && up != kNone && !under_a_lamp; ++level, up = parents[up]) under_a_lamp = below[up];
+        for (int level = 0; level < 100 && up != kNone && !under_a_lamp; ++level, up = parents[up])
+            under_a_lamp = below[up];
         if (!under_a_lamp) forgotten.push_back(name);
     }
     if (forgotten.empty()) return;
     std::string names;
-    for (size_t i = 0; i < std::min<size_t>(3, forgotten.size()); ++i) names += (i ? ", " : "") + in_quotes(forgotten[i]);
-    conversion.report.warnings.push_back(std::to_string(forgotten.size()) + (forgotten.size() == 1 ? " node sounds" : " nodes sound") +
-                                         " like a light, but no lamp rule matches: " + names + (forgotten.size() > 3 ? ", ..." : ""));
+    for (size_t i = 0; i < std::min<size_t>(3, forgotten.size()); ++i)
+        names += (i ? ", " : "") + in_quotes(forgotten[i]);
+    conversion.report.warnings.push_back(
+        std::to_string(forgotten.size()) + (forgotten.size() == 1 ? " node sounds" : " nodes sound") +
+        " like a light, but no lamp rule matches: " + names + (forgotten.size() > 3 ? ", ..." : ""));
 }
 
 }  // namespace
@@ -131,7 +148,6 @@ bool sounds_like_light(const std::string& name) {
 
 void check_plausibility(Conversion& conversion, const std::set<size_t>& lamp_nodes) {
     check_size(conversion);
-    check_reflectances(conversion);
     check_lamps(conversion);
     check_forgotten(conversion, lamp_nodes);
 }

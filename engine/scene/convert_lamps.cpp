@@ -12,7 +12,9 @@ namespace {
 using nlohmann::json;
 constexpr const char* kLights = "KHR_lights_punctual";
 
-std::string number_of(size_t count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
+std::string number_of(size_t count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
 
 void remove_extension(json& holder) {
     const auto extensions = holder.find("extensions");
@@ -41,11 +43,13 @@ void remove_lights(Conversion& conversion) {
         std::count_if(lights.begin(), lights.end(), [](const Light& l) { return l.kind == Light::Kind::Directional; }));
     conversion.report.changes.push_back("lights: removed " + number_of(lights.size(), "light") + " of the original");
     if (suns > 0)
-        conversion.report.warnings.push_back("lights: " + number_of(suns, "directional light") + " of the original (sun or sky) removed");
+        conversion.report.warnings.push_back("lights: " + number_of(suns, "directional light") +
+                                             " of the original (sun or sky) removed");
 }
 
 /// Names of a node and of as many ancestors as patterns can ask for.
-std::vector<std::string> path_of(std::span<const JsonValue> nodes, const std::vector<uint32_t>& parents, uint32_t node, size_t depth) {
+std::vector<std::string> path_of(std::span<const JsonValue> nodes, const std::vector<uint32_t>& parents, uint32_t node,
+                                 size_t depth) {
     std::vector<std::string> path;
     for (; node != kNone && path.size() < depth; node = parents[node]) path.push_back(nodes[node].text_or("name", ""));
     return path;
@@ -112,16 +116,19 @@ std::string describe(const LampRule& rule, size_t nodes) {
     const Light& light = rule.light;
     const double degrees = 180 / std::numbers::pi;
     std::string lobe = "point";
-    if (light.kind == Light::Kind::Spot) lobe = "spot " + decimal(light.inner_cone * degrees) + "-" + decimal(light.outer_cone * degrees) + " deg";
+    if (light.kind == Light::Kind::Spot)
+        lobe = "spot " + decimal(light.inner_cone * degrees) + "-" + decimal(light.outer_cone * degrees) + " deg";
     if (light.kind == Light::Kind::CosinePower) lobe = "cosine power " + decimal(light.exponent);
-    return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + lobe + ", " + decimal(light.intensity) + " cd, " +
-           (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") + decimal(luminous_flux(light)) + " lm each";
+    return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + lobe + ", " +
+           decimal(light.intensity) + " cd, " + (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
+           decimal(luminous_flux(light)) + " lm each";
 }
 
 void warn_of_instances(Conversion& conversion, const JsonValue& node, const LampRule& rule) {
     const auto extensions = node.find("extensions");
     if (extensions && extensions->find("EXT_mesh_gpu_instancing"))
-        conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": node " + in_quotes(node.text_or("name", "")) +
+        conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": node " +
+                                             in_quotes(node.text_or("name", "")) +
                                              " is instanced; the lamp is placed once, at the node");
 }
 
@@ -147,7 +154,9 @@ void convert_lamps(Conversion& conversion) {
             const auto path = path_of(nodes, parents, i, depth);
             for (size_t r = 0; r < matched.size(); ++r) {
                 const LampRule& rule = conversion.photometry.lamps[r];
-                if (std::none_of(rule.nodes.begin(), rule.nodes.end(), [&](const auto& p) { return matches_path(p, path); })) continue;
+                if (std::none_of(rule.nodes.begin(), rule.nodes.end(),
+                                 [&](const auto& p) { return matches_path(p, path); }))
+                    continue;
                 matched[r].push_back(i);
                 warn_of_instances(conversion, nodes[i], rule);
             }
@@ -159,19 +168,22 @@ void convert_lamps(Conversion& conversion) {
     for (size_t r = 0; r < matched.size(); ++r) {
         const LampRule& rule = conversion.photometry.lamps[r];
         if (matched[r].empty()) {
-            conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": no node matches " + in_quotes(rule.nodes.front()) +
+            conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": no node matches " +
+                                                 in_quotes(rule.nodes.front()) +
                                                  (rule.nodes.size() > 1 ? " or its other patterns" : ""));
             continue;
         }
         json& root = conversion.document.edit();
-        json& extension = object_member(conversion.document, object_member(conversion.document, root, "extensions"), kLights);
+        json& extension =
+            object_member(conversion.document, object_member(conversion.document, root, "extensions"), kLights);
         if (!extension.contains("lights")) extension["lights"] = json::array();
         const size_t light = extension["lights"].size();
         extension["lights"].push_back(light_of(rule));
         use_extension(root, kLights);
         if (rule.light.kind == Light::Kind::CosinePower)
             conversion.lobes.push_back({{"light", light}, {"type", "cosine_power"}, {"exponent", rule.light.exponent}});
-        for (const uint32_t node : matched[r]) add_lamp(conversion, rule, light, node, axis_lengths(conversion, world, node));
+        for (const uint32_t node : matched[r])
+            add_lamp(conversion, rule, light, node, axis_lengths(conversion, world, node));
         conversion.report.changes.push_back(describe(rule, matched[r].size()));
     }
 }

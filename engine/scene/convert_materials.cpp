@@ -23,7 +23,8 @@ std::vector<std::vector<uint32_t>> assign(Conversion& conversion, const std::vec
         bool free = true;
         for (size_t r = 0; r < rules.size(); ++r) {
             const auto& patterns = rules[r].materials;
-            if (std::none_of(patterns.begin(), patterns.end(), [&](const auto& p) { return matches_name(p, name); })) continue;
+            if (std::none_of(patterns.begin(), patterns.end(), [&](const auto& p) { return matches_name(p, name); }))
+                continue;
             matched[r] = true;
             if (free) taken[r].push_back(m);
             free = false;
@@ -32,7 +33,8 @@ std::vector<std::vector<uint32_t>> assign(Conversion& conversion, const std::vec
     for (size_t r = 0; r < rules.size(); ++r) {
         const std::string rule = std::string(what) + " " + in_quotes(rules[r].name);
         if (!matched[r])
-            conversion.report.warnings.push_back(rule + ": no material matches " + in_quotes(rules[r].materials.front()) +
+            conversion.report.warnings.push_back(rule + ": no material matches " +
+                                                 in_quotes(rules[r].materials.front()) +
                                                  (rules[r].materials.size() > 1 ? " or its other patterns" : ""));
         else if (taken[r].empty())
             conversion.report.warnings.push_back(rule + ": matches only materials that earlier rules have taken");
@@ -49,14 +51,17 @@ double brightest_texel(const Image& image, glm::dvec3 colour) {
     }
     double brightest = 0;
     for (size_t i = 0; i < image.rgba.size(); i += 4)
-        brightest = std::max(brightest, luminance(colour * glm::dvec3(linear[image.rgba[i]], linear[image.rgba[i + 1]], linear[image.rgba[i + 2]])));
+        brightest = std::max(brightest, luminance(colour * glm::dvec3(linear[image.rgba[i]], linear[image.rgba[i + 1]],
+                                                                      linear[image.rgba[i + 2]])));
     return brightest;
 }
 
 /// The texture a modulated emitter shines through, as its JSON and picture: its own, or the base colour's.
-std::pair<json, const Image*> emission_texture(const Conversion& conversion, const json& source, const Material& material) {
+std::pair<json, const Image*> emission_texture(const Conversion& conversion, const json& source,
+                                               const Material& material) {
     const std::vector<Image>& images = conversion.original.scene.images;
-    if (material.emission_texture.image != kNone) return {source["emissiveTexture"], &images[material.emission_texture.image]};
+    if (material.emission_texture.image != kNone)
+        return {source["emissiveTexture"], &images[material.emission_texture.image]};
     if (material.base_colour_texture.image == kNone) return {json(), nullptr};
     const Image* image = &images[material.base_colour_texture.image];
     if (source.contains("extensions") && source["extensions"].contains(kSpecularGlossiness))
@@ -77,8 +82,9 @@ void make_emit(Conversion& conversion, const EmitterRule& rule, uint32_t index) 
             texture = info;
             scale = rule.luminance / brightest;
         } else {
-            conversion.report.warnings.push_back("emitter " + in_quotes(rule.name) + ": material " + in_quotes(original.name) + " has " +
-                                                 (image ? "a black texture" : "no texture") + " to modulate with: it emits evenly");
+            conversion.report.warnings.push_back(
+                "emitter " + in_quotes(rule.name) + ": material " + in_quotes(original.name) + " has " +
+                (image ? "a black texture" : "no texture") + " to modulate with: it emits evenly");
         }
     }
     material.erase("emissiveTexture");
@@ -106,7 +112,8 @@ void scale_reflectance(Conversion& conversion, const SurfaceRule& rule, json& ma
     }
     model[other_model ? "diffuseFactor" : "baseColorFactor"] = {factor.r, factor.g, factor.b, factor.a};
     if (limited)
-        conversion.report.warnings.push_back("surface " + in_quotes(rule.name) + ": material " + in_quotes(original.name) +
+        conversion.report.warnings.push_back("surface " + in_quotes(rule.name) + ": material " +
+                                             in_quotes(original.name) +
                                              ": its factor cannot be more than 1 and is limited to that");
 }
 
@@ -115,15 +122,19 @@ void set_roughness(Conversion& conversion, const SurfaceRule& rule, json& materi
     json& model = object_member(conversion.document, material, "pbrMetallicRoughness");
     if (rule.roughness) model["roughnessFactor"] = *rule.roughness;
     if (rule.metallic) model["metallicFactor"] = *rule.metallic;
-    if (rule.roughness && rule.metallic) model.erase("metallicRoughnessTexture");
+    if (rule.roughness && rule.metallic)
+        model.erase("metallicRoughnessTexture");
     else if (model.contains("metallicRoughnessTexture"))
-        conversion.report.warnings.push_back("surface " + in_quotes(rule.name) + ": material " + in_quotes(original.name) +
+        conversion.report.warnings.push_back("surface " + in_quotes(rule.name) + ": material " +
+                                             in_quotes(original.name) +
                                              " has a texture for it: what is stated multiplies that texture");
     if (material.contains("extensions") && material["extensions"].contains(kSpecularGlossiness) && rule.roughness)
         material["extensions"][kSpecularGlossiness]["glossinessFactor"] = 1 - *rule.roughness;
 }
 
-std::string count_of(size_t materials) { return std::to_string(materials) + (materials == 1 ? " material" : " materials"); }
+std::string count_of(size_t materials) {
+    return std::to_string(materials) + (materials == 1 ? " material" : " materials");
+}
 
 }  // namespace
 
@@ -137,17 +148,20 @@ void convert_materials(Conversion& conversion) {
         if (emitters.contains(m)) continue;
         const Material& material = conversion.original.scene.materials[m];
         if (material.emission != glm::vec3(0))
-            conversion.report.warnings.push_back("material " + in_quotes(material.name) + " emits " + decimal(luminance(material.emission)) +
+            conversion.report.warnings.push_back("material " + in_quotes(material.name) + " emits " +
+                                                 decimal(luminance(material.emission)) +
                                                  " cd/m^2 in the original and no emitter rule matches it: kept");
         else if (sounds_like_light(material.name))
-            conversion.report.warnings.push_back("material " + in_quotes(material.name) + " sounds like a light, but no emitter rule matches it");
+            conversion.report.warnings.push_back("material " + in_quotes(material.name) +
+                                                 " sounds like a light, but no emitter rule matches it");
     }
     for (size_t r = 0; r < emitting.size(); ++r) {
         const EmitterRule& rule = photometry.emitters[r];
         for (const uint32_t material : emitting[r]) make_emit(conversion, rule, material);
         if (!emitting[r].empty())
-            conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " + count_of(emitting[r].size()) + ", " +
-                                                decimal(rule.luminance) + " cd/m^2" + (rule.modulate ? " at most" : ""));
+            conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " +
+                                                count_of(emitting[r].size()) + ", " + decimal(rule.luminance) +
+                                                " cd/m^2" + (rule.modulate ? " at most" : ""));
     }
     for (size_t r = 0; r < surfaces.size(); ++r) {
         const SurfaceRule& rule = photometry.surfaces[r];
@@ -157,9 +171,10 @@ void convert_materials(Conversion& conversion) {
             set_roughness(conversion, rule, material, conversion.original.scene.materials[m]);
         }
         if (!surfaces[r].empty())
-            conversion.report.changes.push_back("surface " + in_quotes(rule.name) + ": " + count_of(surfaces[r].size()) + ", reflectance times " +
-                                                decimal(rule.reflectance_scale) + (rule.roughness ? ", roughness " + decimal(*rule.roughness) : "") +
-                                                (rule.metallic ? ", metallic " + decimal(*rule.metallic) : ""));
+            conversion.report.changes.push_back(
+                "surface " + in_quotes(rule.name) + ": " + count_of(surfaces[r].size()) + ", reflectance times " +
+                decimal(rule.reflectance_scale) + (rule.roughness ? ", roughness " + decimal(*rule.roughness) : "") +
+                (rule.metallic ? ", metallic " + decimal(*rule.metallic) : ""));
     }
 }
 

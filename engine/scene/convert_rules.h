@@ -30,8 +30,11 @@ std::string in_quotes(const std::string& name);
 void convert_lamps(Conversion& conversion);
 /// Emission and reflectance of materials.
 void convert_materials(Conversion& conversion);
-/// Warns of what cannot be right: sizes, reflectances, lamps, things that look like lights and were not matched.
+/// Warns of what cannot be right: sizes, lamps, things that look like lights and were not matched.
 void check_plausibility(Conversion& conversion, const std::set<size_t>& lamp_nodes);
+
+/// Warns of surfaces of a converted scene that reflect more than there are.
+void check_reflectances(const Scene& converted, ConversionReport& report);
 
 /// Whether a name sounds like a source of light.
 bool sounds_like_light(const std::string& name);

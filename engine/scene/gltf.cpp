@@ -28,14 +28,16 @@ void check_unused(GltfReader& reader) {
     for (uint32_t i = 0; i < buffers; ++i)
         if (document.has_bytes(i)) document.buffer(i);
     for (uint32_t i = 0; i < document.list("bufferViews").size(); ++i)
-        if (document.has_bytes(document.list("bufferViews")[i].at("buffer").index(buffers, "buffers"))) document.view(i);
+        if (document.has_bytes(document.list("bufferViews")[i].at("buffer").index(buffers, "buffers")))
+            document.view(i);
     for (uint32_t i = 0; i < reader.mesh_of.size(); ++i)
         if (reader.mesh_of[i] == kNone) check_mesh(reader, document.list("meshes")[i]);
 }
 
 void note_extensions(GltfReader& reader) {
     for (const JsonValue& extension : reader.document.root().elements_of("extensionsUsed"))
-        if (!is_supported_extension(extension.text())) reader.notes.add("extension " + extension.text() + " is not read");
+        if (!is_supported_extension(extension.text()))
+            reader.notes.add("extension " + extension.text() + " is not read");
 }
 
 }  // namespace

@@ -12,11 +12,11 @@ namespace vesper {
 
 /// Upper bounds on what a file may ask for. A file that states more is refused before anything is allocated for it.
 struct SceneLimits {
-    uint64_t file_bytes = 1ull << 30;       ///< of the glTF file and of every file it names, each
-    uint64_t vertices = 50'000'000;         ///< of all meshes together
+    uint64_t file_bytes = 1ull << 30;  ///< of the glTF file and of every file it names, each
+    uint64_t vertices = 50'000'000;    ///< of all meshes together
     uint64_t indices = 150'000'000;
-    uint64_t texels = 512ull << 20;         ///< of all images together
-    uint32_t image_side = 16384;            ///< px
+    uint64_t texels = 512ull << 20;  ///< of all images together
+    uint32_t image_side = 16384;     ///< px
     uint32_t nodes = 1'000'000;
     uint32_t lights = 100'000;
 };

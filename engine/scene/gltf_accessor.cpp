@@ -12,30 +12,39 @@ enum class Component : uint16_t { Byte = 5120, UByte = 5121, Short = 5122, UShor
 Component component_of(const JsonValue& holder) {
     const JsonValue type = holder.at("componentType");
     switch (type.integer()) {
-        case 5120: return Component::Byte;
-        case 5121: return Component::UByte;
-        case 5122: return Component::Short;
-        case 5123: return Component::UShort;
-        case 5125: return Component::UInt;
-        case 5126: return Component::Float;
-        default: type.fail("is no component type of glTF");
+        case 5120:
+            return Component::Byte;
+        case 5121:
+            return Component::UByte;
+        case 5122:
+            return Component::Short;
+        case 5123:
+            return Component::UShort;
+        case 5125:
+            return Component::UInt;
+        case 5126:
+            return Component::Float;
+        default:
+            type.fail("is no component type of glTF");
     }
 }
 
 uint32_t size_of(Component component) {
     switch (component) {
         case Component::Byte:
-        case Component::UByte: return 1;
+        case Component::UByte:
+            return 1;
         case Component::Short:
-        case Component::UShort: return 2;
-        default: return 4;
+        case Component::UShort:
+            return 2;
+        default:
+            return 4;
     }
 }
 
 uint32_t components_of(const JsonValue& type) {
-    static constexpr std::pair<std::string_view, uint32_t> kTypes[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3},
-                                                                        {"VEC4", 4},   {"MAT2", 4}, {"MAT3", 9},
-                                                                        {"MAT4", 16}};
+    static constexpr std::pair<std::string_view, uint32_t> kTypes[] = {
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
     for (const auto& [name, count] : kTypes)
         if (type.text() == name) return count;
     type.fail("is no accessor type of glTF");
@@ -55,7 +64,8 @@ Elements elements_in(GltfDocument& document, const JsonValue& holder, uint64_t c
     const uint64_t offset = holder.integer_or("byteOffset", 0);
     const uint64_t stride = view.integer_or("byteStride", element_size, 1u << 16);
     if (stride < element_size)
-        view.fail("byteStride " + std::to_string(stride) + " is less than the " + std::to_string(element_size) + " bytes of an element");
+        view.fail("byteStride " + std::to_string(stride) + " is less than the " + std::to_string(element_size) +
+                  " bytes of an element");
     // count * stride cannot overflow: both are below 2^32 here.
     if (count > UINT32_MAX || offset > bytes.size() ||
         (count > 0 && (count - 1) * stride + element_size > bytes.size() - offset))
@@ -76,17 +86,20 @@ float load_float(const uint8_t* bytes, Component component, bool normalized) {
             const float value = load<int8_t>(bytes);
             return normalized ? std::max(value / 127.f, -1.f) : value;
         }
-        case Component::UByte: return static_cast<float>(*bytes) / (normalized ? 255.f : 1.f);
+        case Component::UByte:
+            return static_cast<float>(*bytes) / (normalized ? 255.f : 1.f);
         case Component::Short: {
             const float value = load<int16_t>(bytes);
             return normalized ? std::max(value / 32767.f, -1.f) : value;
         }
-        case Component::UShort: return static_cast<float>(load<uint16_t>(bytes)) / (normalized ? 65535.f : 1.f);
+        case Component::UShort:
+            return static_cast<float>(load<uint16_t>(bytes)) / (normalized ? 65535.f : 1.f);
         case Component::UInt: {
             const double value = load<uint32_t>(bytes);
             return static_cast<float>(normalized ? value / 4294967295.0 : value);
         }
-        case Component::Float: return load<float>(bytes);
+        case Component::Float:
+            return load<float>(bytes);
     }
     return 0;
 }
@@ -120,7 +133,8 @@ void for_each_element(GltfDocument& document, const JsonValue& accessor, uint64_
     const Elements values = elements_in(document, what, changed, size);
     for (uint64_t i = 0; i < changed; ++i) {
         const uint32_t element = load_unsigned(indices.at(i), type);
-        if (element >= count) sparse->fail("changes element " + std::to_string(element) + " of " + std::to_string(count));
+        if (element >= count)
+            sparse->fail("changes element " + std::to_string(element) + " of " + std::to_string(count));
         store(element, values.at(i));
     }
 }
@@ -130,7 +144,8 @@ uint64_t bounded_count(const JsonValue& accessor, uint64_t max_count) {
     const uint64_t count = stated.integer();
     if (count == 0) stated.fail("must be at least 1");
     if (count > max_count || count >= UINT32_MAX)
-        stated.fail(std::to_string(count) + " elements are more than the limit of " + std::to_string(max_count) + " allows");
+        stated.fail(std::to_string(count) + " elements are more than the limit of " + std::to_string(max_count) +
+                    " allows");
     return count;
 }
 
@@ -162,20 +177,20 @@ Floats read_floats(GltfDocument& document, const JsonValue& reference, std::init
     return floats;
 }
 
-std::vector<uint32_t> read_indices(GltfDocument& document, const JsonValue& reference, uint64_t max_count, uint64_t end) {
+std::vector<uint32_t> read_indices(GltfDocument& document, const JsonValue& reference, uint64_t max_count,
+                                   uint64_t end) {
     const JsonValue accessor = document.element("accessors", reference);
     if (accessor.at("type").text() != "SCALAR") accessor.at("type").fail("indices must be of type SCALAR");
     const Component component = index_component_of(accessor);
     const uint64_t count = bounded_count(accessor, max_count);
     if (accessor.find("bufferView")) elements_in(document, accessor, count, size_of(component));
     std::vector<uint32_t> indices(count);
-    for_each_element(document, accessor, count, size_of(component), [&](uint64_t i, const uint8_t* bytes) {
-        indices[i] = load_unsigned(bytes, component);
-    });
+    for_each_element(document, accessor, count, size_of(component),
+                     [&](uint64_t i, const uint8_t* bytes) { indices[i] = load_unsigned(bytes, component); });
     for (uint64_t i = 0; i < count; ++i)
         if (indices[i] >= end)
-            accessor.fail("index " + std::to_string(indices[i]) + " at position " + std::to_string(i) + ": there are only " +
-                          std::to_string(end) + " vertices");
+            accessor.fail("index " + std::to_string(indices[i]) + " at position " + std::to_string(i) +
+                          ": there are only " + std::to_string(end) + " vertices");
     return indices;
 }
 

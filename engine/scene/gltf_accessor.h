@@ -25,6 +25,7 @@ Floats read_floats(GltfDocument& document, const JsonValue& reference, std::init
                    uint64_t max_count);
 
 /// Reads unsigned scalars, all less than `end`. Throws Error.
-std::vector<uint32_t> read_indices(GltfDocument& document, const JsonValue& reference, uint64_t max_count, uint64_t end);
+std::vector<uint32_t> read_indices(GltfDocument& document, const JsonValue& reference, uint64_t max_count,
+                                   uint64_t end);
 
 }  // namespace vesper

@@ -32,11 +32,13 @@ void read_times(GltfReader& reader, Channel& channel, const JsonValue& input) {
 }
 
 void read_values(GltfReader& reader, Channel& channel, const JsonValue& output) {
-    const bool rotation = channel.path == Channel::Path::Rotation, cubic = channel.interpolation == Channel::Interpolation::Cubic;
+    const bool rotation = channel.path == Channel::Path::Rotation,
+               cubic = channel.interpolation == Channel::Interpolation::Cubic;
     const Floats values = read_floats(reader.document, output, {rotation ? "VEC4" : "VEC3"}, reader.limits.vertices);
     const size_t wanted = channel.times.size() * (cubic ? 3 : 1);
     if (values.count != wanted)
-        output.fail("has " + std::to_string(values.count) + " values for " + std::to_string(channel.times.size()) + " keys");
+        output.fail("has " + std::to_string(values.count) + " values for " + std::to_string(channel.times.size()) +
+                    " keys");
     channel.values.resize(wanted, glm::vec4(0));
     for (size_t i = 0; i < wanted; ++i) {
         for (uint32_t c = 0; c < values.components; ++c) {

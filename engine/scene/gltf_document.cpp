@@ -39,7 +39,8 @@ Chunks split_glb(std::span<const uint8_t> file, const std::string& name) {
         throw fail(4, "binary glTF of version " + std::to_string(word_at(file, 4)) + ": only version 2 is read");
     const uint32_t length = word_at(file, 8);
     if (length > file.size())
-        throw fail(8, "the file is cut off: " + std::to_string(length) + " bytes stated, " + std::to_string(file.size()) + " there");
+        throw fail(8, "the file is cut off: " + std::to_string(length) + " bytes stated, " +
+                          std::to_string(file.size()) + " there");
     if (length < 12) throw fail(8, "stated length of " + std::to_string(length) + " bytes is less than its header");
     file = file.first(length);
 
@@ -99,7 +100,8 @@ void GltfDocument::check_format() {
     if (!stated || stated->first != 2) version.fail("glTF version '" + version.text() + "': only 2.0 is read");
     if (const auto minimum = asset.find("minVersion")) {
         const auto least = parse_version(minimum->text());
-        if (!least || *least > std::pair(2u, 0u)) minimum->fail("needs a reader of glTF '" + minimum->text() + "': this one reads 2.0");
+        if (!least || *least > std::pair(2u, 0u))
+            minimum->fail("needs a reader of glTF '" + minimum->text() + "': this one reads 2.0");
     }
     for (const JsonValue& extension : root().elements_of("extensionsRequired"))
         if (!is_supported_extension(extension.text()))
@@ -130,7 +132,8 @@ std::vector<uint8_t> GltfDocument::bytes_of_uri(const JsonValue& uri) {
         uri.fail(error.what());
     }
     bytes_read_ += bytes.size();
-    if (bytes_read_ / 4 > limits_.file_bytes) uri.fail("the files named add up to more than four times the limit for one");
+    if (bytes_read_ / 4 > limits_.file_bytes)
+        uri.fail("the files named add up to more than four times the limit for one");
     return bytes;
 }
 
@@ -151,7 +154,8 @@ std::span<const uint8_t> GltfDocument::buffer(uint32_t index) {
         bytes = binary_chunk_;
     }
     if (length > bytes.size())
-        buffer.fail("is cut off: " + std::to_string(length) + " bytes stated, " + std::to_string(bytes.size()) + " there");
+        buffer.fail("is cut off: " + std::to_string(length) + " bytes stated, " + std::to_string(bytes.size()) +
+                    " there");
     return bytes.first(length);
 }
 

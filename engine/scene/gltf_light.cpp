@@ -1,4 +1,5 @@
-// Lamps of a glTF file, and what our extras block says of them, the ambient light and the sky. SPDX-License-Identifier: MIT
+// Lamps of a glTF file, and what our extras block says of them, the ambient light and the sky. SPDX-License-Identifier:
+// MIT
 #include <cmath>
 #include <numbers>
 
@@ -26,7 +27,8 @@ void normalise(Light& light, double stored_intensity, glm::vec3 stored_colour, c
 void read_cones(Light& light, const JsonValue& source) {
     constexpr double kRight = std::numbers::pi / 2;
     // Blender and others write a hair more than a right angle.
-    light.outer_cone = static_cast<float>(std::min(source.number_or("outerConeAngle", kRight / 2, 0, kRight + 0.01), kRight));
+    light.outer_cone =
+        static_cast<float>(std::min(source.number_or("outerConeAngle", kRight / 2, 0, kRight + 0.01), kRight));
     light.inner_cone = static_cast<float>(source.number_or("innerConeAngle", 0, 0, kRight + 0.01));
     if (light.outer_cone < 1e-3f) source.fail("outerConeAngle must be more than 0.001");
     // The ramp between the cones must have a width.
@@ -37,10 +39,14 @@ Light read_light(GltfReader& reader, const JsonValue& source) {
     Light light;
     light.name = source.text_or("name", "");
     const std::string& type = source.at("type").text();
-    if (type == "point") light.kind = Light::Kind::Point;
-    else if (type == "spot") light.kind = Light::Kind::Spot;
-    else if (type == "directional") light.kind = Light::Kind::Directional;
-    else source.at("type").fail("is none of point, spot and directional");
+    if (type == "point")
+        light.kind = Light::Kind::Point;
+    else if (type == "spot")
+        light.kind = Light::Kind::Spot;
+    else if (type == "directional")
+        light.kind = Light::Kind::Directional;
+    else
+        source.at("type").fail("is none of point, spot and directional");
     const auto colour = source.find("color");
     normalise(light, source.number_or("intensity", 1, 0), colour ? rgb_of(*colour) : glm::vec3(1), source);
     if (light.kind == Light::Kind::Spot)
@@ -75,7 +81,8 @@ void read_lights(GltfReader& reader) {
     const auto punctual = extensions ? extensions->find("KHR_lights_punctual") : std::nullopt;
     if (!punctual) return;
     const auto lights = punctual->elements_of("lights");
-    if (lights.size() > reader.limits.lights) punctual->fail("more lights than the limit of " + std::to_string(reader.limits.lights));
+    if (lights.size() > reader.limits.lights)
+        punctual->fail("more lights than the limit of " + std::to_string(reader.limits.lights));
     for (const JsonValue& light : lights) reader.scene.lights.push_back(read_light(reader, light));
 }
 
@@ -84,7 +91,9 @@ void read_photometry_block(GltfReader& reader) {
     const auto block = extras && extras->json().is_object() ? extras->find("vesper") : std::nullopt;
     if (!block) return;
     const JsonValue version = block->at("version");
-    if (version.integer() != 1) version.fail("vesper extras of version " + std::to_string(version.integer()) + ": this program reads version 1");
+    if (version.integer() != 1)
+        version.fail("vesper extras of version " + std::to_string(version.integer()) +
+                     ": this program reads version 1");
     block->allow_only({"version", "transfer", "ambient", "sky", "lobes", "provenance"});
     if (const auto transfer = block->find("transfer")) {
         transfer->allow_only({"kind", "gamma"});

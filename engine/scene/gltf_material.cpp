@@ -30,7 +30,8 @@ uint32_t read_image(GltfReader& reader, const JsonValue& reference) {
     }
     reader.texels += static_cast<uint64_t>(image.width) * image.height;
     const auto uri = entry.find("uri");
-    image.name = entry.text_or("name", uri && uri->text().size() < 256 ? uri->text() : "image " + std::to_string(index));
+    image.name =
+        entry.text_or("name", uri && uri->text().size() < 256 ? uri->text() : "image " + std::to_string(index));
     reader.scene.images.push_back(std::move(image));
     return reader.image_of[index] = static_cast<uint32_t>(reader.scene.images.size() - 1);
 }
@@ -39,10 +40,14 @@ Wrap wrap_of(const JsonValue& sampler, const char* key) {
     const auto mode = sampler.find(key);
     if (!mode) return Wrap::Repeat;
     switch (mode->integer()) {
-        case 10497: return Wrap::Repeat;
-        case 33648: return Wrap::Mirror;
-        case 33071: return Wrap::Clamp;
-        default: mode->fail("is no wrapping mode of glTF");
+        case 10497:
+            return Wrap::Repeat;
+        case 33648:
+            return Wrap::Mirror;
+        case 33071:
+            return Wrap::Clamp;
+        default:
+            mode->fail("is no wrapping mode of glTF");
     }
 }
 
@@ -72,8 +77,10 @@ TextureUse read_texture(GltfReader& reader, const JsonValue& info, UvMapping& ma
         use.wrap_v = wrap_of(sampler, "wrapT");
         use.nearest = sampler.integer_or("magFilter", 9729) == 9728;
     }
-    if (const auto source = texture.find("source")) use.image = read_image(reader, *source);
-    else reader.notes.add("a texture without a PNG or JPEG source is left out");
+    if (const auto source = texture.find("source"))
+        use.image = read_image(reader, *source);
+    else
+        reader.notes.add("a texture without a PNG or JPEG source is left out");
     return use;
 }
 
@@ -109,7 +116,8 @@ void read_metallic_roughness(GltfReader& reader, Properties& p) {
     p.made.roughness = 1;
     const auto pbr = p.material.find("pbrMetallicRoughness");
     if (!pbr) return;
-    if (const auto factor = pbr->find("baseColorFactor")) p.made.base_colour = vec4_of(unit_numbers<4>(reader, *factor));
+    if (const auto factor = pbr->find("baseColorFactor"))
+        p.made.base_colour = vec4_of(unit_numbers<4>(reader, *factor));
     p.made.metallic = unit_number(reader, *pbr, "metallicFactor", 1);
     p.made.roughness = unit_number(reader, *pbr, "roughnessFactor", 1);
     if (const auto texture = pbr->find("baseColorTexture"))
@@ -153,9 +161,17 @@ void read_alpha(GltfReader& reader, Properties& p) {
     p.made.double_sided = p.material.boolean_or("doubleSided", false);
     if (mode == "OPAQUE") return;
     if (mode != "MASK" && mode != "BLEND") p.material.at("alphaMode").fail("is none of OPAQUE, MASK and BLEND");
+    if (mode == "BLEND" && p.made.emission != glm::vec3(0)) {
+        // The glass of a lamp must not vanish while it shines.
+        reader.notes.add("a material of alpha mode BLEND that emits is drawn opaque");
+        return;
+    }
     p.made.alpha = Material::Alpha::Mask;
-    if (mode == "MASK") p.made.alpha_cutoff = static_cast<float>(p.material.number_or("alphaCutoff", 0.5, 0));
-    else reader.notes.add("a material of alpha mode BLEND is drawn as MASK: opaque from half opacity on, invisible below");
+    if (mode == "MASK")
+        p.made.alpha_cutoff = static_cast<float>(p.material.number_or("alphaCutoff", 0.5, 0));
+    else
+        reader.notes.add(
+            "a material of alpha mode BLEND is drawn as MASK: opaque from half opacity on, invisible below");
 }
 
 /// Vertices have one uv: the base colour's, or the first texture's there is.
@@ -174,8 +190,10 @@ void read_material(GltfReader& reader, const JsonValue& material) {
     Properties p{material, made, {}, {}, {}};
     const auto extensions = material.find("extensions");
     const auto model = extensions ? extensions->find("KHR_materials_pbrSpecularGlossiness") : std::nullopt;
-    if (model) read_specular_glossiness(reader, *model, p);
-    else read_metallic_roughness(reader, p);
+    if (model)
+        read_specular_glossiness(reader, *model, p);
+    else
+        read_metallic_roughness(reader, p);
     if (extensions && extensions->find("KHR_materials_unlit")) {
         made.metallic = 0;
         made.roughness = 1;

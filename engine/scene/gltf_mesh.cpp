@@ -33,7 +33,8 @@ std::vector<uint32_t> triangles(GltfReader& reader, const std::vector<uint32_t>&
     if (mode == Mode::Triangles) {
         list.reserve(count);
         for (size_t i = 0; i + 2 < count; i += 3) add(i, i + 1, i + 2);
-        if (count % 3 != 0) reader.notes.add("a primitive whose corners are no multiple of three: the rest is left out");
+        if (count % 3 != 0)
+            reader.notes.add("a primitive whose corners are no multiple of three: the rest is left out");
     } else if (mode == Mode::Strip) {
         list.reserve(3 * count);
         for (size_t i = 0; i + 2 < count; ++i) i % 2 == 0 ? add(i, i + 1, i + 2) : add(i + 1, i, i + 2);
@@ -135,8 +136,8 @@ void drop_unused(Primitive& primitive) {
 }
 
 /// An attribute beside POSITION; it must have as many elements.
-std::optional<Floats> read_attribute(GltfReader& reader, const JsonValue& attributes, const std::string& name, size_t count,
-                                     std::initializer_list<std::string_view> types) {
+std::optional<Floats> read_attribute(GltfReader& reader, const JsonValue& attributes, const std::string& name,
+                                     size_t count, std::initializer_list<std::string_view> types) {
     const auto reference = attributes.find(name.c_str());
     if (!reference) return std::nullopt;
     Floats floats = read_floats(reader.document, *reference, types, reader.limits.vertices);
@@ -157,7 +158,8 @@ std::vector<Vertex> read_positions(GltfReader& reader, const JsonValue& referenc
     const Floats positions = read_floats(reader.document, reference, {"VEC3"}, reader.limits.vertices);
     // The same accessor may be named by any number of primitives.
     reader.decoded += positions.count;
-    if (reader.decoded / 8 > reader.limits.vertices) reference.fail("the primitives together read their vertices too often");
+    if (reader.decoded / 8 > reader.limits.vertices)
+        reference.fail("the primitives together read their vertices too often");
     std::vector<Vertex> vertices(positions.count);
     for (size_t i = 0; i < vertices.size(); ++i) {
         const auto p = positions[i];
@@ -170,7 +172,8 @@ std::vector<Vertex> read_positions(GltfReader& reader, const JsonValue& referenc
 
 std::vector<uint32_t> read_corners(GltfReader& reader, const JsonValue& primitive, size_t vertices) {
     const uint64_t left = reader.limits.indices - reader.indices;
-    if (const auto reference = primitive.find("indices")) return read_indices(reader.document, *reference, left, vertices);
+    if (const auto reference = primitive.find("indices"))
+        return read_indices(reader.document, *reference, left, vertices);
     if (vertices > left) primitive.fail("takes the meshes over the limit of indices");
     std::vector<uint32_t> corners(vertices);
     for (uint32_t i = 0; i < corners.size(); ++i) corners[i] = i;
@@ -188,14 +191,16 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& sou
     const JsonValue attributes = source.at("attributes");
     const auto position = attributes.find("POSITION");
     if (mode < Mode::Triangles || !position) {
-        reader.notes.add(position ? "a primitive of points or lines is left out" : "a primitive without positions is left out");
+        reader.notes.add(position ? "a primitive of points or lines is left out"
+                                  : "a primitive without positions is left out");
         return std::nullopt;
     }
     refuse_compressed(reader, source, *position);
     Primitive made;
     if (const auto material = source.find("material"))
         made.material = material->index(reader.document.list("materials").size(), "materials");
-    else made.material = default_material(reader);
+    else
+        made.material = default_material(reader);
     made.vertices = read_positions(reader, *position);
     const size_t count = made.vertices.size();
     made.indices = triangles(reader, read_corners(reader, source, count), mode);

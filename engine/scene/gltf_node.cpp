@@ -49,7 +49,8 @@ std::vector<uint32_t> read_roots(GltfReader& reader, const std::vector<uint32_t>
         return roots;
     }
     const JsonValue scene = chosen ? document.element("scenes", *chosen) : scenes[0];
-    if (!chosen && scenes.size() > 1) reader.notes.add("the file has several scenes and no default: the first one is read");
+    if (!chosen && scenes.size() > 1)
+        reader.notes.add("the file has several scenes and no default: the first one is read");
     reader.scene.name = scene.text_or("name", "");
     std::vector<uint32_t> others;
     for (const JsonValue& reference : scene.elements_of("nodes")) {
@@ -127,7 +128,8 @@ void read_instances(GltfReader& reader, const JsonValue& instancing, uint32_t pa
         if (!reference) return std::nullopt;
         return read_floats(reader.document, *reference, {type}, reader.limits.nodes);
     };
-    const auto translations = read("TRANSLATION", "VEC3"), rotations = read("ROTATION", "VEC4"), scales = read("SCALE", "VEC3");
+    const auto translations = read("TRANSLATION", "VEC3"), rotations = read("ROTATION", "VEC4"),
+               scales = read("SCALE", "VEC3");
     uint32_t count = 0;
     for (const auto* floats : {&translations, &rotations, &scales}) {
         if (!*floats) continue;
@@ -160,7 +162,8 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
     read_transform(node, source);
     if (const auto mesh = source.find("mesh")) node.mesh = read_mesh(reader, *mesh);
     if (const auto camera = source.find("camera"))
-        node.camera = read_camera(reader, *camera, node.name.empty() ? "node " + std::to_string(index) : node.name, camera_shared);
+        node.camera = read_camera(reader, *camera, node.name.empty() ? "node " + std::to_string(index) : node.name,
+                                  camera_shared);
     if (source.find("skin")) reader.notes.add("a node with a skin is shown at rest");
 
     const auto extensions = source.find("extensions");
@@ -172,7 +175,8 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
     const uint32_t made = add_node(reader, source, std::move(node));
     reader.node_of[index] = made;
     if (extensions && has_mesh)
-        if (const auto instancing = extensions->find("EXT_mesh_gpu_instancing")) read_instances(reader, *instancing, made);
+        if (const auto instancing = extensions->find("EXT_mesh_gpu_instancing"))
+            read_instances(reader, *instancing, made);
 }
 
 }  // namespace
@@ -202,7 +206,8 @@ void read_nodes(GltfReader& reader) {
         waiting.insert(waiting.end(), children[index].rbegin(), children[index].rend());
     }
 
-    const auto lit = std::count_if(reader.scene.nodes.begin(), reader.scene.nodes.end(), [](const Node& n) { return n.light != kNone; });
+    const auto lit = std::count_if(reader.scene.nodes.begin(), reader.scene.nodes.end(),
+                                   [](const Node& n) { return n.light != kNone; });
     if (static_cast<uint64_t>(lit) > reader.limits.lights)
         reader.document.root().fail("more lights than the limit of " + std::to_string(reader.limits.lights));
     if (reader.scene.nodes.empty() && !reader.document.list("meshes").empty())

@@ -13,12 +13,12 @@ using nlohmann::json;
 /// What lies outside the document, or in data URIs, in memory.
 struct Parts {
     std::vector<std::optional<std::span<const uint8_t>>> buffers;  ///< nothing: a placeholder, which stays one
-    std::vector<std::vector<uint8_t>> images;  ///< empty where the picture lies in a buffer view
+    std::vector<std::vector<uint8_t>> images;                      ///< empty where the picture lies in a buffer view
 };
 
 Parts collect(GltfDocument& document) {
     Parts parts;
-    for (uint32_t i = 0; i < document.list("buffers").size(); ++i) 
+    for (uint32_t i = 0; i < document.list("buffers").size(); ++i)
         parts.buffers.push_back(document.has_bytes(i) ? std::optional(document.buffer(i)) : std::nullopt);
     const auto images = document.list("images");
     parts.images.resize(images.size());
@@ -34,7 +34,9 @@ std::string type_of(const json& image, std::span<const uint8_t> bytes) {
     return stated != image.end() && stated->is_string() ? stated->get<std::string>() : "application/octet-stream";
 }
 
-void append(std::vector<uint8_t>& file, std::span<const uint8_t> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); }
+void append(std::vector<uint8_t>& file, std::span<const uint8_t> bytes) {
+    file.insert(file.end(), bytes.begin(), bytes.end());
+}
 
 void append_word(std::vector<uint8_t>& file, uint64_t value) {
     for (int shift = 0; shift < 32; shift += 8) file.push_back(static_cast<uint8_t>(value >> shift));
@@ -52,7 +54,8 @@ void append_chunk(std::vector<uint8_t>& file, uint32_t type, std::span<const uin
 
 std::vector<uint8_t> encode_text(json& root, const Parts& parts) {
     for (size_t i = 0; i < parts.buffers.size(); ++i)
-        if (parts.buffers[i]) root["buffers"][i]["uri"] = encode_data_uri("application/octet-stream", *parts.buffers[i]);
+        if (parts.buffers[i])
+            root["buffers"][i]["uri"] = encode_data_uri("application/octet-stream", *parts.buffers[i]);
     for (size_t i = 0; i < parts.images.size(); ++i) {
         json& image = root["images"][i];
         if (!image.contains("uri")) continue;
@@ -85,18 +88,22 @@ std::vector<uint8_t> encode_binary(json& root, const Parts& parts, const std::st
         image["mimeType"] = type_of(image, parts.images[i]);
         image["bufferView"] = root["bufferViews"].size();
         image.erase("uri");
-        root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", chunk.size()}, {"byteLength", parts.images[i].size()}});
+        root["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", chunk.size()}, {"byteLength", parts.images[i].size()}});
         append(chunk, parts.images[i]);
         pad(chunk, 0);
     }
-    if (chunk.empty()) root.erase("buffers");
-    else root["buffers"] = json::array({{{"byteLength", chunk.size()}}});
+    if (chunk.empty())
+        root.erase("buffers");
+    else
+        root["buffers"] = json::array({{{"byteLength", chunk.size()}}});
 
     const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
     std::vector<uint8_t> header(text.begin(), text.end());
     pad(header, ' ');
     const uint64_t length = 12 + 8 + header.size() + (chunk.empty() ? 0 : 8 + chunk.size());
-    if (length > UINT32_MAX) throw Error(name + ": as .glb it would have more than 4 GiB, which that format cannot hold");
+    if (length > UINT32_MAX)
+        throw Error(name + ": as .glb it would have more than 4 GiB, which that format cannot hold");
     std::vector<uint8_t> file;
     file.reserve(length);
     append_word(file, 0x46546C67);

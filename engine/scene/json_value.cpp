@@ -30,7 +30,8 @@ void check_size(std::span<const uint8_t> text, const std::string& name) {
         } else if (c == '[' || c == '{') {
             ++values;
             if (++depth > kMaxDepth)
-                throw Error(name + ": byte " + std::to_string(i) + ": JSON nested deeper than " + std::to_string(kMaxDepth));
+                throw Error(name + ": byte " + std::to_string(i) + ": JSON nested deeper than " +
+                            std::to_string(kMaxDepth));
         } else if (c == ']' || c == '}') {
             --depth;
         } else if (c == ',') {
@@ -140,7 +141,8 @@ uint64_t JsonValue::integer(uint64_t high) const {
         number = value_->get<uint64_t>();
     } else if (value_->is_number_float()) {
         const double real = value_->get<double>();
-        if (!(real >= 0 && real <= 9007199254740992.0) || real != std::floor(real)) fail("must be a whole number from 0");
+        if (!(real >= 0 && real <= 9007199254740992.0) || real != std::floor(real))
+            fail("must be a whole number from 0");
         number = static_cast<uint64_t>(real);
     } else {
         fail("must be a whole number from 0");
@@ -157,7 +159,8 @@ uint64_t JsonValue::integer_or(const char* key, uint64_t fallback, uint64_t high
 uint32_t JsonValue::index(size_t size, const char* of) const {
     const uint64_t value = integer();
     if (value >= size || value >= UINT32_MAX)
-        fail("names number " + std::to_string(value) + " of the " + of + ", of which there are " + std::to_string(size));
+        fail("names number " + std::to_string(value) + " of the " + of + ", of which there are " +
+             std::to_string(size));
     return static_cast<uint32_t>(value);
 }
 

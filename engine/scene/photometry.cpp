@@ -41,7 +41,8 @@ std::vector<std::string> read_patterns(const JsonValue& rule, const char* key) {
     std::vector<std::string> patterns;
     if (value.json().is_array())
         for (const JsonValue& element : value.elements()) patterns.push_back(element.text());
-    else patterns.push_back(value.text());
+    else
+        patterns.push_back(value.text());
     if (patterns.empty()) value.fail("must name at least one pattern");
     if (std::any_of(patterns.begin(), patterns.end(), [](const std::string& p) { return p.empty(); }))
         value.fail("must not contain an empty pattern");
@@ -54,8 +55,8 @@ void read_lobe(Light& light, const JsonValue& rule) {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m"});
         light.kind = Light::Kind::Point;
     } else if (type.text() == "spot") {
-        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m", "aim",
-                         "inner_cone_deg", "outer_cone_deg"});
+        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
+                         "aim", "inner_cone_deg", "outer_cone_deg"});
         light.kind = Light::Kind::Spot;
         const double outer = rule.at("outer_cone_deg").number(0.1, 90);
         const double inner = rule.number_or("inner_cone_deg", 0, 0, 90);
@@ -64,8 +65,8 @@ void read_lobe(Light& light, const JsonValue& rule) {
         // KHR_lights_punctual wants the inner angle to be less.
         light.inner_cone = static_cast<float>(std::min(inner, outer * 0.9999) * kRadians);
     } else if (type.text() == "cosine_power") {
-        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m", "aim",
-                         "exponent"});
+        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
+                         "aim", "exponent"});
         light.kind = Light::Kind::CosinePower;
         light.exponent = static_cast<float>(rule.at("exponent").number(0, 1e5));
         // For viewers that know only spots: the cone ends where the lobe has fallen to a thousandth.
@@ -126,8 +127,10 @@ Transfer read_transfer(const JsonValue& textures) {
     textures.allow_only({"transfer", "gamma"});
     Transfer transfer{Transfer::Kind::Gamma, 2.2f};
     const auto kind = textures.find("transfer");
-    if (kind && kind->text() == "srgb") transfer.kind = Transfer::Kind::Srgb;
-    else if (kind && kind->text() != "gamma") kind->fail("is neither gamma nor srgb");
+    if (kind && kind->text() == "srgb")
+        transfer.kind = Transfer::Kind::Srgb;
+    else if (kind && kind->text() != "gamma")
+        kind->fail("is neither gamma nor srgb");
     const auto gamma = textures.find("gamma");
     if (gamma && transfer.kind == Transfer::Kind::Srgb) gamma->fail("has no meaning beside the transfer srgb");
     if (gamma) transfer.gamma = static_cast<float>(gamma->number(0.1, 10));
@@ -183,19 +186,24 @@ double luminous_flux(const Light& light) {
     constexpr double kPi = std::numbers::pi;
     const double intensity = light.intensity;
     switch (light.kind) {
-        case Light::Kind::Point: return 4 * kPi * intensity;
+        case Light::Kind::Point:
+            return 4 * kPi * intensity;
         case Light::Kind::Spot: {
             // Full within the inner cone; between, the squared ramp in cos(angle), whose mean is a third.
             const double inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
             return 2 * kPi * intensity * ((1 - inner) + (inner - outer) / 3);
         }
-        case Light::Kind::CosinePower: return 2 * kPi * intensity / (light.exponent + 1.0);
-        case Light::Kind::Directional: break;
+        case Light::Kind::CosinePower:
+            return 2 * kPi * intensity / (light.exponent + 1.0);
+        case Light::Kind::Directional:
+            break;
     }
     return 0;
 }
 
-bool matches_name(const std::string& pattern, const std::string& name) { return matches(pattern.c_str(), name.c_str(), 0); }
+bool matches_name(const std::string& pattern, const std::string& name) {
+    return matches(pattern.c_str(), name.c_str(), 0);
+}
 
 bool matches_path(const std::string& pattern, const std::vector<std::string>& path) {
     if (path.empty()) return false;

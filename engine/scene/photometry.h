@@ -1,4 +1,5 @@
-// The photometry file: what turns a daytime database into a night one (docs/photometry.md). SPDX-License-Identifier: MIT
+// The photometry file: what turns a daytime database into a night one (docs/photometry.md). SPDX-License-Identifier:
+// MIT
 #pragma once
 
 #include <filesystem>
@@ -26,7 +27,7 @@ struct EmitterRule {
     std::vector<std::string> materials;  ///< patterns
     double luminance = 0;                ///< cd/m^2
     glm::dvec3 colour{1};                ///< linear, luminance 1
-    bool modulate = false;               ///< the material's texture times the above; its brightest texel has `luminance`
+    bool modulate = false;  ///< the material's texture times the above; its brightest texel has `luminance`
 };
 
 /// A rule that changes how materials reflect.

@@ -38,7 +38,8 @@ glm::vec4 value_at(const Channel& channel, double seconds) {
     const std::vector<float>& times = channel.times;
     if (seconds <= times.front()) return held(0);
     if (seconds >= times.back()) return held(times.size() - 1);
-    const auto next = std::upper_bound(times.begin(), times.end(), seconds, [](double t, float key) { return t < key; });
+    const auto next =
+        std::upper_bound(times.begin(), times.end(), seconds, [](double t, float key) { return t < key; });
     const auto key = static_cast<size_t>(next - times.begin()) - 1;
     if (channel.interpolation == Channel::Interpolation::Step) return held(key);
     // The key found is the last one at or before `seconds`, so the next is later and the duration positive.
@@ -50,9 +51,15 @@ glm::vec4 value_at(const Channel& channel, double seconds) {
 
 void pose(Node& node, Channel::Path path, glm::vec4 value) {
     switch (path) {
-        case Channel::Path::Translation: node.translation = glm::vec3(value); break;
-        case Channel::Path::Rotation: node.rotation = rotation_of(value); break;
-        case Channel::Path::Scale: node.scale = glm::vec3(value); break;
+        case Channel::Path::Translation:
+            node.translation = glm::vec3(value);
+            break;
+        case Channel::Path::Rotation:
+            node.rotation = rotation_of(value);
+            break;
+        case Channel::Path::Scale:
+            node.scale = glm::vec3(value);
+            break;
     }
 }
 

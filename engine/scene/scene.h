@@ -54,29 +54,30 @@ struct TextureUse {
 struct Material {
     enum class Alpha : uint8_t { Opaque, Mask };
     std::string name;
-    glm::vec4 base_colour{1};          ///< linear reflectance and opacity, [0, 1]; times base_colour_texture
-    TextureUse base_colour_texture;    ///< codes through Scene::transfer
-    float metallic = 0, roughness = 1; ///< [0, 1]; times blue and green of metallic_roughness_texture
+    glm::vec4 base_colour{1};           ///< linear reflectance and opacity, [0, 1]; times base_colour_texture
+    TextureUse base_colour_texture;     ///< codes through Scene::transfer
+    float metallic = 0, roughness = 1;  ///< [0, 1]; times blue and green of metallic_roughness_texture
     TextureUse metallic_roughness_texture;
-    glm::vec3 emission{0};             ///< emitted RGB luminance, cd/m^2; times emission_texture
-    TextureUse emission_texture;       ///< codes through sRGB
+    glm::vec3 emission{0};        ///< emitted RGB luminance, cd/m^2; times emission_texture
+    TextureUse emission_texture;  ///< codes through sRGB
     Alpha alpha = Alpha::Opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
 };
 
 struct Vertex {
-    glm::vec3 position{0};                                  ///< m, in the mesh's frame
-    glm::vec3 normal{0, 1, 0};                              ///< unit length
+    glm::vec3 position{0};      ///< m, in the mesh's frame
+    glm::vec3 normal{0, 1, 0};  ///< unit length
     glm::vec2 uv{0};
-    std::array<uint8_t, 4> colour{255, 255, 255, 255};      ///< linear, multiplies base_colour
+    std::array<uint8_t, 4> colour{255, 255, 255, 255};  ///< linear, multiplies base_colour
 };
 
 /// Triangles of one material.
 struct Primitive {
     uint32_t material = 0;  ///< index into Scene::materials
     std::vector<Vertex> vertices;
-    std::vector<uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the front, all < vertices.size()
+    std::vector<uint32_t>
+        indices;  ///< three per triangle, counter-clockwise seen from the front, all < vertices.size()
     Bounds bounds;
 };
 
@@ -90,17 +91,17 @@ struct Light {
     enum class Kind : uint8_t { Point, Spot, CosinePower, Directional };
     std::string name;
     Kind kind = Kind::Point;
-    float intensity = 0;       ///< on the axis, cd; Directional: illuminance on a surface facing it, lx
-    glm::vec3 colour{1};       ///< linear Rec. 709 of luminance 1: (0.2126, 0.7152, 0.0722) . colour == 1
-    float inner_cone = 0;      ///< Spot: half angle of full intensity, rad
-    float outer_cone = 0.785f; ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
-    float exponent = 1;        ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
+    float intensity = 0;        ///< on the axis, cd; Directional: illuminance on a surface facing it, lx
+    glm::vec3 colour{1};        ///< linear Rec. 709 of luminance 1: (0.2126, 0.7152, 0.0722) . colour == 1
+    float inner_cone = 0;       ///< Spot: half angle of full intensity, rad
+    float outer_cone = 0.785f;  ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
+    float exponent = 1;         ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
 };
 
 struct Camera {
-    std::string name;       ///< of the camera, or of its node where that has none
+    std::string name;              ///< of the camera, or of its node where that has none
     float vertical_fov = 0.6435f;  ///< rad, in (0, pi)
-    float near = 0.1f;      ///< m; there is no far plane
+    float near = 0.1f;             ///< m; there is no far plane
 };
 
 struct Node {
@@ -131,13 +132,13 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    std::vector<Node> nodes;       ///< parents before children
-    std::vector<Channel> channels; ///< of all animations, played together
-    Transfer transfer;             ///< of base colour textures
-    float ambient_illuminance = 0; ///< E on any surface, lx: adds E * reflectance / pi
-    glm::vec3 ambient_colour{1};   ///< linear, luminance 1
-    float sky_luminance = 0;       ///< of the background, cd/m^2
-    glm::vec3 sky_colour{1};       ///< linear, luminance 1
+    std::vector<Node> nodes;        ///< parents before children
+    std::vector<Channel> channels;  ///< of all animations, played together
+    Transfer transfer;              ///< of base colour textures
+    float ambient_illuminance = 0;  ///< E on any surface, lx: adds E * reflectance / pi
+    glm::vec3 ambient_colour{1};    ///< linear, luminance 1
+    float sky_luminance = 0;        ///< of the background, cd/m^2
+    glm::vec3 sky_colour{1};        ///< linear, luminance 1
 };
 
 /// Where every node stands at a time: node frame to world, one matrix per node. Channels hold their first and last

@@ -64,9 +64,8 @@ std::vector<uint8_t> base64_decoded(std::string_view text) {
 bool has_scheme(const std::string& uri) {
     const size_t colon = uri.find(':');
     if (colon == std::string::npos || colon == 0 || !std::isalpha(static_cast<unsigned char>(uri[0]))) return false;
-    return std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](unsigned char c) {
-        return std::isalnum(c) || c == '+' || c == '-' || c == '.';
-    });
+    return std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon),
+                       [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
 }
 
 }  // namespace
@@ -105,7 +104,8 @@ std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std
     const std::string decoded = percent_decoded(uri);
     if (uri.empty()) throw Error("empty URI");
     if (decoded.find('\0') != std::string::npos) throw Error("URI contains a zero byte");
-    if (has_scheme(uri)) throw Error("URI '" + one_line(uri) + "' is not a relative path: only files beside this one are read");
+    if (has_scheme(uri))
+        throw Error("URI '" + one_line(uri) + "' is not a relative path: only files beside this one are read");
     for (const std::string& path : {uri, decoded})
         if (path[0] == '/' || path[0] == '\\')
             throw Error("URI '" + one_line(uri) + "' is an absolute path: only files beside this one are read");

@@ -4,6 +4,21 @@
 #include "cluster.h"
 SHARED_BEGIN
 
+const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of blocks
+
+// A block of pixels has a list of its own: the lights of its froxels that can light what is drawn
+// in it. An entry is a light's index and, above kSliceShift, the slice whose pixels it is for.
+const uint kSliceShift = 26u;
+
+struct SelectPush {
+    ClusterPush view;
+    uvec2 size;      // px
+    uint blocks_x;   // blocks in a row
+    uint blocks;     // in all
+    uint capacity;   // entries of a block: cones from the front, cosine powers from the back
+};
+SHARED_SIZE(SelectPush, 84)
+
 struct ShadePush {
     uvec2 size;             // px
     ClusterGrid grid;
@@ -13,11 +28,13 @@ struct ShadePush {
     float emission_limit;   // emission is clamped to this, cd/m^2; infinite except for the LDR baseline
     vec3 ambient;           // illuminance on any surface, RGB of luminance lx
     vec3 sky;               // luminance where nothing is drawn, cd/m^2 RGB
-    uint blocks_x;          // blocks of pixels, one per workgroup, in a row
-    uint blocks;            // in all
-    uint block_step;        // workgroup i does block (i block_step) mod blocks: spreads sky and road over the cores
+    uint blocks_x;          // as in SelectPush
+    uint capacity;
+    uint groups_x;          // workgroups in a row
+    uint groups;            // in all
+    uint group_step;        // workgroup i takes place (i group_step) mod groups: spreads sky and road over the cores
 };
-SHARED_SIZE(ShadePush, 108)
+SHARED_SIZE(ShadePush, 116)
 
 SHARED_END
 #endif

@@ -43,7 +43,7 @@ struct Tolerance {
     double floor = 0;  ///< magnitude below which the error no longer shrinks with the value
 };
 
-/// Half an ulp of a 16-bit float, for what was stored in one.
+/// Half an ulp of a 16-bit float, relative: what storing in one costs when rounded to nearest.
 constexpr double kHalfUlp16 = 1.0 / 2048;
 
 /// Writes one to three channels as PFM (rows from the bottom, little endian), the fourth dropped.

@@ -3,9 +3,9 @@
 from . import facade, groundfloor, roofs
 from .facade import BAY, OPENINGS, WINDOW_HEIGHT, WINDOW_RECESS
 from .geometry import quaternion
-from .layout import (BLOCKS, END_DEPTH, END_STREET, FACADE_X, GARDEN_BLOCK, JUNCTIONS, SIDE_DEPTH, Z_FAR, Z_NEAR, stream)
+from .layout import BLOCKS, END_DEPTH, END_STREET, FACADE_X, GARDEN_BLOCK, JUNCTIONS, SIDE_DEPTH, Z_FAR, Z_NEAR, stream
 
-LIT_SHARE = 0.20
+LIT_SHARE = 0.23
 WARM_SHARE = 0.75
 
 
@@ -25,17 +25,25 @@ class FacadePlacer:
         ``corners``: whether the run starts / ends at a convex street corner.
         """
         random = stream("run", self._runs)
-        root = self.document.node(f"facade_{self._runs:02d}", translation=(origin[0], 0.0, origin[1]),
-                                  rotation=quaternion("y", degrees))
+        root = self.document.node(
+            f"facade_{self._runs:02d}", translation=(origin[0], 0.0, origin[1]), rotation=quaternion("y", degrees)
+        )
         self._runs += 1
         total = max(1, round(length / BAY))
         stretch = length / (total * BAY)
         first = 0
         for index, bays in enumerate(_partition(total, random)):
-            rise = 1.0 if (corners[0] and first == 0) or (corners[1] and first + bays == total) \
+            rise = (
+                1.0
+                if (corners[0] and first == 0) or (corners[1] and first + bays == total)
                 else random.choice((0.985, 1.0, 1.0, 1.02))
-            building = self.document.node(f"building_{self._runs - 1:02d}_{index}", root,
-                                          translation=(first * BAY * stretch, 0.0, 0.0), scale=(stretch, rise, 1.0))
+            )
+            building = self.document.node(
+                f"building_{self._runs - 1:02d}_{index}",
+                root,
+                translation=(first * BAY * stretch, 0.0, 0.0),
+                scale=(stretch, rise, 1.0),
+            )
             look = _Look(random, ground)
             for bay in range(bays):
                 at = first + bay
@@ -73,7 +81,7 @@ class FacadePlacer:
             self._add(building, groundfloor.arcade_front, (x, 0, 0), look.tint)
             self._add(building, groundfloor.arcade_walk, (x, 0, 0))
             self._add(building, groundfloor.shop, (x, 0, -groundfloor.WALK_DEPTH), look.shop(random))
-            if bay % 2 == 1:
+            if bay % 3 == 1:
                 self._arcade_lamp(building, x)
         elif bay == look.door_bay:
             self._add(building, groundfloor.door_front, (x, 0, 0), look.tint)
@@ -88,15 +96,21 @@ class FacadePlacer:
         self.arcade_lamps += 1
         lantern = self._add(building, groundfloor.arcade_lantern, (x + BAY / 2, 4.0, -2.2))
         self.document.nodes[lantern]["name"] = name
-        self.document.node(f"{name}/light", lantern)
+        self.document.node(f"{name}/light", lantern, rotation=quaternion("x", -90.0))
 
     def _window(self, building, x, sill, height, width_scale, z, random):
         kind = "window_glass"
         if random.random() < LIT_SHARE:
             kind = "window_lit_warm" if random.random() < WARM_SHARE else "window_lit_cool"
         variant = random.randrange(facade.WINDOW_KINDS[kind])
-        self._add(building, facade.window, (x + BAY / 2, sill, z), kind, variant,
-                  scale=(width_scale, height / WINDOW_HEIGHT, 1.0))
+        self._add(
+            building,
+            facade.window,
+            (x + BAY / 2, sill, z),
+            kind,
+            variant,
+            scale=(width_scale, height / WINDOW_HEIGHT, 1.0),
+        )
 
 
 class _Look:
@@ -114,10 +128,10 @@ class _Look:
         self._same = 0
 
     def shop(self, random):
-        """The shop variant of the next bay; a shop is one to three bays wide."""
+        """The shop variant of the next bay; a shop is one or two bays wide."""
         if self._same == 0:
             self._shop = (self._shop + random.randrange(1, groundfloor.SHOP_COUNT)) % groundfloor.SHOP_COUNT
-            self._same = random.randrange(1, 4)
+            self._same = random.randrange(1, 3)
         self._same -= 1
         return self._shop
 

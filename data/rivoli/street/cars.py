@@ -1,7 +1,10 @@
-"""Car bodies as lofts of cross sections: paint, glass, wheels, lamps, plates. Front towards -Z, origin on the ground."""
+"""Car bodies as lofts of cross sections, with glass, wheels, lamps and plates.
+
+The front looks to -Z, the origin lies on the ground below the middle.
+"""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,9 +14,9 @@ from .tex_small import PLATE_COUNT
 PAINTS = ("paint_white", "paint_silver", "paint_grey", "paint_black", "paint_blue", "paint_red", "paint_beige")
 SILL = 0.2
 TRACK_INSET = 0.11
-PANEL_KNOTS = (0.0, 0.28, 0.50, 0.74, 1.0)   # texture u of front, cowl, pillar, end of roof and rear
-PANEL_SHARE = 0.75                            # part of the panel texture's height that shows the side view
-PLAIN_PANEL = (0.5, 0.9)                      # where that texture is plain
+PANEL_KNOTS = (0.0, 0.28, 0.50, 0.74, 1.0)  # texture u of front, cowl, pillar, end of roof and rear
+PANEL_SHARE = 0.75  # part of the panel texture's height that shows the side view
+PLAIN_PANEL = (0.5, 0.9)  # where that texture is plain
 
 
 @dataclass(frozen=True)
@@ -24,10 +27,10 @@ class Body:
     length: float
     width: float
     height: float
-    cowl: float          # foot of the windscreen
+    cowl: float  # foot of the windscreen
     roof_front: float
     roof_rear: float
-    rear_foot: float     # foot of the rear window
+    rear_foot: float  # foot of the rear window
     nose_height: float
     cowl_height: float
     deck_height: float
@@ -41,10 +44,17 @@ class Body:
 
     def top(self, s):
         """Height of the outline at station ``s``."""
-        knots = [(0.0, self.nose_height), (0.18, self.nose_height + 0.09), (self.cowl, self.cowl_height),
-                 (self.roof_front, self.height - 0.05), ((self.roof_front + self.roof_rear) / 2, self.height),
-                 (self.roof_rear, self.height - 0.06), (self.rear_foot, self.deck_height),
-                 (self.length - 0.12, self.deck_height - 0.05), (self.length, self.deck_height - 0.14)]
+        knots = [
+            (0.0, self.nose_height),
+            (0.18, self.nose_height + 0.09),
+            (self.cowl, self.cowl_height),
+            (self.roof_front, self.height - 0.05),
+            (self.pillar, self.height),
+            (self.roof_rear, self.height - 0.06),
+            (self.rear_foot, self.deck_height),
+            (self.length - 0.12, self.deck_height - 0.05),
+            (self.length, self.deck_height - 0.14),
+        ]
         return float(np.interp(s, *zip(*knots)))
 
     def half_width(self, s):
@@ -66,6 +76,8 @@ BODIES = {
     "suv": Body("suv", 4.45, 1.86, 1.68, 1.22, 1.92, 3.70, 4.25, 0.86, 1.10, 1.12, (0.86, 3.50), 0.36),
     "van": Body("van", 4.75, 1.92, 2.02, 0.92, 1.62, 4.45, 4.68, 0.86, 1.14, 1.2, (0.88, 3.75), 0.33),
 }
+# The driver's car: a lower scuttle and a flatter bonnet, which show from the driver's seat.
+EGO_BODY = replace(BODIES["hatchback"], name="ego", nose_height=0.76, cowl_height=0.90)
 
 
 def _stations(body):
@@ -93,8 +105,14 @@ def _section(body, s):
     shoulder = half * (0.90 - 0.16 * cabin)
     edge = half * (0.80 - 0.17 * cabin)
     drop = 0.03 + 0.05 * cabin
-    return [(half * 0.955, bottom), (half, flank), (half * 0.965, belt),
-            (shoulder, max(top - drop, belt + 0.01)), (edge, top), (0.0, top + 0.025)]
+    return [
+        (half * 0.955, bottom),
+        (half, flank),
+        (half * 0.965, belt),
+        (shoulder, max(top - drop, belt + 0.01)),
+        (edge, top),
+        (0.0, top + 0.025),
+    ]
 
 
 def _cell_kind(body, s, j):
@@ -134,8 +152,11 @@ def _shell(body):
     for base, flip in ((0, False), (last, True)):
         ring = [base + k for k in range(count)] + [base + count + k for k in range(count - 2, -1, -1)]
         hub = count - 1
-        fan = [(ring[hub], ring[(k + 1) % len(ring)], ring[k]) for k in range(len(ring))
-               if hub not in (k, (k + 1) % len(ring))]
+        fan = [
+            (ring[hub], ring[(k + 1) % len(ring)], ring[k])
+            for k in range(len(ring))
+            if hub not in (k, (k + 1) % len(ring))
+        ]
         triangles["panel"] += [(a, c, b) if flip else (a, b, c) for a, b, c in fan]
     return points, uvs, triangles
 
@@ -161,12 +182,21 @@ def trim_mesh(body, plate, windscreen=True):
     for side in (-1, 1):
         low, high = sorted((side * half * 0.93, side * (half + 0.12)))
         z = body.cowl + 0.36 + front
-        mesh.box("car_black", (low, body.cowl_height + 0.03, z), (high, body.cowl_height + 0.15, z + 0.1),
-                 skip="-x" if side > 0 else "+x")
+        mesh.box(
+            "car_black",
+            (low, body.cowl_height + 0.03, z),
+            (high, body.cowl_height + 0.15, z + 0.1),
+            skip="-x" if side > 0 else "+x",
+        )
     bumper = half * 0.80
     mesh.box("car_black", (-bumper, 0.24, front - 0.03), (bumper, 0.44, front + 0.1), skip="+z")
     mesh.box("car_black", (-half * 0.86, 0.26, rear - 0.1), (half * 0.86, 0.46, rear + 0.03), skip="-z")
-    mesh.box("car_black", (-0.34, body.nose_height - 0.17, front - 0.015), (0.34, body.nose_height - 0.05, front + 0.1), skip="+z")
+    mesh.box(
+        "car_black",
+        (-0.34, body.nose_height - 0.17, front - 0.015),
+        (0.34, body.nose_height - 0.05, front + 0.1),
+        skip="+z",
+    )
     _plate(mesh, plate, 0.34, front - 0.036, -1)
     _plate(mesh, plate, 0.37 if body.name == "suv" else body.deck_height - 0.40, rear + 0.036, 1)
     for centre in body.wheels:
@@ -182,8 +212,13 @@ def _plate(mesh, plate, y, z, facing):
     v0, v1 = (plate + 0.05) / PLATE_COUNT, (plate + 0.95) / PLATE_COUNT
     a, b = -0.26 * facing, 0.26 * facing
     back = z - 0.004 * facing
-    mesh.quad("car_black", (a * 1.08, y - 0.075, back), (b * 1.08, y - 0.075, back), (b * 1.08, y + 0.075, back),
-              (a * 1.08, y + 0.075, back))
+    mesh.quad(
+        "car_black",
+        (a * 1.08, y - 0.075, back),
+        (b * 1.08, y - 0.075, back),
+        (b * 1.08, y + 0.075, back),
+        (a * 1.08, y + 0.075, back),
+    )
     mesh.quad("plates", (a, y - 0.055, z), (b, y - 0.055, z), (b, y + 0.055, z), (a, y + 0.055, z), (0.0, v0, 1.0, v1))
 
 
@@ -218,12 +253,26 @@ def cockpit_mesh(body):
     z = body.cowl - body.length / 2
     half = body.width / 2 - 0.10
     y = body.cowl_height
-    mesh.quad("car_black", (-half, y - 0.05, z + 0.50), (half, y - 0.05, z + 0.50), (half, y + 0.03, z - 0.03),
-              (-half, y + 0.03, z - 0.03))
-    mesh.quad("car_black", (-half, 0.45, z + 0.55), (half, 0.45, z + 0.55), (half, y - 0.05, z + 0.50), (-half, y - 0.05, z + 0.50))
+    mesh.quad(
+        "car_black",
+        (-half, y - 0.05, z + 0.50),
+        (half, y - 0.05, z + 0.50),
+        (half, y + 0.04, z - 0.02),
+        (-half, y + 0.04, z - 0.02),
+    )
+    mesh.quad(
+        "car_black",
+        (-half, 0.45, z + 0.55),
+        (half, 0.45, z + 0.55),
+        (half, y - 0.05, z + 0.50),
+        (-half, y - 0.05, z + 0.50),
+    )
     mesh.box("car_black", (-0.56, y - 0.08, z + 0.34), (-0.18, y + 0.035, z + 0.52))
     angles = [math.tau * k / 20 for k in range(21)]
     centre = (-0.37, 0.84, z + 0.72)
-    rim = [(centre[0] + 0.185 * math.cos(a), centre[1] + 0.17 * math.sin(a), centre[2] - 0.075 * math.sin(a)) for a in angles]
+    rim = [
+        (centre[0] + 0.185 * math.cos(a), centre[1] + 0.17 * math.sin(a), centre[2] - 0.075 * math.sin(a))
+        for a in angles
+    ]
     mesh.tube("car_black", rim, [0.015] * len(rim), 5)
     return mesh

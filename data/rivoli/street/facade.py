@@ -12,13 +12,16 @@ GROUND_TOP = 5.7
 WALL_TOP = 16.2
 TINTS = ("limestone_a", "limestone_b", "limestone_c")
 STYLES = ("plain", "top_balcony")
-WINDOW_WIDTH, WINDOW_HEIGHT = 1.36, 2.6      # the window mesh; nodes scale it to the openings below
+WINDOW_WIDTH, WINDOW_HEIGHT = 1.36, 2.6  # the window mesh; nodes scale it to the openings below
 WINDOW_RECESS = 0.24
-OPENINGS = ((6.05, 2.85), (9.95, 2.45), (13.3, 2.05))   # sill height and clear height per floor
+OPENINGS = ((6.05, 2.85), (9.95, 2.45), (13.3, 2.05))  # sill height and clear height per floor
 WINDOW_KINDS = {"window_glass": 8, "window_lit_warm": 6, "window_lit_cool": 4}
 
 CORNICE = [(0.0, 15.75), (0.08, 15.75), (0.12, 16.0), (0.42, 16.12), (0.5, 16.4), (0.5, 16.5), (-0.3, 16.55)]
-STRINGS = ([(0.0, 9.45), (0.12, 9.5), (0.14, 9.66), (0.0, 9.72)], [(0.0, 12.88), (0.10, 12.92), (0.12, 13.05), (0.0, 13.1)])
+STRINGS = (
+    [(0.0, 9.45), (0.12, 9.5), (0.14, 9.66), (0.0, 9.72)],
+    [(0.0, 12.88), (0.10, 12.92), (0.12, 13.05), (0.0, 13.1)],
+)
 BALCONY = [(0.0, 5.52), (0.16, 5.56), (0.2, 5.72), (0.78, 5.86), (0.8, 6.0), (0.0, 6.02)]
 TOP_BALCONY = [(0.0, 12.78), (0.4, 12.92), (0.42, 13.04), (0.0, 13.06)]
 
@@ -55,8 +58,13 @@ def _surrounds(mesh):
             hood = [(face, crown), (0.26, crown + 0.1), (0.26, crown + 0.16), (0.0, crown + 0.22)]
             mesh.moulding("stone_trim", hood, left - 0.28, right + 0.28)
         else:
-            mesh.quad("stone_trim", (left - 0.2, crown, face), (right + 0.2, crown, face), (right + 0.2, crown, 0),
-                      (left - 0.2, crown, 0))
+            mesh.quad(
+                "stone_trim",
+                (left - 0.2, crown, face),
+                (right + 0.2, crown, face),
+                (right + 0.2, crown, 0),
+                (left - 0.2, crown, 0),
+            )
 
 
 def _railing(mesh, x0, x1, y0, height, z, repeats):
@@ -71,7 +79,7 @@ def upper_bay(tint, style):
     mesh.moulding("stone_trim", CORNICE, 0.0, BAY, ends=False)
     mesh.moulding("stone_trim", BALCONY, 0.0, BAY, ends=False)
     mesh.moulding("stone_trim", STRINGS[0], 0.0, BAY, ends=False)
-    console = [(0.0, 5.05), (0.1, 5.1), (0.16, 5.45), (0.45, 5.62), (0.45, 5.8)]
+    console = [(0.0, 5.05), (0.1, 5.1), (0.16, 5.45), (0.45, 5.62), (0.45, 5.8), (0.0, 5.8)]
     mesh.moulding("stone_trim", console, 0.0, 0.2)
     _railing(mesh, 0.0, BAY, 6.0, 0.98, 0.74, 4)
     middle = BAY / 2.0
@@ -104,7 +112,8 @@ def moulding_ends():
     mesh = Mesh("moulding_ends")
     for profile in (CORNICE, BALCONY):
         points = [(0.0, y, z) for z, y in profile]
-        fan = [(0, i, i + 1) for i in range(1, len(profile) - 1)]
+        hub = len(profile) - 1
+        fan = [(hub, i, i + 1) for i in range(hub - 1)]
         mesh.add("stone_trim", points, fan + [(a, c, b) for a, b, c in fan])
     return mesh
 
@@ -115,11 +124,21 @@ def window(kind, variant):
     half, height = WINDOW_WIDTH / 2.0, WINDOW_HEIGHT
     column, row = variant % WINDOW_COLUMNS, variant // WINDOW_COLUMNS
     inset = 0.004
-    cell = ((column + inset) / WINDOW_COLUMNS, (row + inset) / WINDOW_ROWS,
-            (column + 1 - inset) / WINDOW_COLUMNS, (row + 1 - inset) / WINDOW_ROWS)
+    cell = (
+        (column + inset) / WINDOW_COLUMNS,
+        (row + inset) / WINDOW_ROWS,
+        (column + 1 - inset) / WINDOW_COLUMNS,
+        (row + 1 - inset) / WINDOW_ROWS,
+    )
     mesh.quad(kind, (-half, 0, 0), (half, 0, 0), (half, height, 0), (-half, height, 0), cell)
-    bars = [(-half, 0.0, -half + 0.09, height), (half - 0.09, 0.0, half, height), (-0.06, 0.0, 0.06, height),
-            (-half, 0.0, half, 0.16), (-half, height - 0.09, half, height), (-half, 0.71 * height, half, 0.74 * height)]
+    bars = [
+        (-half, 0.0, -half + 0.09, height),
+        (half - 0.09, 0.0, half, height),
+        (-0.06, 0.0, 0.06, height),
+        (-half, 0.0, half, 0.16),
+        (-half, height - 0.09, half, height),
+        (-half, 0.71 * height, half, 0.74 * height),
+    ]
     for x0, y0, x1, y1 in bars:
         mesh.quad("window_frame", (x0, y0, 0.04), (x1, y0, 0.04), (x1, y1, 0.04), (x0, y1, 0.04))
     return mesh

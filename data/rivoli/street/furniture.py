@@ -2,33 +2,65 @@
 
 import math
 
+from .cars import PLAIN_PANEL
 from .geometry import Mesh, rotation, translation
 from .layout import LAMP_Y, PAVEMENT_Y
 from .tex_small import SIGN_CELLS
 
 COLUMN_TOP = LAMP_Y - PAVEMENT_Y - 0.42
-SIGNAL_HEADS = {"red": 3.32, "amber": 3.04, "green": 2.76}     # heights of the three lenses
+SIGNAL_HEADS = {"red": 3.32, "amber": 3.04, "green": 2.76}  # heights of the three lenses
 
 
 def street_lamp():
     """A Parisian lantern on a fluted column; the light point is LAMP_Y above the carriageway."""
     mesh = Mesh("street_lamp")
     top = COLUMN_TOP
-    mesh.lathe("iron", [(0.24, 0.0), (0.24, 0.18), (0.16, 0.3), (0.16, 0.95), (0.2, 1.02), (0.085, 1.25),
-                        (0.06, top - 0.35), (0.1, top - 0.28), (0.05, top - 0.2), (0.05, top)], 7)
+    mesh.lathe(
+        "iron",
+        [
+            (0.24, 0.0),
+            (0.24, 0.18),
+            (0.16, 0.3),
+            (0.16, 0.95),
+            (0.2, 1.02),
+            (0.085, 1.25),
+            (0.06, top - 0.35),
+            (0.1, top - 0.28),
+            (0.05, top - 0.2),
+            (0.05, top),
+        ],
+        7,
+    )
     mesh.box("iron", (-0.42, top - 0.62, -0.02), (0.42, top - 0.58, 0.02))
     base, crown = top, top + 0.72
     mesh.lathe("iron", [(0.05, base - 0.08), (0.17, base), (0.17, base + 0.04)], 6)
     mesh.lathe("lamp_glass", [(0.155, base + 0.04), (0.27, crown)], 6, crease_deg=20.0)
-    mesh.lathe("iron", [(0.30, crown - 0.02), (0.31, crown + 0.04), (0.15, crown + 0.2), (0.12, crown + 0.24),
-                        (0.13, crown + 0.3), (0.03, crown + 0.38), (0.0, crown + 0.5)], 6, crease_deg=30.0)
+    mesh.lathe(
+        "iron",
+        [
+            (0.30, crown - 0.02),
+            (0.31, crown + 0.04),
+            (0.15, crown + 0.2),
+            (0.12, crown + 0.24),
+            (0.13, crown + 0.3),
+            (0.03, crown + 0.38),
+            (0.0, crown + 0.5),
+        ],
+        6,
+        crease_deg=30.0,
+    )
     for k in range(6):
         angle = math.tau * k / 6.0
         across = (0.014 * math.cos(angle), 0.0, -0.014 * math.sin(angle))
         foot = (0.162 * math.sin(angle), base + 0.02, 0.162 * math.cos(angle))
         head = (0.28 * math.sin(angle), crown, 0.28 * math.cos(angle))
-        mesh.quad("iron", *([p[i] + sign * across[i] for i in range(3)] for p, sign in
-                            ((foot, -1), (foot, 1), (head, 1), (head, -1))))
+        mesh.quad(
+            "iron",
+            *(
+                [p[i] + sign * across[i] for i in range(3)]
+                for p, sign in ((foot, -1), (foot, 1), (head, 1), (head, -1))
+            ),
+        )
     return mesh
 
 
@@ -39,10 +71,15 @@ def signal(state):
     mesh.box("car_black", (-0.15, 2.58, 0.06), (0.15, 3.5, 0.28))
     for name, height in SIGNAL_HEADS.items():
         material = f"signal_{name}" if name == state else "signal_off"
-        lens = [(0.10 * math.cos(math.tau * k / 10), height + 0.10 * math.sin(math.tau * k / 10), 0.295) for k in range(10)]
+        lens = [
+            (0.10 * math.cos(math.tau * k / 10), height + 0.10 * math.sin(math.tau * k / 10), 0.295) for k in range(10)
+        ]
         mesh.add(material, lens, [(0, k, k + 1) for k in range(1, 9)])
-        hood = [(0.125 * math.cos(math.pi * k / 6), height + 0.125 * math.sin(math.pi * k / 6), z)
-                for k in range(7) for z in (0.28, 0.44)]
+        hood = [
+            (0.125 * math.cos(math.pi * k / 6), height + 0.125 * math.sin(math.pi * k / 6), z)
+            for k in range(7)
+            for z in (0.28, 0.44)
+        ]
         strip = [t for k in range(0, 12, 2) for t in ((k, k + 1, k + 3), (k, k + 3, k + 2))]
         mesh.add("car_black", hood, strip + [(a, c, b) for a, b, c in strip])
     return mesh
@@ -74,8 +111,46 @@ def street_name_plate():
     mesh = Mesh("street_name_plate")
     index = SIGN_CELLS["street_name"]
     u, v = (index % 4) / 4.0, (index // 4) / 2.0
-    mesh.quad("road_signs", (-0.45, 0, 0.03), (0.45, 0, 0.03), (0.45, 0.5, 0.03), (-0.45, 0.5, 0.03),
-              (u + 0.004, v + 0.06, u + 0.246, v + 0.44))
+    mesh.quad(
+        "road_signs",
+        (-0.45, 0, 0.03),
+        (0.45, 0, 0.03),
+        (0.45, 0.5, 0.03),
+        (-0.45, 0.5, 0.03),
+        (u + 0.004, v + 0.06, u + 0.246, v + 0.44),
+    )
+    return mesh
+
+
+def pharmacy_cross():
+    """The green cross of a pharmacy, hung out 0.9 m from a wall in the plane z = 0; origin at the arm's foot."""
+    mesh = Mesh("pharmacy_cross")
+    mesh.box("iron", (-0.02, -0.02, 0.0), (0.02, 0.02, 0.4))
+    for x in (-0.09, 0.09):
+        outward = 1 if x > 0 else -1
+        for (y0, y1), (z0, z1) in (
+            ((-0.42, 0.42), (0.7, 0.98)),
+            ((-0.14, 0.14), (0.42, 0.7)),
+            ((-0.14, 0.14), (0.98, 1.26)),
+        ):
+            corners = [(x, y0, z1), (x, y0, z0), (x, y1, z0), (x, y1, z1)]
+            mesh.quad("sign_cross", *(corners if outward > 0 else corners[::-1]))
+    outline = [
+        (0.42, -0.14),
+        (0.7, -0.14),
+        (0.7, -0.42),
+        (0.98, -0.42),
+        (0.98, -0.14),
+        (1.26, -0.14),
+        (1.26, 0.14),
+        (0.98, 0.14),
+        (0.98, 0.42),
+        (0.7, 0.42),
+        (0.7, 0.14),
+        (0.42, 0.14),
+    ]
+    for (z0, y0), (z1, y1) in zip(outline, outline[1:] + outline[:1]):
+        mesh.quad("iron", (-0.09, y0, z0), (0.09, y0, z0), (0.09, y1, z1), (-0.09, y1, z1))
     return mesh
 
 
@@ -91,8 +166,12 @@ def bin_bag():
     mesh = Mesh("litter_bin")
     mesh.lathe("grey_metal", [(0.04, 0.0), (0.04, 1.1), (0.0, 1.12)], 6)
     mesh.lathe("bin_green", [(0.16, 0.22), (0.22, 0.3), (0.23, 0.85)], 9, (0.0, 0.0, 0.26))
-    mesh.lathe("grey_metal", [(0.23, 0.85), (0.26, 0.87), (0.25, 0.93), (0.21, 0.93), (0.19, 0.7), (0.0, 0.68)], 9,
-               (0.0, 0.0, 0.26))
+    mesh.lathe(
+        "grey_metal",
+        [(0.23, 0.85), (0.26, 0.87), (0.25, 0.93), (0.21, 0.93), (0.19, 0.7), (0.0, 0.68)],
+        9,
+        (0.0, 0.0, 0.26),
+    )
     return mesh
 
 
@@ -115,8 +194,21 @@ def kiosk():
     mesh = Mesh("morris_column")
     mesh.lathe("shop_green", [(0.75, 0.0), (0.75, 0.45), (0.66, 0.5)], 12)
     mesh.lathe("awning", [(0.64, 0.5), (0.64, 2.9)], 12)
-    mesh.lathe("shop_green", [(0.66, 2.9), (0.92, 2.98), (0.92, 3.1), (0.7, 3.2), (0.6, 3.5), (0.3, 3.8), (0.1, 3.9),
-                              (0.06, 4.2), (0.0, 4.35)], 12)
+    mesh.lathe(
+        "shop_green",
+        [
+            (0.66, 2.9),
+            (0.92, 2.98),
+            (0.92, 3.1),
+            (0.7, 3.2),
+            (0.6, 3.5),
+            (0.3, 3.8),
+            (0.1, 3.9),
+            (0.06, 4.2),
+            (0.0, 4.35),
+        ],
+        12,
+    )
     return mesh
 
 
@@ -128,9 +220,11 @@ def scooter(paint):
         disc.lathe("car_black", [(0.12, -0.05), (0.24, -0.045), (0.25, 0.0), (0.24, 0.045), (0.12, 0.05)], 10)
         mesh.merge(disc, translation(0, 0.25, z) @ rotation("z", 90.0))
     mesh.box("car_black", (-0.16, 0.26, -0.25), (0.16, 0.34, 0.2))
-    mesh.loft(paint, [_slab(0.2, 0.30, 0.16, 0.62), _slab(0.34, 0.42, 0.19, 0.74), _slab(0.62, 0.74, 0.17, 0.82)], cap_end=True)
+    tail = [_slab(0.24, 0.30, 0.13, 0.62), _slab(0.36, 0.42, 0.19, 0.76), _slab(0.66, 0.74, 0.14, 0.84)]
+    shield = [_shield(0.28, -0.30, 0.2), _shield(0.7, -0.42, 0.22), _shield(1.0, -0.5, 0.13)]
+    for rings in (tail, shield):
+        mesh.loft(paint, rings, cap_end=True, crease_deg=60.0, uvs=[PLAIN_PANEL] * 12)
     mesh.box("car_black", (-0.15, 0.74, -0.02), (0.15, 0.84, 0.74))
-    mesh.loft(paint, [_shield(0.28, -0.30, 0.2), _shield(0.7, -0.42, 0.22), _shield(1.0, -0.5, 0.13)], cap_end=True)
     mesh.tube("car_black", [(-0.33, 1.06, -0.4), (0.33, 1.06, -0.4)], [0.025, 0.025], 5)
     mesh.tube("grey_metal", [(0, 0.28, -0.62), (0, 1.05, -0.44)], [0.045, 0.045], 5)
     mesh.box("headlamp_glass_parked", (-0.07, 0.86, -0.64), (0.07, 0.98, -0.55))

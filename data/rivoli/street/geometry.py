@@ -56,7 +56,7 @@ class Mesh:
             "+z": [(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)],
             "-z": [(x1, y0, z0), (x0, y0, z0), (x0, y1, z0), (x1, y1, z0)],
         }
-        skipped = {skip[i:i + 2] for i in range(0, len(skip), 2)}
+        skipped = {skip[i : i + 2] for i in range(0, len(skip), 2)}
         for name, face in faces.items():
             if name not in skipped:
                 self.quad(material, *face)
@@ -92,7 +92,8 @@ class Mesh:
         """A round bar along ``path`` with one radius per point."""
         path = np.asarray(path, float)
         tangents = np.gradient(path, axis=0)
-        reference = np.array([0.0, 0.0, 1.0]) if abs(tangents[0][1]) > abs(tangents[0][2]) else np.array([0.0, 1.0, 0.0])
+        upright = abs(tangents[0][1]) > abs(tangents[0][2])
+        reference = np.array([0.0, 0.0, 1.0] if upright else [0.0, 1.0, 0.0])
         rings = []
         for point, tangent, radius in zip(path, tangents, radii):
             axis = tangent / np.linalg.norm(tangent)
@@ -110,8 +111,8 @@ class Mesh:
         for i in range(len(profile) - 1):
             self.quad(material, left[i], right[i], right[i + 1], left[i + 1])
         if ends:
-            count = len(profile)
-            fan = [(0, i, i + 1) for i in range(1, count - 1)]
+            hub = len(profile) - 1
+            fan = [(hub, i, i + 1) for i in range(hub - 1)]
             self.add(material, right, [(a, c, b) for a, b, c in fan])
             self.add(material, left, fan)
 
@@ -130,13 +131,22 @@ class Mesh:
         """Yield (material, positions, normals, uvs, indices) as float32 arrays and an index array."""
         for material in sorted(self._parts):
             chunks = self._parts[material]
-            corners = [np.concatenate([chunk[k] for chunk in chunks]).reshape(-1, chunks[0][k].shape[-1]) for k in range(3)]
-            table = np.concatenate(corners, axis=1).astype(np.float32) + np.float32(0.0)
+            columns = [np.concatenate(arrays).reshape(-1, arrays[0].shape[-1]) for arrays in zip(*chunks)]
+            table = np.concatenate(columns, axis=1).astype(np.float32) + np.float32(0.0)  # no negative zeros
             unique, indices = np.unique(np.round(table, 5), axis=0, return_inverse=True)
             normals = unique[:, 3:6].astype(float)
             normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-            yield (material, np.ascontiguousarray(unique[:, :3]), normals.astype(np.float32),
-                   np.ascontiguousarray(unique[:, 6:8]), indices.reshape(-1))
+            yield (
+                material,
+                np.ascontiguousarray(unique[:, :3]),
+                normals.astype(np.float32),
+                np.ascontiguousarray(unique[:, 6:8]),
+                indices.reshape(-1),
+            )
+
+    def lowest(self):
+        """The smallest y of all triangles."""
+        return min(float(chunk[0][..., 1].min()) for chunks in self._parts.values() for chunk in chunks)
 
     def triangle_count(self):
         """Number of triangles over all materials."""
@@ -166,7 +176,7 @@ def creased_normals(corners, area_normals, crease_deg):
     starts = np.searchsorted(point[order], np.arange(point.max() + 2))
     flat = normals.reshape(-1, 3)
     for k in range(len(starts) - 1):
-        slots = order[starts[k]:starts[k + 1]]
+        slots = order[starts[k] : starts[k + 1]]
         faces = slots // 3
         near = unit[faces] @ unit[faces].T >= limit
         mean = near @ area_normals[faces]

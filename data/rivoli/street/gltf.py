@@ -45,8 +45,13 @@ class Document:
 
     def camera(self, name, yfov_deg, parent=None, znear=0.1, aspect=1.6, **placement):
         """Add a perspective camera on a node of the same name."""
-        self.cameras.append({"name": name, "type": "perspective", "perspective": {
-            "yfov": round(float(np.radians(yfov_deg)), 7), "znear": znear, "aspectRatio": aspect}})
+        self.cameras.append(
+            {
+                "name": name,
+                "type": "perspective",
+                "perspective": {"yfov": round(float(np.radians(yfov_deg)), 7), "znear": znear, "aspectRatio": aspect},
+            }
+        )
         return self.node(name, parent, camera=len(self.cameras) - 1, **placement)
 
     def animate(self, node, path, times, values):
@@ -64,9 +69,14 @@ class Document:
         uses = [node["mesh"] for node in self.nodes if "mesh" in node]
         batches = sum(len(self.meshes[m]["primitives"]) for m in set(uses))
         used = {p["material"] for m in set(uses) for p in self.meshes[m]["primitives"]}
-        return {"triangles": sum(self._triangles[m] for m in uses), "nodes": len(self.nodes),
-                "meshes": len(self.meshes), "draw batches": batches,
-                "mesh instances": len(uses), "materials": len(used)}
+        return {
+            "triangles": sum(self._triangles[m] for m in uses),
+            "nodes": len(self.nodes),
+            "meshes": len(self.meshes),
+            "draw batches": batches,
+            "mesh instances": len(uses),
+            "materials": len(used),
+        }
 
     def write(self, folder, name):
         """Write the pair of files."""
@@ -88,8 +98,11 @@ class Document:
         document = {
             "asset": {"version": "2.0", "generator": "vesper rivoli generator"},
             "extensionsUsed": ["KHR_lights_punctual"],
-            "extensions": {"KHR_lights_punctual": {"lights": [
-                {"name": "sun", "type": "directional", "intensity": 80000.0, "color": [1.0, 0.96, 0.9]}]}},
+            "extensions": {
+                "KHR_lights_punctual": {
+                    "lights": [{"name": "sun", "type": "directional", "intensity": 80000.0, "color": [1.0, 0.96, 0.9]}]
+                }
+            },
             "scene": 0,
             "scenes": [{"name": name, "nodes": self.roots}],
             "nodes": self.nodes,
@@ -113,14 +126,22 @@ class Document:
             primitives = []
             for material, positions, normals, uvs, indices in mesh.primitives():
                 small = len(positions) <= 65535
-                primitives.append({
-                    "attributes": {
-                        "POSITION": self._accessor(positions, "VEC3", FLOAT, ARRAY_BUFFER, bounds=True),
-                        "NORMAL": self._accessor(normals, "VEC3", FLOAT, ARRAY_BUFFER),
-                        "TEXCOORD_0": self._accessor(uvs, "VEC2", FLOAT, ARRAY_BUFFER)},
-                    "indices": self._accessor(indices.astype(np.uint16 if small else np.uint32), "SCALAR",
-                                              USHORT if small else UINT, ELEMENT_ARRAY_BUFFER),
-                    "material": self.material_index[material]})
+                primitives.append(
+                    {
+                        "attributes": {
+                            "POSITION": self._accessor(positions, "VEC3", FLOAT, ARRAY_BUFFER, bounds=True),
+                            "NORMAL": self._accessor(normals, "VEC3", FLOAT, ARRAY_BUFFER),
+                            "TEXCOORD_0": self._accessor(uvs, "VEC2", FLOAT, ARRAY_BUFFER),
+                        },
+                        "indices": self._accessor(
+                            indices.astype(np.uint16 if small else np.uint32),
+                            "SCALAR",
+                            USHORT if small else UINT,
+                            ELEMENT_ARRAY_BUFFER,
+                        ),
+                        "material": self.material_index[material],
+                    }
+                )
             self._mesh_index[mesh.name] = len(self.meshes)
             self.meshes.append({"name": mesh.name, "primitives": primitives})
             self._triangles.append(mesh.triangle_count())
@@ -130,8 +151,13 @@ class Document:
         key = f"{kind.lower()}_{component}_{'animation' if target is None else 'mesh'}"
         stride = array.itemsize * (array.shape[1] if array.ndim == 2 else 1)
         _, _, chunks = self._streams.setdefault(key, (stride, target, []))
-        accessor = {"bufferView": key, "byteOffset": sum(len(chunk) for chunk in chunks),
-                    "componentType": component, "count": len(array), "type": kind}
+        accessor = {
+            "bufferView": key,
+            "byteOffset": sum(len(chunk) for chunk in chunks),
+            "componentType": component,
+            "count": len(array),
+            "type": kind,
+        }
         if bounds:
             rows = array.reshape(len(array), -1)
             accessor["min"] = [float(v) for v in rows.min(axis=0)]

@@ -16,7 +16,9 @@ def tree(variant):
     mesh = Mesh(f"tree_{variant}")
     random = stream("tree", variant)
     height = 4.2 + 0.5 * variant
-    mesh.tube("bark", [(0, -0.1, 0), (0.03, 0.5, 0), (0.1, 2.2, 0.05), (0.05, height, 0.02)], [0.34, 0.24, 0.2, 0.16], 7)
+    mesh.tube(
+        "bark", [(0, -0.1, 0), (0.03, 0.5, 0), (0.1, 2.2, 0.05), (0.05, height, 0.02)], [0.34, 0.24, 0.2, 0.16], 7
+    )
     crown = np.array([0.05, height + 2.6, 0.0])
     radii = np.array([3.0, 3.3, 3.0])
     for k in range(4):
@@ -54,11 +56,23 @@ def _railing_panel():
     mesh.box("stone_trim", (0, y, -0.2), (PANEL, y + WALL_HEIGHT - 0.12, 0.2), skip="-y-x+x")
     mesh.box("stone_trim", (0, y + WALL_HEIGHT - 0.12, -0.26), (PANEL, y + WALL_HEIGHT, 0.26), skip="-x+x")
     low = y + WALL_HEIGHT
-    mesh.quad("garden_railing", (0.3, low, 0), (PANEL, low, 0), (PANEL, low + 1.95, 0), (0.3, low + 1.95, 0), (0, 0, 3, 1))
+    mesh.quad(
+        "garden_railing", (0.3, low, 0), (PANEL, low, 0), (PANEL, low + 1.95, 0), (0.3, low + 1.95, 0), (0, 0, 3, 1)
+    )
     mesh.box("stone_trim", (-0.3, y, -0.32), (0.3, low + 1.7, 0.32), skip="-y")
     mesh.box("stone_trim", (-0.38, low + 1.7, -0.4), (0.38, low + 1.9, 0.4))
-    mesh.lathe("stone_trim", [(0.0, low + 1.88), (0.16, low + 1.9), (0.11, low + 2.05), (0.24, low + 2.3), (0.2, low + 2.48),
-                              (0.0, low + 2.56)], 8)
+    mesh.lathe(
+        "stone_trim",
+        [
+            (0.0, low + 1.88),
+            (0.16, low + 1.9),
+            (0.11, low + 2.05),
+            (0.24, low + 2.3),
+            (0.2, low + 2.48),
+            (0.0, low + 2.56),
+        ],
+        8,
+    )
     return mesh
 
 
@@ -69,16 +83,19 @@ def _hedge():
 
 
 def place_greenery(document):
-    """The garden: railing along the pavement and both side streets, four rows of trees, hedges."""
+    """The garden: railing along the pavement and both side streets, five rows of trees, hedges."""
     root = document.node("garden")
     near, far = BLOCKS[GARDEN_BLOCK]
     panel, hedge = _railing_panel(), _hedge()
     for k in range(round((near - far) / PANEL)):
-        document.node(f"garden_railing_{k:02d}", root, panel, (-FACADE_X - 0.4, 0, near - k * PANEL), quaternion("y", 90.0))
+        document.node(
+            f"garden_railing_{k:02d}", root, panel, (-FACADE_X - 0.4, 0, near - k * PANEL), quaternion("y", 90.0)
+        )
     for k in range(5):
         document.node(f"garden_railing_near_{k}", root, panel, (-FACADE_X - 6.4 - k * PANEL, 0, near - 0.4))
-        document.node(f"garden_railing_far_{k}", root, panel, (-FACADE_X - 0.4 - k * PANEL, 0, far + 0.4),
-                      quaternion("y", 180.0))
+        document.node(
+            f"garden_railing_far_{k}", root, panel, (-FACADE_X - 0.4 - k * PANEL, 0, far + 0.4), quaternion("y", 180.0)
+        )
     trees = [tree(variant) for variant in range(3)]
     random = stream("planting")
     rows = (-FACADE_X - 5.0, -FACADE_X - 10.5, -FACADE_X - 29.0, -FACADE_X - 36.0, -FACADE_X - 43.0)
@@ -86,10 +103,16 @@ def place_greenery(document):
         for k in range(14):
             z = near - 6.0 - k * 8.3 - (4.0 if r % 2 else 0.0)
             size = random.uniform(0.88, 1.12)
-            document.node(f"tree_{r}_{k:02d}", root, random.choice(trees), (x + random.uniform(-0.3, 0.3), PAVEMENT_Y, z),
-                          quaternion("y", random.uniform(0, 360)), (size, size * random.uniform(0.94, 1.08), size))
+            document.node(
+                f"tree_{r}_{k:02d}",
+                root,
+                random.choice(trees),
+                (x + random.uniform(-0.3, 0.3), PAVEMENT_Y, z),
+                quaternion("y", random.uniform(0, 360)),
+                (size, size * random.uniform(0.94, 1.08), size),
+            )
     for k in range(10):
-        document.node(f"hedge_{k}", root, hedge, (-FACADE_X - 46.0, PAVEMENT_Y, near - 12.0 * k),
-                      scale=(1.0, 2.6, 1.0))
-        document.node(f"hedge_lawn_{k}", root, hedge, (-FACADE_X - 12.6, PAVEMENT_Y, near - 12.0 * k - 1.0),
-                      scale=(0.7, 0.5, 0.8))
+        document.node(f"hedge_{k}", root, hedge, (-FACADE_X - 46.0, PAVEMENT_Y, near - 12.0 * k), scale=(1.0, 2.6, 1.0))
+        document.node(
+            f"hedge_lawn_{k}", root, hedge, (-FACADE_X - 12.6, PAVEMENT_Y, near - 12.0 * k - 1.0), scale=(0.7, 0.5, 0.8)
+        )

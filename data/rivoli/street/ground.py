@@ -1,14 +1,35 @@
 """Carriageway, kerbs, pavements, markings, covers and the garden floor, in pieces short enough to cull."""
 
 from .geometry import Mesh, quaternion
-from .layout import (BLOCKS, CROSSING_LENGTH, CROSSINGS, END_DEPTH, END_STREET, FACADE_X, GARDEN_BLOCK, GARDEN_DEPTH, JUNCTIONS,
-                     KERB_WIDTH, KERB_X, LANE, LANE_CENTRES, PAVEMENT_Y, SIDE_DEPTH, SIDE_PAVEMENT, STOP_GAP, Z_FAR,
-                     Z_NEAR, near_junction, stream)
+from .layout import (
+    BLOCKS,
+    CROSSING_LENGTH,
+    CROSSINGS,
+    END_DEPTH,
+    END_STREET,
+    FACADE_X,
+    GARDEN_BLOCK,
+    GARDEN_DEPTH,
+    JUNCTIONS,
+    KERB_WIDTH,
+    KERB_X,
+    LANE,
+    LANE_CENTRES,
+    PAVEMENT_Y,
+    SIDE_DEPTH,
+    SIDE_PAVEMENT,
+    STOP_GAP,
+    Z_FAR,
+    Z_NEAR,
+    near_junction,
+    stream,
+)
 from .materials import tile_metres
 
 TILE = 20.0
 PAINT_Y = 0.006
 DECAL_Y = 0.003
+UNDERLAY_Y = -0.04
 
 
 def _sheet(mesh, material, x0, x1, z0, z1, y, offset=(0.0, 0.0)):
@@ -80,8 +101,14 @@ def _stop_line():
 def _decal(name, cell_u0, size):
     mesh = Mesh(name)
     half = size / 2.0
-    mesh.quad("covers", (-half, DECAL_Y, half), (half, DECAL_Y, half), (half, DECAL_Y, -half), (-half, DECAL_Y, -half),
-              (cell_u0, 0.0, cell_u0 + 0.5, 1.0))
+    mesh.quad(
+        "covers",
+        (-half, DECAL_Y, half),
+        (half, DECAL_Y, half),
+        (half, DECAL_Y, -half),
+        (-half, DECAL_Y, -half),
+        (cell_u0, 0.0, cell_u0 + 0.5, 1.0),
+    )
     return mesh
 
 
@@ -94,11 +121,23 @@ def _patch():
 def place_ground(document):
     """Everything that lies flat."""
     root = document.node("ground")
+    _place_underlay(document, root)
     _place_carriageway(document, root)
     _place_pavements(document, root)
     _place_markings(document, root)
     _place_decals(document, root)
     _place_garden_floor(document, root)
+
+
+def _place_underlay(document, root):
+    """A sheet just below everything, so that no background shows through the joints of the pieces above."""
+    reach = FACADE_X + SIDE_DEPTH
+    near, far, count = Z_NEAR + END_STREET, Z_FAR - END_STREET, 16
+    length = (near - far) / count
+    mesh = Mesh("underlay")
+    _sheet(mesh, "asphalt", -reach, reach, -length, 0.0, UNDERLAY_Y)
+    for k in range(count):
+        document.node(f"underlay_{k:02d}", root, mesh, (0, 0, near - k * length))
 
 
 def _place_carriageway(document, root):
@@ -133,16 +172,28 @@ def _place_pavements(document, root):
     reach = FACADE_X + END_DEPTH
     end = _pavement("pavement_end", SIDE_PAVEMENT, reach)
     for k in range(2):
-        document.node("pavement_end_near", root, end, (k * reach - reach, 0, Z_NEAR + END_STREET - SIDE_PAVEMENT),
-                      quaternion("y", -90.0))
-        document.node("pavement_end_far", root, end, (reach - k * reach, 0, Z_FAR - END_STREET + SIDE_PAVEMENT),
-                      quaternion("y", 90.0))
+        document.node(
+            "pavement_end_near",
+            root,
+            end,
+            (k * reach - reach, 0, Z_NEAR + END_STREET - SIDE_PAVEMENT),
+            quaternion("y", -90.0),
+        )
+        document.node(
+            "pavement_end_far",
+            root,
+            end,
+            (reach - k * reach, 0, Z_FAR - END_STREET + SIDE_PAVEMENT),
+            quaternion("y", 90.0),
+        )
 
 
 def _place_side_pavements(document, root, block, near, far):
     """Pavements along the returning facades; their kerbs look into the side streets."""
-    for z, depth, degrees in ((near + SIDE_PAVEMENT, END_DEPTH if near == Z_NEAR else SIDE_DEPTH, 90.0),
-                              (far - SIDE_PAVEMENT, END_DEPTH if far == Z_FAR else SIDE_DEPTH, -90.0)):
+    for z, depth, degrees in (
+        (near + SIDE_PAVEMENT, END_DEPTH if near == Z_NEAR else SIDE_DEPTH, 90.0),
+        (far - SIDE_PAVEMENT, END_DEPTH if far == Z_FAR else SIDE_DEPTH, -90.0),
+    ):
         mesh = _pavement(f"pavement_side_{depth:g}m", SIDE_PAVEMENT, depth)
         for inner in (FACADE_X, -FACADE_X - depth):
             x = inner + depth if degrees > 0 else inner
@@ -179,8 +230,13 @@ def _place_decals(document, root):
         for side in (-1, 1):
             document.node(f"gully_{k}_{side}", root, gully, (side * (KERB_X - 0.3), 0, z + 3.0))
         if k % 2 == 0:
-            document.node(f"patch_{k}", root, patch, (random.uniform(-4.5, 4.5), -0.001, z - random.uniform(4.0, 8.0)),
-                          scale=(random.uniform(1.0, 2.4), 1.0, random.uniform(2.5, 9.0)))
+            document.node(
+                f"patch_{k}",
+                root,
+                patch,
+                (random.uniform(-4.5, 4.5), -0.001, z - random.uniform(4.0, 8.0)),
+                scale=(random.uniform(1.0, 2.4), 1.0, random.uniform(2.5, 9.0)),
+            )
 
 
 def _place_garden_floor(document, root):

@@ -7,9 +7,9 @@ from .geometry import Mesh
 from .layout import PAVEMENT_Y
 from .tex_openings import SHOP_COLUMNS, SHOP_ROWS, SIGN_COLUMNS, SIGN_ROWS
 
-PILLAR = 0.5                     # half width of a pillar, half of which belongs to each bay
+PILLAR = 0.5  # half width of a pillar, half of which belongs to each bay
 PILLAR_DEPTH = 0.85
-SPRING = 3.75                    # height where the arch begins
+SPRING = 3.75  # height where the arch begins
 WALK_DEPTH = 3.6
 CEILING = 5.45
 SEGMENTS = 10
@@ -26,6 +26,7 @@ def _arch(radius_offset=0.0):
 
 def _pierced_face(mesh, material, z, facing):
     """The wall around the arched opening; ``facing`` is +1 for outwards, -1 for the walk's side."""
+
     def face(points):
         corners = [(x, y, z) for x, y in points]
         mesh.quad(material, *(corners if facing > 0 else corners[::-1]))
@@ -71,7 +72,9 @@ def arcade_walk():
     mesh = Mesh("arcade_walk")
     y, back = PAVEMENT_Y, -WALK_DEPTH
     mesh.quad("arcade_floor", (0, y, 0), (BAY, y, 0), (BAY, y, back), (0, y, back))
-    mesh.quad("plaster", (0, CEILING, back), (BAY, CEILING, back), (BAY, CEILING, -PILLAR_DEPTH), (0, CEILING, -PILLAR_DEPTH))
+    mesh.quad(
+        "plaster", (0, CEILING, back), (BAY, CEILING, back), (BAY, CEILING, -PILLAR_DEPTH), (0, CEILING, -PILLAR_DEPTH)
+    )
     mesh.box("plaster", (0, 4.95, back), (0.2, CEILING, -PILLAR_DEPTH), skip="+y-z+z-x")
     mesh.box("plaster", (BAY - 0.2, 4.95, back), (BAY, CEILING, -PILLAR_DEPTH), skip="+y-z+z+x")
     return mesh
@@ -96,15 +99,34 @@ def shop(variant):
     for a, b in ((0.0, x0), (x1, BAY)):
         mesh.box("stone_trim", (a, base, 0), (b, 3.85, 0.12), skip="-z-y")
     mesh.box(paint, (x0, base, 0), (x1, 0.6, 0.1), skip="-z-y-x+x")
-    mesh.quad("shop_window", (x0, 0.6, 0.02), (x1, 0.6, 0.02), (x1, 3.05, 0.02), (x0, 3.05, 0.02),
-              _cell(variant, SHOP_COLUMNS, SHOP_ROWS, 0.004))
+    mesh.quad(
+        "shop_window",
+        (x0, 0.6, 0.02),
+        (x1, 0.6, 0.02),
+        (x1, 3.05, 0.02),
+        (x0, 3.05, 0.02),
+        _cell(variant, SHOP_COLUMNS, SHOP_ROWS, 0.004),
+    )
     for x in (BAY / 2 - 0.52, BAY / 2 + 0.44):
         mesh.box(paint, (x, 0.6, 0.0), (x + 0.08, 3.05, 0.1), skip="-z-y+y")
     mesh.box(paint, (x0 - 0.08, 3.05, 0), (x1 + 0.08, 3.85, 0.16), skip="-z+y")
     mesh.box(paint, (x0 - 0.14, 3.77, 0), (x1 + 0.14, 3.92, 0.3), skip="-z")
-    mesh.quad("sign_lit", (x0 + 0.15, 3.13, 0.175), (x1 - 0.15, 3.13, 0.175), (x1 - 0.15, 3.72, 0.175),
-              (x0 + 0.15, 3.72, 0.175), _cell(variant, SIGN_COLUMNS, SIGN_ROWS, 0.004))
+    mesh.quad(
+        "sign_lit",
+        (x0 + 0.15, 3.13, 0.175),
+        (x1 - 0.15, 3.13, 0.175),
+        (x1 - 0.15, 3.72, 0.175),
+        (x0 + 0.15, 3.72, 0.175),
+        _cell(variant, SIGN_COLUMNS, SIGN_ROWS, 0.004),
+    )
     return mesh
+
+
+def _threshold(mesh, x0, x1, back):
+    """The step into an opening: its riser and its tread at pavement level."""
+    y = PAVEMENT_Y
+    mesh.quad("granite", (x0, 0, 0), (x1, 0, 0), (x1, y, 0), (x0, y, 0))
+    mesh.quad("paving", (x0, y, 0), (x1, y, 0), (x1, y, back), (x0, y, back))
 
 
 def plain_front(tint):
@@ -117,8 +139,10 @@ def plain_front(tint):
     mesh.quad("stone_trim", (x0, 0, 0), (x0, 0, back), (x0, top, back), (x0, top, 0))
     mesh.quad("stone_trim", (x1, 0, back), (x1, 0, 0), (x1, top, 0), (x1, top, back))
     mesh.quad("stone_trim", (x0, top, back), (x1, top, back), (x1, top, 0), (x0, top, 0))
-    mesh.quad("paving", (x0, PAVEMENT_Y, 0), (x1, PAVEMENT_Y, 0), (x1, PAVEMENT_Y, back), (x0, PAVEMENT_Y, back))
-    mesh.moulding("stone_trim", [(0, top + 0.1), (0.14, top + 0.16), (0.16, top + 0.34), (0, top + 0.4)], 0, BAY, ends=False)
+    _threshold(mesh, x0, x1, back)
+    mesh.moulding(
+        "stone_trim", [(0, top + 0.1), (0.14, top + 0.16), (0.16, top + 0.34), (0, top + 0.4)], 0, BAY, ends=False
+    )
     return mesh
 
 
@@ -132,7 +156,7 @@ def door_front(tint):
     mesh.quad("stone_trim", (x1, 0, back), (x1, 0, 0), (x1, top, 0), (x1, top, back))
     mesh.quad("stone_trim", (x0, top, back), (x1, top, back), (x1, top, 0), (x0, top, 0))
     mesh.quad("door", (x0, PAVEMENT_Y, back), (x1, PAVEMENT_Y, back), (x1, top, back), (x0, top, back), (0, 0, 1, 1))
-    mesh.quad("paving", (x0, PAVEMENT_Y, 0), (x1, PAVEMENT_Y, 0), (x1, PAVEMENT_Y, back), (x0, PAVEMENT_Y, back))
+    _threshold(mesh, x0, x1, back)
     for a, b in ((x0 - 0.24, x0), (x1, x1 + 0.24)):
         mesh.box("stone_trim", (a, 0, 0), (b, top, 0.09), skip="-z-y+y")
     mesh.box("stone_trim", (x0 - 0.24, top, 0), (x1 + 0.24, top + 0.3, 0.09), skip="-z")
@@ -149,7 +173,9 @@ def awning():
     mesh.quad("awning", (x1, low, reach), (x0, low, reach), (x0, high, 0), (x1, high, 0), (0, 0, 3, 1))
     for facing in (1, -1):
         a, b = (x0, x1) if facing > 0 else (x1, x0)
-        mesh.quad("awning", (a, low - 0.22, reach), (b, low - 0.22, reach), (b, low, reach), (a, low, reach), (0, 0, 3, 0.2))
+        mesh.quad(
+            "awning", (a, low - 0.22, reach), (b, low - 0.22, reach), (b, low, reach), (a, low, reach), (0, 0, 3, 0.2)
+        )
     return mesh
 
 

@@ -17,6 +17,7 @@ class Material:
     colour: tuple = (1.0, 1.0, 1.0)
     roughness: float = 1.0
     masked: bool = False
+    cutoff: float = 0.5
 
 
 TABLE = [
@@ -41,6 +42,7 @@ TABLE = [
     Material("shop_red", "painted_wood.jpg", 1.0, (0.40, 0.08, 0.07), 0.5),
     Material("shop_blue", "painted_wood.jpg", 1.0, (0.09, 0.15, 0.33), 0.5),
     Material("sign_lit", "shop_sign.png", roughness=0.6),
+    Material("sign_cross", None, 1.0, (0.06, 0.40, 0.16), 0.4),
     Material("awning", "awning.jpg", 1.0),
     Material("door", "door.jpg", roughness=0.5),
     # ground
@@ -54,7 +56,7 @@ TABLE = [
     Material("covers", "covers.png", roughness=0.6),
     # ironwork and street furniture
     Material("railing", "railing.png", 1.0, masked=True),
-    Material("garden_railing", "garden_railing.png", 2.0, masked=True),
+    Material("garden_railing", "garden_railing.png", 2.0, masked=True, cutoff=0.4),
     Material("iron", None, 1.0, (0.045, 0.055, 0.05), 0.5),
     Material("bin_green", None, 1.0, (0.10, 0.20, 0.12), 0.6),
     Material("bench_wood", "painted_wood.jpg", 0.8, (0.22, 0.30, 0.20), 0.7),
@@ -114,6 +116,6 @@ def gltf_materials():
             surface["baseColorTexture"] = {"index": files.index(material.texture)}
         entry = {"name": material.name, "pbrMetallicRoughness": surface}
         if material.masked:
-            entry.update(alphaMode="MASK", alphaCutoff=0.5, doubleSided=True)
+            entry.update(alphaMode="MASK", alphaCutoff=material.cutoff, doubleSided=True)
         result.append(entry)
     return result

@@ -3,13 +3,16 @@
 import numpy as np
 
 
-def spectral(shape, beta, seed):
-    """Periodic noise with an amplitude spectrum of 1/f^beta, mean 0 and standard deviation 1."""
+def spectral(shape, beta, seed, stretch=1.0):
+    """Periodic noise with an amplitude spectrum of 1/f^beta, mean 0 and standard deviation 1.
+
+    ``stretch`` above 1 draws the pattern out vertically, below 1 horizontally.
+    """
     rng = np.random.default_rng(seed)
     spectrum = np.fft.rfft2(rng.standard_normal(shape))
     fy = np.fft.fftfreq(shape[0])[:, None] * shape[0]
     fx = np.fft.rfftfreq(shape[1])[None, :] * shape[1]
-    frequency = np.hypot(fy, fx)
+    frequency = np.hypot(fy * stretch, fx)
     frequency[0, 0] = 1.0
     spectrum /= frequency**beta
     spectrum[0, 0] = 0.0
@@ -17,18 +20,9 @@ def spectral(shape, beta, seed):
     return field / field.std()
 
 
-def streaks(shape, seed, length=12.0):
-    """Periodic noise drawn out along the rows' direction of fall (vertical stains), deviation 1."""
-    rng = np.random.default_rng(seed)
-    spectrum = np.fft.rfft2(rng.standard_normal(shape))
-    fy = np.fft.fftfreq(shape[0])[:, None] * shape[0]
-    fx = np.fft.rfftfreq(shape[1])[None, :] * shape[1]
-    frequency = np.hypot(fy * length, fx)
-    frequency[0, 0] = 1.0
-    spectrum /= frequency**1.4
-    spectrum[0, 0] = 0.0
-    field = np.fft.irfft2(spectrum, s=shape)
-    return field / field.std()
+def streaks(shape, seed, stretch=12.0):
+    """Periodic noise drawn out vertically, like the stains that rain leaves."""
+    return spectral(shape, 1.4, seed, stretch)
 
 
 def smoothstep(low, high, value):

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .geometry import Mesh
+from .geometry import Mesh, translation
 from .layout import stream
 from .tex_small import CLOTH_CELLS
 
-COAT, TROUSERS, SKIRT, SHIRT, SKIN, HAIR, SHOES, BAG = range(8)     # rows of the clothing atlas
+COAT, TROUSERS, SKIRT, SHIRT, SKIN, HAIR, SHOES, BAG = range(8)  # rows of the clothing atlas
 SIDES = 6
 
 
@@ -51,48 +51,74 @@ class _Figure:
         self.bag = random.random() < 0.5
         self.pick = {row: random.randrange(CLOTH_CELLS) for row in range(8)}
         self.bulk = random.uniform(0.94, 1.1) * (0.92 if self.female else 1.0)
+        self.top = COAT if not self.female or self.long_coat else SHIRT
 
     def build(self):
-        """Assemble all parts and return the mesh."""
+        """Assemble all parts and return the mesh, its lowest point on y = 0."""
         hip, width = 0.92, 0.095
         lean = math.radians(self.pose.lean)
         chest = np.array([0.0, 1.38, -math.sin(lean) * 0.5])
         self._torso(hip, chest)
         self._head(chest)
-        top = COAT if not self.female or self.long_coat else SHIRT
         for side, k in ((-1, 0), (1, 1)):
             self._leg(np.array([side * width, hip, 0.0]), self.pose.hips[k], self.pose.knees[k])
             shoulder = chest + np.array([side * 0.185 * self.bulk, 0.035, 0.0])
-            hand = self._arm(shoulder, side, self.pose.shoulders[k], self.pose.elbows[k], top)
+            hand = self._arm(shoulder, side, self.pose.shoulders[k], self.pose.elbows[k], self.top)
             if self.bag and k == 1:
                 self._handbag(hand)
-        return self.mesh
+        grounded = Mesh(self.mesh.name)
+        grounded.merge(self.mesh, translation(0.0, -self.mesh.lowest(), 0.0))
+        return grounded
 
     def _torso(self, hip, chest):
         b = self.bulk
-        top = COAT if not self.female or self.long_coat else SHIRT
         waist = 0.125 if self.female else 0.145
-        sections = [((0, hip - 0.06, 0), 0.15 * b, 0.105), ((0, hip + 0.06, 0), 0.165 * b, 0.115),
-                    (chest * 0.45 + np.array([0, 0.5, 0]), waist * b, 0.098), (chest - (0, 0.1, 0), 0.175 * b, 0.118),
-                    (chest + (0, 0.05, 0), 0.185 * b, 0.095), (chest + (0, 0.11, 0), 0.09, 0.07), (chest + (0, 0.13, 0), 0.05, 0.05)]
-        self._rings(sections, top, 8)
+        sections = [
+            ((0, hip - 0.06, 0), 0.15 * b, 0.105),
+            ((0, hip + 0.06, 0), 0.165 * b, 0.115),
+            (chest * 0.45 + np.array([0, 0.5, 0]), waist * b, 0.098),
+            (chest - (0, 0.1, 0), 0.175 * b, 0.118),
+            (chest + (0, 0.05, 0), 0.185 * b, 0.095),
+            (chest + (0, 0.11, 0), 0.09, 0.07),
+            (chest + (0, 0.13, 0), 0.05, 0.05),
+        ]
+        self._rings(sections, self.top, 8)
         if self.long_coat:
-            skirt = [((0, 0.5, 0.02), 0.23 * b, 0.19), ((0, hip - 0.02, 0), 0.18 * b, 0.13), ((0, hip + 0.14, 0), 0.15 * b, 0.12)]
+            skirt = [
+                ((0, 0.5, 0.02), 0.23 * b, 0.19),
+                ((0, hip - 0.02, 0), 0.18 * b, 0.13),
+                ((0, hip + 0.14, 0), 0.15 * b, 0.12),
+            ]
             self._rings(skirt, COAT, 8)
         elif self.skirt:
-            self._rings([((0, 0.52, 0.0), 0.21, 0.18), ((0, hip, 0), 0.17 * b, 0.12), ((0, hip + 0.08, 0), 0.15 * b, 0.11)], SKIRT, 8)
+            self._rings(
+                [((0, 0.52, 0.0), 0.21, 0.18), ((0, hip, 0), 0.17 * b, 0.12), ((0, hip + 0.08, 0), 0.15 * b, 0.11)],
+                SKIRT,
+                8,
+            )
 
     def _head(self, chest):
         neck = chest + (0, 0.1, 0)
         self._rings([(neck, 0.055, 0.055), (neck + (0, 0.1, -0.01), 0.05, 0.055)], SKIN, 7)
         h = neck + (0, 0.09, -0.015)
-        face = [(h, 0.045, 0.05), (h + (0, 0.04, -0.012), 0.062, 0.078), (h + (0, 0.11, -0.008), 0.074, 0.092),
-                (h + (0, 0.17, -0.004), 0.072, 0.088), (h + (0, 0.215, 0), 0.045, 0.055), (h + (0, 0.23, 0), 0.005, 0.005)]
+        face = [
+            (h, 0.045, 0.05),
+            (h + (0, 0.04, -0.012), 0.062, 0.078),
+            (h + (0, 0.11, -0.008), 0.074, 0.092),
+            (h + (0, 0.17, -0.004), 0.072, 0.088),
+            (h + (0, 0.215, 0), 0.045, 0.055),
+            (h + (0, 0.23, 0), 0.005, 0.005),
+        ]
         self._rings(face, SKIN, 8)
         back = 0.022
         low = -0.03 if self.female else 0.075
-        hair = [(h + (0, low, back + 0.02), 0.068, 0.06), (h + (0, 0.1, back), 0.081, 0.088), (h + (0, 0.175, back - 0.008), 0.08, 0.094),
-                (h + (0, 0.228, back - 0.015), 0.05, 0.06), (h + (0, 0.245, back - 0.015), 0.005, 0.005)]
+        hair = [
+            (h + (0, low, back + 0.02), 0.068, 0.06),
+            (h + (0, 0.1, back), 0.081, 0.088),
+            (h + (0, 0.175, back - 0.008), 0.08, 0.094),
+            (h + (0, 0.228, back - 0.015), 0.05, 0.06),
+            (h + (0, 0.245, back - 0.015), 0.005, 0.005),
+        ]
         self._rings(hair, HAIR, 8)
 
     def _leg(self, hip, swing, bend):
@@ -100,8 +126,11 @@ class _Figure:
         ankle = knee + _sagittal(0.42, swing - bend)
         cloth = SKIN if self.skirt else TROUSERS
         wide = 0.75 if self.skirt else 1.0
-        self._limb([hip + (0, 0.04, 0), hip * 0.5 + knee * 0.5, knee, knee * 0.5 + ankle * 0.5, ankle],
-                   [0.088, 0.079, 0.060 * wide, 0.056 * wide, 0.048 * wide], cloth)
+        self._limb(
+            [hip + (0, 0.04, 0), hip * 0.5 + knee * 0.5, knee, knee * 0.5 + ankle * 0.5, ankle],
+            [0.088, 0.079, 0.060 * wide, 0.056 * wide, 0.048 * wide],
+            cloth,
+        )
         pitch = math.radians((swing - bend) * 0.6)
         forward = np.array([0.0, math.sin(pitch), -math.cos(pitch)])
         heel, toe = ankle - forward * 0.07 - (0, 0.05, 0), ankle + forward * 0.17 - (0, 0.052, 0)
@@ -113,16 +142,25 @@ class _Figure:
         for t, half, high in ((0.0, 0.035, 0.07), (0.35, 0.045, 0.085), (0.75, 0.048, 0.045), (1.0, 0.03, 0.03)):
             centre = heel + (toe - heel) * t
             right = np.array([half, 0.0, 0.0])
-            rings.append([centre - right - up * 0.025, centre + right - up * 0.025, centre + right * 0.8 + up * high,
-                          centre - right * 0.8 + up * high])
+            rings.append(
+                [
+                    centre - right - up * 0.025,
+                    centre + right - up * 0.025,
+                    centre + right * 0.8 + up * high,
+                    centre - right * 0.8 + up * high,
+                ]
+            )
         self._skin_rings(np.asarray(rings), SHOES, caps=True)
 
     def _arm(self, shoulder, side, swing, bend, cloth):
         out = np.array([side * 0.07, 0.0, 0.0])
         elbow = shoulder + _sagittal(0.29, swing) + out
         wrist = elbow + _sagittal(0.25, swing + bend) + out * 0.1
-        self._limb([shoulder + (-side * 0.03, 0.02, 0), shoulder * 0.6 + elbow * 0.4, elbow, wrist],
-                   [0.062, 0.053, 0.046, 0.036], cloth)
+        self._limb(
+            [shoulder + (-side * 0.03, 0.02, 0), shoulder * 0.6 + elbow * 0.4, elbow, wrist],
+            [0.062, 0.053, 0.046, 0.036],
+            cloth,
+        )
         hand = wrist + _sagittal(0.15, swing + bend)
         self._limb([wrist, wrist * 0.5 + hand * 0.5, hand], [0.03, 0.042, 0.018], SKIN)
         return hand
@@ -162,7 +200,11 @@ class _Figure:
         count, points = rings.shape[:2]
         u0, v0 = (self.pick[cloth] + 0.12) / CLOTH_CELLS, (cloth + 0.12) / CLOTH_CELLS
         span = 0.76 / CLOTH_CELLS
-        uvs = [(u0 + span * abs(2 * j / points - 1), v0 + span * i / max(1, count - 1)) for i in range(count) for j in range(points)]
+        uvs = [
+            (u0 + span * abs(2 * j / points - 1), v0 + span * i / max(1, count - 1))
+            for i in range(count)
+            for j in range(points)
+        ]
         self.mesh.loft("clothing", rings, uvs=uvs, crease_deg=75.0, cap_start=caps, cap_end=caps)
 
 
@@ -173,6 +215,5 @@ def _sagittal(length, degrees):
 
 
 def person(index):
-    """The mesh of pedestrian variant ``index``, its lowest point at y = 0."""
-    figure = _Figure(f"pedestrian_{index:02d}", index)
-    return figure.build()
+    """The mesh of pedestrian variant ``index``."""
+    return _Figure(f"pedestrian_{index:02d}", index).build()

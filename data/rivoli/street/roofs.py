@@ -4,6 +4,7 @@ import math
 
 from .facade import BAY
 from .geometry import Mesh
+from .materials import tile_metres
 
 ZINC = [(-0.3, 16.55), (-0.42, 17.3), (-0.75, 18.2), (-1.3, 19.0), (-2.1, 19.6), (-3.6, 20.1)]
 SLATE = [(-0.3, 16.55), (-1.15, 19.25)]
@@ -31,7 +32,7 @@ def _sweep(mesh, material, profile, piece, crease_deg):
         points.append((-z if piece == "start" else 0.0, y, z))
         points.append((BAY + z if piece == "end" else BAY, y, z))
     triangles = [t for k in range(0, 2 * len(profile) - 2, 2) for t in ((k, k + 1, k + 3), (k, k + 3, k + 2))]
-    tile = 3.75 if material == "roof_zinc" else 1.875
+    tile = tile_metres(material)
     uvs = [(points[2 * k + side][0] / tile, -s / tile) for k, s in enumerate(length) for side in (0, 1)]
     mesh.add(material, points, triangles, uvs, crease_deg)
 
@@ -43,8 +44,13 @@ def dormer(kind):
     depth = -1.6
     mesh.box("stone_trim", (x0, low, DORMER_FACE), (x0 + 0.16, top, DORMER_FACE + 0.1), skip="-z-y+y")
     mesh.box("stone_trim", (x1 - 0.16, low, DORMER_FACE), (x1, top, DORMER_FACE + 0.1), skip="-z-y+y")
-    mesh.quad("stone_trim", (x0, top - 0.1, DORMER_FACE + 0.1), (x1, top - 0.1, DORMER_FACE + 0.1),
-              (x1, top, DORMER_FACE + 0.1), (x0, top, DORMER_FACE + 0.1))
+    mesh.quad(
+        "stone_trim",
+        (x0, top - 0.1, DORMER_FACE + 0.1),
+        (x1, top - 0.1, DORMER_FACE + 0.1),
+        (x1, top, DORMER_FACE + 0.1),
+        (x0, top, DORMER_FACE + 0.1),
+    )
     for x, flip in ((x0, True), (x1, False)):
         side = [(x, low, DORMER_FACE), (x, low, depth), (x, top, depth), (x, top, DORMER_FACE)]
         mesh.quad("roof_zinc", *(side[::-1] if flip else side))
@@ -60,8 +66,13 @@ def dormer(kind):
     mesh.add("roof_zinc", points, strip, crease_deg=35.0)
     fan = [(x, y, front) for x, y in cap]
     mesh.add("stone_trim", fan, [(0, k, k + 1) for k in range(1, steps)])
-    mesh.quad("stone_trim", (cap[-1][0], top, front), (cap[-1][0], top, DORMER_FACE), (cap[0][0], top, DORMER_FACE),
-              (cap[0][0], top, front))
+    mesh.quad(
+        "stone_trim",
+        (cap[-1][0], top, front),
+        (cap[-1][0], top, DORMER_FACE),
+        (cap[0][0], top, DORMER_FACE),
+        (cap[0][0], top, front),
+    )
     return mesh
 
 

@@ -10,12 +10,13 @@ def asphalt():
     """Worn dry asphalt over 6 m: aggregate, polished tracks, oil, hair cracks."""
     shape = (1024, 1024)
     aggregate = spectral(shape, 0.15, 61)
-    grey = 0.088 + 0.010 * aggregate + 0.007 * spectral(shape, 1.1, 62) + 0.005 * spectral(shape, 2.0, 63)
+    grey = 0.090 + 0.014 * aggregate + 0.008 * spectral(shape, 1.1, 62) + 0.006 * spectral(shape, 2.0, 63)
     image = grey_to_rgb(grey, (1.0, 0.985, 0.96))
     stones = smoothstep(2.0, 2.8, spectral(shape, 0.3, 64))
     image = blend(image, np.full(3, 0.17), 0.7 * stones)
-    cracks = threshold_band(spectral(shape, 1.7, 65), 0.012) * smoothstep(0.5, 1.3, spectral(shape, 1.8, 66))
-    image = blend(image, np.full(3, 0.035), 0.8 * cracks)
+    region = smoothstep(0.2, 1.2, spectral(shape, 1.8, 66))
+    cracks = threshold_band(spectral(shape, 1.9, 65) + 0.05 * aggregate, 0.035) * region
+    image = blend(image, np.full(3, 0.03), 0.75 * cracks)
     oil = smoothstep(1.4, 2.6, spectral(shape, 1.5, 67))
     return blend(image, np.full(3, 0.05), 0.45 * oil)
 

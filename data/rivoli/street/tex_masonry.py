@@ -4,7 +4,7 @@ import numpy as np
 
 from .noise import blend, bricks, grey_to_rgb, smoothstep, spectral, streaks
 
-LIMESTONE = (1.0, 0.90, 0.73)
+LIMESTONE = (1.0, 0.91, 0.75)
 SOOT = (0.11, 0.10, 0.085)
 
 
@@ -12,7 +12,7 @@ def limestone():
     """Ashlar of 10 courses over 3.75 m with joints, blocks of slightly different tone and rain stains."""
     shape = (1024, 1024)
     joint, tone = bricks(shape, 10, 5, 3.0, 11)
-    grey = 0.385 + 0.030 * tone + 0.012 * spectral(shape, 0.6, 12) + 0.020 * spectral(shape, 1.6, 13)
+    grey = 0.425 + 0.032 * tone + 0.012 * spectral(shape, 0.6, 12) + 0.020 * spectral(shape, 1.6, 13)
     image = grey_to_rgb(grey, LIMESTONE)
     warm = grey_to_rgb(grey, (1.02, 0.86, 0.64))
     image = blend(image, warm, 0.5 * smoothstep(0.2, 1.0, tone))
@@ -25,7 +25,7 @@ def limestone():
 def stone_trim():
     """Dressed stone of mouldings: no joints, faint stains."""
     shape = (512, 512)
-    grey = 0.40 + 0.012 * spectral(shape, 0.5, 21) + 0.022 * spectral(shape, 1.6, 22)
+    grey = 0.42 + 0.012 * spectral(shape, 0.5, 21) + 0.022 * spectral(shape, 1.6, 22)
     image = grey_to_rgb(grey, (1.0, 0.92, 0.78))
     return blend(image, np.full(3, 1.0) * SOOT, 0.18 * smoothstep(0.2, 2.0, streaks(shape, 23, 6.0)))
 

@@ -9,7 +9,8 @@ from .noise import blend, grey_to_rgb, smoothstep, spectral
 WINDOW_COLUMNS, WINDOW_ROWS = 4, 2
 SHOP_COLUMNS, SHOP_ROWS = 4, 2
 SIGN_COLUMNS, SIGN_ROWS = 2, 4
-SIGN_TEXTS = ["CAFE RIVOLI", "LIBRAIRIE", "TABAC", "PHARMACIE", "BIJOUX", "GALERIE", "CHOCOLATS", "HOTEL LOUVRE"]
+# in the order of the displays: clothes, books, bar, jewels, twice over
+SIGN_TEXTS = ["MODE", "LIBRAIRIE", "CAFE RIVOLI", "BIJOUX", "COUTURE", "PAPETERIE", "BRASSERIE", "PHARMACIE"]
 
 
 def _folds(height, width, seed):
@@ -55,7 +56,9 @@ def _room(variant, lit, seed):
 def _window_atlas(lit, tint, seed):
     rows = []
     for r in range(WINDOW_ROWS):
-        cells = [_room(r * WINDOW_COLUMNS + c, lit, seed + 10 * (r * WINDOW_COLUMNS + c)) for c in range(WINDOW_COLUMNS)]
+        cells = [
+            _room(r * WINDOW_COLUMNS + c, lit, seed + 10 * (r * WINDOW_COLUMNS + c)) for c in range(WINDOW_COLUMNS)
+        ]
         rows.append(np.concatenate(cells, axis=1))
     return np.concatenate(rows, axis=0) * np.asarray(tint)
 
@@ -77,6 +80,7 @@ def window_lit_cool():
 
 def _goods(pen, kind, rng, ox, oy):
     """Draw one shop window's display into the 512 px cell at (ox, oy); colours are stored values."""
+
     def colour(low=40, high=210):
         return tuple(int(v) for v in rng.integers(low, high, 3))
 
@@ -85,8 +89,17 @@ def _goods(pen, kind, rng, ox, oy):
             cx, top = ox + 100 + 155 * k, oy + 130 + int(rng.integers(0, 30))
             cloth = colour(30, 200)
             pen.ellipse([cx - 22, top - 52, cx + 22, top + 2], fill=(150, 130, 110))
-            pen.polygon([(cx - 50, top + 15), (cx + 50, top + 15), (cx + 34, top + 130), (cx + 62, top + 270),
-                         (cx - 62, top + 270), (cx - 34, top + 130)], fill=cloth)
+            pen.polygon(
+                [
+                    (cx - 50, top + 15),
+                    (cx + 50, top + 15),
+                    (cx + 34, top + 130),
+                    (cx + 62, top + 270),
+                    (cx - 62, top + 270),
+                    (cx - 34, top + 130),
+                ],
+                fill=cloth,
+            )
             pen.line([cx, top + 270, cx, oy + 490], fill=(60, 55, 50), width=7)
     elif kind in (1, 5):  # shelves of books or boxes
         for shelf in range(4):
@@ -129,7 +142,7 @@ def shop_window():
         ox, oy = 512 * (cell % SHOP_COLUMNS), 512 * (cell // SHOP_COLUMNS)
         tone = np.array([[196, 178, 150], [178, 182, 182], [190, 158, 116], [204, 196, 184]][cell % 4])
         for row in range(512):
-            level = 0.62 + 0.38 * np.exp(-((row - 110) / 190.0) ** 2)
+            level = 0.62 + 0.38 * np.exp(-(((row - 110) / 190.0) ** 2))
             pen.line([ox, oy + row, ox + 511, oy + row], fill=tuple(int(v) for v in tone * level))
         _goods(pen, cell, rng, ox, oy)
         for lamp in range(4):
@@ -144,9 +157,26 @@ def shop_sign():
     """Eight fascias of 512 x 128: light letters on dark paint."""
     image = Image.new("RGB", (512 * SIGN_COLUMNS, 128 * SIGN_ROWS))
     pen = ImageDraw.Draw(image)
-    grounds = [(60, 20, 22), (22, 50, 40), (90, 22, 24), (14, 70, 46), (26, 28, 40), (34, 34, 34), (66, 42, 26), (22, 30, 66)]
-    inks = [(236, 206, 140), (230, 222, 196), (240, 232, 220), (232, 240, 232), (220, 190, 120), (232, 230, 226),
-            (238, 214, 170), (236, 214, 150)]
+    grounds = [
+        (60, 20, 22),
+        (22, 50, 40),
+        (90, 22, 24),
+        (14, 70, 46),
+        (26, 28, 40),
+        (34, 34, 34),
+        (66, 42, 26),
+        (22, 30, 66),
+    ]
+    inks = [
+        (236, 206, 140),
+        (230, 222, 196),
+        (240, 232, 220),
+        (232, 240, 232),
+        (220, 190, 120),
+        (232, 230, 226),
+        (238, 214, 170),
+        (236, 214, 150),
+    ]
     for cell, text in enumerate(SIGN_TEXTS):
         ox, oy = 512 * (cell % SIGN_COLUMNS), 128 * (cell // SIGN_COLUMNS)
         pen.rectangle([ox, oy, ox + 511, oy + 127], fill=grounds[cell])

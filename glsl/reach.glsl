@@ -1,0 +1,28 @@
+// Whether a light may give the threshold somewhere in a volume: what may be said without looking at single points.
+
+#include "shared/cluster.h"
+
+const float kSlack = 1.001;  // float rounding never costs a light
+
+// The cosine of the smallest angle between a lamp's axis and the directions in which it sees a sphere.
+float nearest_cosine(vec3 position, vec3 axis, vec3 centre, float radius) {
+    const vec3 to = centre - position;
+    const float away = length(to);
+    if (away <= radius) return 1.0;
+    const float cosine = clamp(dot(axis, to) / away, -1.0, 1.0);
+    const float sin_half = radius / away, cos_half = sqrt(1.0 - sin_half * sin_half);
+    if (cosine >= cos_half) return 1.0;
+    return min(1.0, cosine * cos_half + sqrt(1.0 - cosine * cosine) * sin_half + 1e-4);
+}
+
+// Largest intensity towards the sphere relative to that on the axis. The lobes fall with the angle.
+float largest_cone(float lobe_a, float lobe_b, float cosine) {
+    const float ramp = clamp(lobe_a * cosine + lobe_b, 0.0, 1.0);
+    return ramp * ramp;
+}
+float largest_power(float exponent, float cosine) { return cosine > 0.0 ? exp2(exponent * log2(cosine)) : 0.0; }
+
+// Whether an intensity still gives the threshold at a distance, m.
+bool reaches(float intensity, float nearest, float threshold) {
+    return nearest <= 0.0 ? intensity > 0.0 : kSlack * intensity >= threshold * nearest * nearest;
+}

@@ -1,0 +1,92 @@
+// Files are replaced whole or not at all. SPDX-License-Identifier: MIT
+#include "io/atomic_file.h"
+
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+
+size_t entries(const fs::path& folder) {
+    return static_cast<size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(AtomicFile, WritesAndReplaces) {
+    const TempFolder folder;
+    replace_file(folder / "a", bytes_of("first, and longer"));
+    EXPECT_EQ(read_text(folder / "a"), "first, and longer");
+    fs::permissions(folder / "a", fs::perms::owner_read | fs::perms::owner_write);
+    replace_file(folder / "a", bytes_of("second"));
+    EXPECT_EQ(read_text(folder / "a"), "second");
+    EXPECT_EQ(fs::status(folder / "a").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_EQ(entries(folder.path()), 1u);
+    replace_file(folder / std::string(255, 'n'), {});  // the longest name there can be
+    EXPECT_EQ(entries(folder.path()), 2u);
+}
+
+TEST(AtomicFile, KeepsLinks) {
+    const TempFolder folder;
+    folder.write("target", "old");
+    fs::create_symlink("target", folder / "link");
+    replace_file(folder / "link", bytes_of("new"));
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_EQ(read_text(folder / "target"), "new");
+}
+
+TEST(AtomicFile, SaysWhyItCannot) {
+    const TempFolder folder;
+    folder.write("file", "");
+    EXPECT_THROW(replace_file(folder.path(), bytes_of("x")), Error);
+    EXPECT_THROW(replace_file(folder / "missing/x", bytes_of("x")), Error);
+    EXPECT_THROW(replace_file(folder / "file/x", bytes_of("x")), Error);
+    try {
+        replace_file("/dev/full", bytes_of("x"));
+        FAIL() << "a full device must be noticed";
+    } catch (const Error& error) {
+        EXPECT_TRUE(contains(error.what(), "/dev/full: cannot be written: No space left"));
+    }
+    replace_file("/dev/null", bytes_of("x"));
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, LeavesTheOldFileWhenTheNewDoesNotFit) {
+    const TempFolder folder;
+    folder.write("a", "old");
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{1000, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    EXPECT_THROW(replace_file(folder / "a", std::vector<uint8_t>(5000)), Error);
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(read_text(folder / "a"), "old");
+    EXPECT_EQ(entries(folder.path()), 1u);
+}
+
+TEST(AtomicFile, ReadsRegularFilesUpToALimit) {
+    const TempFolder folder;
+    folder.write("a", "12345");
+    EXPECT_EQ(read_file(folder / "a", 5).size(), 5u);
+    EXPECT_THROW(read_file(folder / "a", 4), Error);
+    EXPECT_THROW(read_file(folder.path(), 100), Error);
+    EXPECT_THROW(read_file("/dev/zero", 100), Error);
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_THROW(read_file(folder / "pipe", 100), Error);
+}
+
+TEST(AtomicFile, MakesMessagesOneLine) {
+    EXPECT_EQ(one_line("a\nb\tc"), "a?b?c");
+    EXPECT_EQ(one_line(std::string(300, 'x')), std::string(200, 'x') + "...");
+    EXPECT_EQ(one_line(std::string(199, 'x') + "❤❤"), std::string(199, 'x') + "...");  // cut between characters
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -1,0 +1,287 @@
+// The rasterized G-buffer against rays cast at every triangle. SPDX-License-Identifier: MIT
+#include "passes/gbuffer_reference.h"
+
+#include <random>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/shade_reference.h"
+#include "resident/resident_scene.h"
+#include "support/compare.h"
+#include "support/scene_geometry.h"
+#include "support/texels.h"
+
+namespace vesper::test {
+namespace {
+
+struct Layers {
+    std::vector<glm::vec4> reflectance, surface, emission;
+};
+
+Layers draw(PassRig& rig, const Scene& scene, const View& view) {
+    const ResidentScene resident(rig.device(), scene);
+    const SceneFrame frame{world_transforms(scene, 0)};
+    FrameGraph graph;
+    const GBuffer g = add_gbuffer(graph, resident, frame, view);
+    const Resource reflectance = keep<uint64_t>(graph, g.reflectance), surface = keep<glm::vec4>(graph, g.surface), emission = keep<glm::vec4>(graph, g.emission);
+    rig.run(graph);
+    return {from_halves(rig.got<uint64_t>(reflectance)), rig.got<glm::vec4>(surface), rig.got<glm::vec4>(emission)};
+}
+
+/// How near values must be. Depth and normals are interpolated in float over triangles snapped to 1/256 px.
+struct Nearness {
+    double depth = 2e-5;        ///< relative; plus what a 1/256 px shift does, see slack
+    double normal = 1e-4;       ///< distance of unit vectors
+    double reflectance = 1e-3;  ///< absolute: half floats below 1, rounded either way
+    double emission = 1e-3;     ///< relative
+    reference::Filter filter = reference::Filter::Bilinear;
+};
+
+reference::Rays rays_of(const View& view) {
+    return {glm::dvec2(view.ray_scale()), glm::dvec2(view.ray_offset()), view.near};
+}
+
+/// Compares every pixel whose triangle is beyond doubt, and returns how many those were.
+size_t expect_reference(const Layers& got, const reference::Geometry& g, const View& view, Nearness near = {}) {
+    const auto [w, h] = view.extent;
+    const reference::Rays rays = rays_of(view);
+    size_t compared = 0, bad = 0;
+    for (uint32_t y = 0; y < h; ++y)
+        for (uint32_t x = 0; x < w; ++x) {
+            const glm::dvec2 pixel(x + 0.5, y + 0.5);
+            if (!reference::certain(g, rays, pixel)) continue;
+            ++compared;
+            const reference::Seen want = reference::cast(g, rays, pixel, near.filter);
+            const size_t i = size_t(y) * w + x;
+            const glm::dvec4 reflectance(got.reflectance[i]), surface(got.surface[i]);
+            std::string wrong;
+            if (want.depth == 0) {
+                if (surface.z != 0) wrong = "something is drawn over the sky";
+            } else {
+                // Where the surface is steep, the snapping of vertices moves the depth.
+                double slack = near.depth * want.depth;
+                for (glm::dvec2 shift : {glm::dvec2(1.0 / 256, 0), glm::dvec2(0, 1.0 / 256)}) {
+                    const double other = reference::cast(g, rays, pixel + shift, reference::Filter::Nearest).depth;
+                    slack += std::abs(other - want.depth);
+                }
+                const glm::dvec3 normal = reference::octahedral_decode({surface.x, surface.y});
+                if (!(std::abs(surface.z - want.depth) <= slack)) wrong += " depth " + std::to_string(surface.z) + " want " + std::to_string(want.depth);
+                if (!(glm::length(normal - want.normal) <= near.normal)) wrong += " normal off by " + std::to_string(glm::length(normal - want.normal));
+                for (int c = 0; c < 3; ++c) {
+                    if (!(std::abs(reflectance[c] - want.base[c]) <= near.reflectance))
+                        wrong += " reflectance " + std::to_string(reflectance[c]) + " want " + std::to_string(want.base[c]);
+                    if (!(std::abs(got.emission[i][c] - want.emission[c]) <= near.emission * std::max(want.emission[c], 1e-6)))
+                        wrong += " emission " + std::to_string(got.emission[i][c]) + " want " + std::to_string(want.emission[c]);
+                }
+                if (!(std::abs(reflectance.w - want.metallic) <= near.reflectance)) wrong += " metallic " + std::to_string(reflectance.w) + " want " + std::to_string(want.metallic);
+                if (!(std::abs(surface.w - want.roughness) <= near.reflectance)) wrong += " roughness " + std::to_string(surface.w) + " want " + std::to_string(want.roughness);
+            }
+            if (!wrong.empty() && bad++ == 0) ADD_FAILURE() << "pixel (" << x << ", " << y << "):" << wrong;
+        }
+    EXPECT_EQ(bad, 0u) << "of " << compared << " pixels";
+    return compared;
+}
+
+size_t expect_scene(PassRig& rig, const Scene& scene, const View& view, Nearness near = {}) {
+    return expect_reference(draw(rig, scene, view), geometry_of(scene, world_transforms(scene, 0), view.world_to_view), view, near);
+}
+
+View view_of(VkExtent2D extent, float fov = 0.9f) { return View::symmetric(extent, fov, glm::mat4(1)); }
+
+Material plain(glm::vec3 colour, bool double_sided = false) {
+    Material m;
+    m.base_colour = glm::vec4(colour, 1), m.double_sided = double_sided;
+    return m;
+}
+
+/// Triangles of every attitude, half of them double-sided, carried by nodes that turn, stretch and mirror them.
+Scene soup(uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    const auto point = [&](float r) { return r * glm::vec3(unit(random), unit(random), unit(random)); };
+    Scene scene;
+    scene.materials = {plain({0.8f, 0.2f, 0.1f}), plain({0.1f, 0.6f, 0.9f}, true)};
+    scene.materials[1].metallic = 0.7f, scene.materials[1].roughness = 0.35f, scene.materials[1].emission = {3, 0.5f, 1e8f};
+    for (int k = 0; k < 12; ++k) {
+        std::vector<Vertex> vertices(9);
+        std::vector<uint32_t> indices(9);
+        for (uint32_t i = 0; i < 9; ++i) {
+            vertices[i].position = point(2), vertices[i].normal = glm::normalize(point(1) + glm::vec3(0, 0, 2)), indices[i] = i;
+            for (int c = 0; c < 3; ++c) vertices[i].colour[size_t(c)] = uint8_t(128 + 120 * unit(random));
+        }
+        Node node;
+        node.translation = {5 * unit(random), 3 * unit(random), -7 + 3 * unit(random)};
+        node.rotation = glm::normalize(glm::quat(unit(random), unit(random), unit(random), unit(random)));
+        node.scale = {k % 3 == 0 ? -1 : 1, 0.6f + 0.4f * unit(random), 1.3f};
+        add_mesh(scene, vertices, indices, uint32_t(k) % 2, node);
+    }
+    Node again = scene.nodes[3];  // the same mesh a second time, mirrored
+    again.translation.x += 2, again.scale = {1, -1, 1};
+    scene.nodes.push_back(again);
+    return scene;
+}
+
+TEST(Gbuffer, MatchesRaysAtEverySize) {
+    PassRig rig;
+    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {65, 33}, {160, 120}}) {
+        SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
+        expect_scene(rig, soup(extent.width), view_of(extent));
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Gbuffer, MatchesRaysFromElsewhereAndOffTheAxis) {
+    PassRig rig;
+    View view = view_of({97, 61});
+    view.world_to_view = glm::lookAt(glm::vec3(6, 4, 2), glm::vec3(0, 0, -7), glm::vec3(0.2f, 1, 0));
+    view.tangent_low = {-0.2f, -0.7f}, view.tangent_high = {0.9f, 0.3f};
+    const size_t compared = expect_scene(rig, soup(4), view);
+    EXPECT_GT(compared, 4000u) << "most pixels are beyond doubt";
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Gbuffer, AFloorReachesTheHorizon) {
+    PassRig rig;
+    Scene scene;
+    scene.materials = {plain({0.3f, 0.3f, 0.3f})};
+    add_mesh(scene, rectangle({-1e5f, -1.2f, 1e5f}, {2e5f, 0, 0}, {0, 0, -2e5f}), kRectangle, 0);  // also behind the eye
+    const View view = view_of({64, 50});
+    const Layers got = draw(rig, scene, view);
+    reference::Geometry floor;
+    floor.planes = {{{0, -1.2, 0}, {0, 1, 0}, 0}}, floor.surfaces.resize(1), floor.surfaces[0].base = {0.3, 0.3, 0.3, 1};
+    // Depth is interpolated as 1 / z over a triangle 2e5 m long that the near plane cuts.
+    expect_reference(got, floor, view, {.depth = 2e-4});
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Gbuffer, ASphereIsRound) {
+    PassRig rig;
+    Scene scene;
+    scene.materials = {plain({0.5f, 0.5f, 0.5f})};
+    const uint32_t columns = 96, rows = 48;
+    std::vector<Vertex> vertices;
+    std::vector<uint32_t> indices;
+    for (uint32_t j = 0; j <= rows; ++j)
+        for (uint32_t i = 0; i <= columns; ++i) {
+            const double polar = 3.14159265358979 * j / rows, around = 2 * 3.14159265358979 * i / columns;
+            Vertex v;
+            v.normal = {std::sin(polar) * std::cos(around), std::cos(polar), std::sin(polar) * std::sin(around)};
+            v.position = 2.0f * v.normal;
+            vertices.push_back(v);
+            if (i == columns || j == rows) continue;
+            const uint32_t a = j * (columns + 1) + i, b = a + columns + 1;
+            for (uint32_t k : {a, a + 1, b, a + 1, b + 1, b}) indices.push_back(k);
+        }
+    Node node;
+    node.translation = {1, 0.5f, -8};
+    add_mesh(scene, vertices, indices, 0, node);
+    const View view = view_of({90, 70});
+    const Layers got = draw(rig, scene, view);
+    reference::Geometry g;
+    g.spheres = {{{1, 0.5, -8}, 2, 0}}, g.surfaces = {{}};
+    size_t inside = 0;
+    for (uint32_t i = 0; i < 90 * 70; ++i) {
+        const auto want = reference::cast(g, rays_of(view), {i % 90 + 0.5, i / 90 + 0.5});
+        const glm::dvec3 ray = glm::normalize(rays_of(view).at({i % 90 + 0.5, i / 90 + 0.5}));
+        const double facing = want.depth > 0 ? -glm::dot(ray, want.normal) : 0;
+        if (facing < 0.3) continue;  // facets cut the silhouette
+        ++inside;
+        // Facets lie up to r (1 - cos(pi / 96)) and as much again across: 2 mm below the sphere, seen at an angle.
+        EXPECT_NEAR(got.surface[i].z, want.depth, 0.003 / facing);
+        EXPECT_LT(glm::length(reference::octahedral_decode(glm::dvec2(got.surface[i])) - want.normal), 0.003 / facing);
+    }
+    EXPECT_GT(inside, 500u);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Gbuffer, NothingNearerThanTheNearPlaneIsDrawn) {
+    PassRig rig;
+    Scene scene;
+    scene.materials = {plain({1, 0, 0}), plain({0, 1, 0})};
+    add_mesh(scene, rectangle({-1, -1, -0.4f}, {2, 0, 0}, {0, 2, 0}), kRectangle, 0);
+    add_mesh(scene, rectangle({-9, -9, -3}, {18, 0, 0}, {0, 18, 0}), kRectangle, 1);
+    View view = view_of({16, 12});
+    view.near = 0.5f;
+    expect_scene(rig, scene, view);
+    view.near = 0.3f;
+    expect_scene(rig, scene, view);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+Image noise(uint32_t width, uint32_t height, uint32_t seed, int low = 0) {
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> code(low, 255);
+    Image image{"noise", width, height, {}};
+    for (uint32_t i = 0; i < width * height * 4; ++i) image.rgba.push_back(i % 4 == 3 ? uint8_t(255) : uint8_t(code(random)));
+    return image;
+}
+
+/// A wall that fills a 64 x 64 view at z = -2.
+Scene wall(const Material& material, std::vector<Image> images) {
+    Scene scene;
+    scene.images = std::move(images), scene.materials = {material};
+    const float r = 2 * std::tan(0.45f);
+    add_mesh(scene, rectangle({-r, -r, -2}, {2 * r, 0, 0}, {0, 2 * r, 0}), kRectangle, 0);
+    return scene;
+}
+
+TEST(Gbuffer, TexturesAreFilteredAsLinearValues) {
+    PassRig rig;
+    for (const Transfer& transfer : {Transfer{}, Transfer{Transfer::Kind::Gamma, 2.2f}}) {
+        Material m = plain({1, 1, 1});
+        m.base_colour_texture.image = 0, m.metallic_roughness_texture.image = 1, m.emission_texture.image = 2;
+        m.metallic = 0.9f, m.emission = {100, 200, 300};
+        Scene scene = wall(m, {noise(8, 8, 1), noise(5, 3, 2), noise(4, 4, 3, 60)});
+        scene.transfer = transfer;
+        // Devices weigh bilinear taps in steps of 1/256, of values up to 1 and differences as large.
+        expect_scene(rig, scene, view_of({64, 64}), {.reflectance = 0.01, .emission = 0.15});
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Gbuffer, DistantTexturesAreMeansOfTheAreaTheyCover) {
+    PassRig rig;
+    Material m = plain({1, 1, 1});
+    m.base_colour_texture.image = 0;
+    // 4 x 4 texels to the pixel, so that the second mip level is exactly the area mean.
+    const Scene scene = wall(m, {noise(256, 256, 7)});
+    expect_scene(rig, scene, view_of({64, 64}), {.reflectance = 0.01, .filter = reference::Filter::Area});
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Gbuffer, TexturesWrapRepeatAndMirror) {
+    PassRig rig;
+    for (Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
+        Material m = plain({1, 1, 1});
+        m.base_colour_texture = {0, wrap, wrap, false};
+        Scene scene = wall(m, {noise(6, 4, 9)});
+        for (Vertex& v : scene.meshes[0].primitives[0].vertices) v.uv = 2.5f * v.uv - 0.7f;
+        expect_scene(rig, scene, view_of({64, 64}), {.reflectance = 0.012});
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Gbuffer, MaskedFoliageHasHoles) {
+    PassRig rig;
+    Material leaf = plain({0.2f, 0.7f, 0.1f}, true);
+    leaf.alpha = Material::Alpha::Mask, leaf.alpha_cutoff = 0.5f;
+    leaf.base_colour_texture = {0, Wrap::Clamp, Wrap::Clamp, true};
+    Image holes = noise(8, 8, 4);
+    for (size_t i = 0; i < holes.rgba.size(); i += 4) holes.rgba[i + 3] = (i / 4 * 7) % 3 == 0 ? 0 : 255;
+    Scene scene = wall(leaf, {holes});
+    scene.materials.push_back(plain({0.9f, 0.9f, 0.9f}));
+    add_mesh(scene, rectangle({-9, -9, -6}, {18, 0, 0}, {0, 18, 0}), kRectangle, 1);
+    const size_t compared = expect_scene(rig, scene, view_of({64, 64}), {.filter = reference::Filter::Nearest});
+    EXPECT_GT(compared, 3000u);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Gbuffer, AnEmptySceneIsSky) {
+    PassRig rig;
+    const Layers got = draw(rig, Scene{}, view_of({7, 5}));
+    for (const glm::vec4& s : got.surface) EXPECT_EQ(s.z, 0);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -1,0 +1,42 @@
+// Colours of black bodies against published chromaticities. SPDX-License-Identifier: MIT
+#include "scene/colour.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+
+namespace vesper {
+namespace {
+
+glm::dvec2 chromaticity(glm::dvec3 c) {
+    const glm::dvec3 xyz(0.4124564 * c.r + 0.3575761 * c.g + 0.1804375 * c.b,
+                         0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b,
+                         0.0193339 * c.r + 0.1191920 * c.g + 0.9503041 * c.b);
+    return {xyz.x / (xyz.x + xyz.y + xyz.z), xyz.y / (xyz.x + xyz.y + xyz.z)};
+}
+
+TEST(Colour, FollowsThePlanckianLocus) {
+    // Wyszecki and Stiles, "Color Science" (1982), table 1(3.11); 2856 K is CIE illuminant A.
+    const struct {
+        double kelvin, x, y;
+    } published[] = {{2500, 0.4770, 0.4137}, {2856, 0.4476, 0.4074}, {4000, 0.3805, 0.3768},
+                     {5000, 0.3451, 0.3516}, {6500, 0.3135, 0.3237}, {10000, 0.2807, 0.2884}};
+    for (const auto& p : published) {
+        const glm::dvec2 xy = chromaticity(colour_of_temperature(p.kelvin));
+        EXPECT_NEAR(xy.x, p.x, 5e-4) << p.kelvin;  // the observer is tabulated in steps of 10 nm
+        EXPECT_NEAR(xy.y, p.y, 5e-4) << p.kelvin;
+    }
+}
+
+TEST(Colour, HasLuminanceOneAndNoNegativePart) {
+    for (double kelvin = 1000; kelvin <= 25000; kelvin += 500) {
+        const glm::vec3 colour = colour_of_temperature(kelvin);
+        EXPECT_NEAR(luminance(colour), 1, 1e-6);
+        EXPECT_GE(std::min({colour.r, colour.g, colour.b}), 0);
+    }
+    EXPECT_THROW(colour_of_temperature(999), Error);
+    EXPECT_THROW(colour_of_temperature(25001), Error);
+}
+
+}  // namespace
+}  // namespace vesper

@@ -1,0 +1,219 @@
+// Damaged and hostile glTF files: each must be refused in one line that says where. SPDX-License-Identifier: MIT
+#include <limits>
+
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+using nlohmann::json;
+
+/// A valid triangle with indices, to be damaged.
+GltfFile triangle() {
+    GltfFile file;
+    const size_t position = file.vec3(kTriangle), indices = file.indices({0, 1, 2});
+    file.show({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
+    return file;
+}
+
+/// What reading says after the value at a JSON pointer was replaced.
+std::string complaint_with(const char* pointer, const json& value, const SceneLimits& limits = {}) {
+    GltfFile file = triangle();
+    file.text();
+    GltfFile damaged;
+    damaged.root = file.root;
+    damaged.root[json::json_pointer(pointer)] = value;
+    return damaged.complaint(limits);
+}
+
+TEST(GltfMalformed, TheUndamagedFileIsRead) { EXPECT_EQ(triangle().complaint(), ""); }
+
+TEST(GltfMalformed, NamesThePlaceOfWhatIsWrong) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const struct {
+        const char* pointer;
+        json value;
+        const char* place;
+    } cases[] = {
+        {"/asset/version", "1.0", "/asset/version"},
+        {"/asset/minVersion", "2.1", "/asset/minVersion"},
+        {"/extensionsRequired", {"KHR_draco_mesh_compression"}, "KHR_draco_mesh_compression"},
+        {"/extensionsRequired", {"KHR_texture_basisu"}, "KHR_texture_basisu"},
+        {"/extensionsRequired", {"EXT_meshopt_compression"}, "EXT_meshopt_compression"},
+        {"/meshes/0/primitives/0/attributes/POSITION", 17, "/meshes/0/primitives/0/attributes/POSITION"},
+        {"/meshes/0/primitives/0/indices", 0, "/accessors/0"},  // not scalar
+        {"/meshes/0/primitives/0/material", 0, "/meshes/0/primitives/0/material"},
+        {"/meshes/0/primitives/0/mode", 7, "/meshes/0/primitives/0/mode"},
+        {"/nodes/0/mesh", 1, "/nodes/0/mesh"},
+        {"/nodes/0/mesh", -1, "/nodes/0/mesh"},
+        {"/nodes/0/mesh", "0", "/nodes/0/mesh"},
+        {"/nodes/0", nullptr, "/nodes/0"},
+        {"/nodes", json::object(), "/nodes"},
+        {"/nodes/0/children", {0}, "/nodes/0"},
+        {"/nodes/0/translation", {0, 0}, "/nodes/0/translation"},
+        {"/nodes/0/translation", {0, 0, 1e300}, "/nodes/0/translation/2"},
+        {"/nodes/0/rotation", {0, 0, 0, 0}, "/nodes/0/rotation"},
+        {"/nodes/0/matrix", json::array({nan}), "/nodes/0/matrix"},
+        {"/accessors/0/count", 4, "/accessors/0"},
+        {"/accessors/0/count", 0, "/accessors/0/count"},
+        {"/accessors/0/count", 4294967295u, "/accessors/0/count"},
+        {"/accessors/0/count", 18446744073709551615u, "/accessors/0/count"},
+        {"/accessors/0/byteOffset", 18446744073709551615u, "/accessors/0"},
+        {"/accessors/0/byteOffset", 4, "/accessors/0"},
+        {"/accessors/0/componentType", 5124, "/accessors/0/componentType"},
+        {"/accessors/0/type", "VEC5", "/accessors/0/type"},
+        {"/accessors/0/bufferView", 9, "/accessors/0/bufferView"},
+        {"/accessors/1/componentType", 5126, "/accessors/1"},
+        {"/bufferViews/0/byteStride", 4, "/bufferViews/0"},
+        {"/bufferViews/0/byteLength", 18446744073709551615u, "/bufferViews/0"},
+        {"/bufferViews/0/byteOffset", 18446744073709551610u, "/bufferViews/0"},
+        {"/bufferViews/0/buffer", 3, "/bufferViews/0/buffer"},
+        {"/buffers/0/byteLength", 1u << 30, "/buffers/0"},
+        {"/buffers/0/uri", "data:;base64,AAA*", "/buffers/0/uri"},
+        {"/buffers/0/uri", "nowhere.bin", "/buffers/0/uri"},
+        {"/buffers/0/uri", "/dev/zero", "/buffers/0/uri"},
+        {"/cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 0}, {"znear", 1}}}}}, ""},
+        {"/animations",
+         {{{"channels", {{{"sampler", 3}, {"target", {{"node", 0}, {"path", "scale"}}}}}},
+           {"samplers", json::array()}}},
+         "/animations/0/channels/0/sampler"},
+        {"/extensions/KHR_lights_punctual/lights",
+         {{{"type", "point"}, {"intensity", -1}}},
+         "/extensions/KHR_lights_punctual/lights/0/intensity"},
+        {"/extensions/KHR_lights_punctual/lights",
+         {{{"type", "point"}, {"color", {1, 1, 1e39}}}},
+         "/extensions/KHR_lights_punctual/lights/0/color/2"},
+        {"/materials",
+         {{{"emissiveFactor", {1e38, 0, 0}},
+           {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 1e30}}}}}}},
+         "/materials/0/emissiveFactor"},
+    };
+    for (const auto& c : cases) {
+        const std::string complaint = complaint_with(c.pointer, c.value);
+        if (*c.place == 0) continue;  // unused parts: only that nothing breaks
+        EXPECT_TRUE(contains(complaint, c.place)) << c.pointer << " = " << c.value;
+        EXPECT_TRUE(contains(complaint, "scene.gltf: "));
+        EXPECT_EQ(complaint.find('\n'), std::string::npos);
+    }
+}
+
+TEST(GltfMalformed, RefusesCyclesAndSecondParents) {
+    GltfFile file;
+    file.root["nodes"] = {{{"children", {1}}}, {{"children", {2}}}, {{"children", {1}}}};
+    EXPECT_TRUE(contains(file.complaint(), "more than one parent"));
+    file.root["nodes"] = {json::object(), {{"children", {2}}}, {{"children", {1}}}};
+    EXPECT_TRUE(contains(file.complaint(), "own ancestor"));
+}
+
+TEST(GltfMalformed, RefusesNumbersThatAreNotFinite) {
+    GltfFile file;
+    std::vector<float> position = kTriangle;
+    position[4] = std::numeric_limits<float>::infinity();
+    file.show({{"attributes", {{"POSITION", file.vec3(position)}}}});
+    EXPECT_TRUE(contains(file.complaint(), "position 1 is not finite"));
+    GltfFile tree;
+    for (int i = 0; i < 4; ++i) tree.root["nodes"].push_back({{"scale", {1e20, 1, 1}}, {"children", {i + 1}}});
+    tree.root["nodes"].push_back(json::object());
+    EXPECT_TRUE(contains(tree.complaint(), "not finite"));
+}
+
+TEST(GltfMalformed, RefusesIndicesBeyondTheVertices) {
+    GltfFile file;
+    const size_t position = file.vec3(kTriangle), indices = file.indices({0, 1, 3});
+    file.show({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
+    EXPECT_TRUE(contains(file.complaint(), "index 3 at position 2"));
+}
+
+TEST(GltfMalformed, RefusesMoreThanTheLimits) {
+    SceneLimits small;
+    small.vertices = 2;
+    EXPECT_TRUE(contains(triangle().complaint(small), "limit of 2"));
+    small = {};
+    small.indices = 2;
+    EXPECT_TRUE(contains(triangle().complaint(small), "limit of 2"));
+    small = {};
+    small.nodes = 0;
+    EXPECT_TRUE(contains(triangle().complaint(small), "/nodes"));
+    small = {};
+    small.file_bytes = 100;
+    EXPECT_TRUE(contains(triangle().complaint(small), "limit of 100"));
+    // Zeros need no bytes in the file, but memory all the same.
+    GltfFile zeros;
+    zeros.root["accessors"] = {{{"componentType", 5126}, {"count", 4'000'000'000u}, {"type", "VEC3"}}};
+    zeros.show({{"attributes", {{"POSITION", 0}}}});
+    EXPECT_TRUE(contains(zeros.complaint(), "/accessors/0/count"));
+    // Each within the limit, not all together.
+    GltfFile often;
+    often.root["accessors"] = {{{"componentType", 5126}, {"count", 1000}, {"type", "VEC3"}}};
+    for (int i = 0; i < 6; ++i) often.show({{"attributes", {{"POSITION", 0}}}});
+    small = {};
+    small.vertices = 5000;
+    EXPECT_TRUE(contains(often.complaint(small), "/meshes/5/primitives/0: takes the meshes over the limit of 5000"));
+    // Few vertices kept, but many read again and again.
+    GltfFile again;
+    again.root["accessors"] = {{{"componentType", 5126}, {"count", 5000}, {"type", "VEC3"}}};
+    const size_t corners = again.indices({0, 1, 2});
+    for (int i = 0; i < 50; ++i) again.show({{"attributes", {{"POSITION", 0}, {"NORMAL", 0}}}, {"indices", corners}});
+    EXPECT_TRUE(contains(again.complaint(small), "too often"));
+}
+
+TEST(GltfMalformed, RefusesNestingWithoutEnd) {
+    const TempFolder folder;
+    const auto complaint = [&](const std::string& text) -> std::string {
+        try {
+            read_gltf(folder.write("deep.gltf", text));
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_TRUE(contains(complaint(std::string(1'000'000, '[')), "nested deeper"));
+    EXPECT_TRUE(contains(
+        complaint(R"({"asset":{"version":"2.0"},"extras":)" + std::string(500, '[') + std::string(500, ']') + "}"),
+        "nested deeper"));
+    EXPECT_TRUE(contains(complaint("{\"asset\""), "not valid JSON"));
+    EXPECT_TRUE(contains(complaint(""), "is empty"));
+    EXPECT_TRUE(contains(complaint("glTF"), "cut off"));
+    EXPECT_TRUE(contains(complaint("{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"translation\":[1e999,0,0]}]}"),
+                         "not valid JSON"));
+}
+
+TEST(GltfMalformed, RefusesFilesThatAreNone) {
+    const TempFolder folder;
+    EXPECT_THROW(read_gltf(folder / "missing.gltf"), Error);
+    EXPECT_THROW(read_gltf(folder.path()), Error);
+    EXPECT_THROW(read_gltf("/dev/zero"), Error);
+}
+
+/// Every single-byte cut of a binary file, and every byte of its head changed: a scene or an Error, never more.
+TEST(GltfMalformed, SurvivesCutAndChangedBinaryFiles) {
+    GltfFile file = triangle();
+    file.root["buffers"] = {{{"byteLength", file.bytes.size()}}};
+    std::string text = file.root.dump();
+    while (text.size() % 4) text += ' ';
+    const auto word = [](size_t value) {
+        std::string four;
+        for (int shift = 0; shift < 32; shift += 8) four += static_cast<char>(value >> shift);
+        return four;
+    };
+    const std::string glb = "glTF" + word(2) + word(28 + text.size() + file.bytes.size()) + word(text.size()) + "JSON" +
+                            text + word(file.bytes.size()) + std::string("BIN\0", 4) +
+                            std::string(file.bytes.begin(), file.bytes.end());
+    const TempFolder folder;
+    EXPECT_EQ(read_gltf(folder.write("whole.glb", glb)).scene.meshes.size(), 1u);
+    for (size_t size = 0; size < glb.size(); ++size)
+        EXPECT_THROW(read_gltf(folder.write("cut.glb", glb.substr(0, size))), Error) << size;
+    for (size_t i = 0; i < glb.size(); ++i) {
+        for (const int change : {1, 0x10, 0x80}) {
+            std::string changed = glb;
+            changed[i] = static_cast<char>(changed[i] ^ change);
+            try {
+                read_gltf(folder.write("changed.glb", changed));
+            } catch (const Error&) {
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace vesper::test

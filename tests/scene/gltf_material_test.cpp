@@ -1,0 +1,150 @@
+// Materials, textures and pictures of glTF files. SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include "io/image_file.h"
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+using nlohmann::json;
+
+/// A picture of one colour as a data URI.
+std::string png_uri(const std::vector<uint8_t>& rgba) {
+    const TempFolder folder;
+    write_png(folder / "x.png", static_cast<uint32_t>(rgba.size() / 4), 1, rgba);
+    const std::string text = read_text(folder / "x.png");
+    return encode_data_uri("image/png", {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+/// A file with a triangle of one material.
+GltfFile with_material(const json& material) {
+    GltfFile file;
+    file.root["materials"] = {material};
+    const size_t uv0 = file.vec2({0, 0, 1, 0, 0, 1}), uv1 = file.vec2({0.5f, 0.5f, 0.25f, 0.5f, 0, 0});
+    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}, {"TEXCOORD_0", uv0}, {"TEXCOORD_1", uv1}}},
+               {"material", 0}});
+    return file;
+}
+
+void add_texture(GltfFile& file, const std::string& uri, const json& sampler = json::object()) {
+    file.root["images"].push_back({{"uri", uri}});
+    file.root["samplers"].push_back(sampler);
+    file.root["textures"].push_back(
+        {{"source", file.root["images"].size() - 1}, {"sampler", file.root["samplers"].size() - 1}});
+}
+
+TEST(GltfMaterial, KeepsTheDefaultsOfTheFormat) {
+    const Scene scene = with_material({{"name", "plain"}}).read().scene;
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.base_colour, glm::vec4(1));
+    EXPECT_EQ(m.metallic, 1);
+    EXPECT_EQ(m.roughness, 1);
+    EXPECT_EQ(m.emission, glm::vec3(0));
+    EXPECT_EQ(m.alpha, Material::Alpha::Opaque);
+    EXPECT_EQ(scene.transfer.kind, Transfer::Kind::Srgb);
+}
+
+TEST(GltfMaterial, ReadsFactorsAndEmission) {
+    const json material = {
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
+        {"emissiveFactor", {1, 0.5, 0}},
+        {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 5000}}}}},
+        {"alphaMode", "MASK"},
+        {"alphaCutoff", 0.3},
+        {"doubleSided", true}};
+    const Scene scene = with_material(material).read().scene;
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.base_colour, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(m.emission, glm::vec3(5000, 2500, 0));
+    EXPECT_EQ(m.alpha, Material::Alpha::Mask);
+    EXPECT_FLOAT_EQ(m.alpha_cutoff, 0.3f);
+    EXPECT_TRUE(m.double_sided);
+}
+
+TEST(GltfMaterial, NotesWhatIsReadWithAChange) {
+    const LoadedScene blend = with_material({{"alphaMode", "BLEND"}}).read();
+    EXPECT_EQ(blend.scene.materials[0].alpha, Material::Alpha::Mask);
+    EXPECT_TRUE(mentions(blend.notes, "BLEND"));
+    const LoadedScene unlit = with_material({{"extensions", {{"KHR_materials_unlit", json::object()}}}}).read();
+    EXPECT_EQ(unlit.scene.materials[0].metallic, 0);
+    EXPECT_TRUE(mentions(unlit.notes, "unlit"));
+    const json model = {{"diffuseFactor", {0.2, 0.3, 0.4, 1}}, {"glossinessFactor", 0.25}};
+    const LoadedScene old = with_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}}).read();
+    EXPECT_EQ(old.scene.materials[0].base_colour, glm::vec4(0.2f, 0.3f, 0.4f, 1));
+    EXPECT_EQ(old.scene.materials[0].metallic, 0);
+    EXPECT_FLOAT_EQ(old.scene.materials[0].roughness, 0.75f);
+}
+
+TEST(GltfMaterial, ChoosesAndTransformsTextureCoordinates) {
+    const json transform = {
+        {"offset", {0.5, 0.25}}, {"scale", {2, 4}}, {"rotation", std::acos(-1) / 2}, {"texCoord", 1}};
+    const json texture = {{"index", 0}, {"texCoord", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
+    GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", texture}}}});
+    add_texture(file, png_uri({10, 20, 30, 255}), {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
+    const Scene scene = file.read().scene;
+    // TEXCOORD_1 of the second corner is (0.25, 0.5): scaled (0.5, 2), turned by a quarter, moved.
+    const glm::vec2 uv = scene.meshes[0].primitives[0].vertices[1].uv;
+    EXPECT_NEAR(uv.x, 0.5 + 2, 1e-6);
+    EXPECT_NEAR(uv.y, 0.25 - 0.5, 1e-6);
+    const TextureUse& use = scene.materials[0].base_colour_texture;
+    EXPECT_EQ(use.wrap_u, Wrap::Clamp);
+    EXPECT_EQ(use.wrap_v, Wrap::Mirror);
+    EXPECT_TRUE(use.nearest);
+    EXPECT_EQ(scene.images.at(use.image).rgba, (std::vector<uint8_t>{10, 20, 30, 255}));
+}
+
+TEST(GltfMaterial, ReadsAPictureOnceAndOnlyWhenUsed) {
+    GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                                   {"emissiveFactor", {1, 1, 1}},
+                                   {"emissiveTexture", {{"index", 0}}},
+                                   {"normalTexture", {{"index", 1}}}});
+    add_texture(file, png_uri({1, 2, 3, 255}));
+    add_texture(file, "missing.png");  // of the normal texture, which is not read
+    const LoadedScene loaded = file.read();
+    EXPECT_EQ(loaded.scene.images.size(), 1u);
+    EXPECT_EQ(loaded.scene.materials[0].emission_texture.image, 0u);
+    EXPECT_TRUE(mentions(loaded.notes, "normal texture"));
+}
+
+TEST(GltfMaterial, FallsBackFromFormatsItDoesNotRead) {
+    GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    const std::vector<uint8_t> webp = {'R', 'I', 'F', 'F', 4, 0, 0, 0, 'W', 'E', 'B', 'P'};
+    file.root["images"] = {{{"uri", encode_data_uri("image/webp", webp)}}, {{"uri", png_uri({7, 7, 7, 255})}}};
+    file.root["textures"] = {{{"source", 1}, {"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}};
+    EXPECT_EQ(file.read().scene.images.at(0).rgba[0], 7);
+    file.root["textures"][0].erase("source");
+    EXPECT_EQ(file.read().scene.materials[0].base_colour_texture.image, kNone);
+    file.root["textures"][0]["source"] = 0;
+    const LoadedScene loaded = file.read();
+    EXPECT_EQ(loaded.scene.materials[0].base_colour_texture.image, kNone);
+    EXPECT_TRUE(mentions(loaded.notes, "image/webp"));
+}
+
+TEST(GltfMaterial, FindsPicturesByEncodedAndByPlainNames) {
+    const TempFolder folder;
+    std::filesystem::create_directory(folder / "sub");
+    const std::vector<uint8_t> pixel = {9, 9, 9, 255};
+    for (const char* name : {"a b ❤.png", "50%25.png"}) write_png(folder / name, 1, 1, pixel);
+    for (const char* uri : {"a%20b%20%E2%9D%A4.png", "a b ❤.png", "50%25.png", "sub/../a b ❤.png"}) {
+        GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+        add_texture(file, uri);
+        EXPECT_EQ(read_gltf(folder.write("s.gltf", file.text())).scene.images.at(0).rgba[0], 9) << uri;
+        // A database may keep its textures beside the folder of its models.
+        file.root["images"][0]["uri"] = "../" + std::string(uri);
+        EXPECT_EQ(read_gltf(folder.write("sub/s.gltf", file.text())).scene.images.size(), 1u) << uri;
+    }
+}
+
+TEST(GltfMaterial, RefusesUrisThatLeadElsewhere) {
+    for (const char* uri :
+         {"/etc/hostname", "http://example.com/a.png", "file:///etc/hostname", "%2Fetc/hostname", "C:\\a.png", ""}) {
+        GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+        add_texture(file, uri);
+        EXPECT_TRUE(contains(file.complaint(), "/images/0/uri: ")) << uri;
+    }
+}
+
+}  // namespace
+}  // namespace vesper::test

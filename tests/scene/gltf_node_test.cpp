@@ -1,0 +1,182 @@
+// Nodes, cameras, lights and animations of glTF files. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+
+#include "scene/colour.h"
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+using nlohmann::json;
+
+TEST(GltfNode, ReadsTheDefaultSceneOrAllRoots) {
+    GltfFile file;
+    file.root["nodes"] = {{{"name", "a"}, {"children", {1}}}, {{"name", "b"}}, {{"name", "c"}}};
+    EXPECT_EQ(file.read().scene.nodes.size(), 3u);
+    file.root["scenes"] = {{{"nodes", {2}}}, {{"nodes", {0}}, {"name", "second"}}};
+    EXPECT_EQ(file.read().scene.nodes.at(0).name, "c");
+    file.root["scene"] = 1;
+    const Scene scene = file.read().scene;
+    EXPECT_EQ(scene.name, "second");
+    ASSERT_EQ(scene.nodes.size(), 2u);
+    EXPECT_EQ(scene.nodes[1].name, "b");
+    EXPECT_EQ(scene.nodes[1].parent, 0u);
+}
+
+TEST(GltfNode, ReadsATreeAsDeepAsItIs) {
+    GltfFile file;
+    constexpr int kDepth = 20'000;
+    for (int i = 0; i < kDepth; ++i) file.root["nodes"].push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});
+    file.root["nodes"].push_back(json::object());
+    const Scene scene = file.read().scene;
+    EXPECT_EQ(world_transforms(scene, 0).back()[3].x, kDepth);
+}
+
+TEST(GltfNode, ReadsFilesWithoutAnything) {
+    GltfFile file;
+    const LoadedScene loaded = file.read();
+    EXPECT_TRUE(loaded.scene.nodes.empty());
+    EXPECT_TRUE(loaded.notes.empty());
+}
+
+TEST(GltfNode, KeepsNegativeScaleAndMatrices) {
+    GltfFile file;
+    file.root["nodes"] = {{{"scale", {-1, 2, 3}}}, {{"matrix", {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}}};
+    const auto world = world_transforms(file.read().scene, 0);
+    EXPECT_EQ(world[0][0].x, -1);
+    EXPECT_EQ(world[1][0], glm::vec4(0, 1, 0, 0));
+    EXPECT_EQ(world[1][3], glm::vec4(4, 5, 6, 1));
+}
+
+TEST(GltfNode, NamesCameras) {
+    GltfFile file;
+    const json lens = {{"yfov", 0.7}, {"znear", 0.05}};
+    file.root["cameras"] = {
+        {{"type", "perspective"}, {"perspective", lens}, {"name", "driver"}},
+        {{"type", "perspective"}, {"perspective", lens}},
+        {{"type", "perspective"}, {"perspective", lens}, {"name", "shared"}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 2}, {"znear", 1}}}}};
+    for (const auto& [name, camera] :
+         std::vector<std::pair<const char*, int>>{{"n0", 0}, {"n1", 1}, {"n2", 2}, {"n3", 2}, {"n4", 3}})
+        file.root["nodes"].push_back({{"name", name}, {"camera", camera}});
+    const LoadedScene loaded = file.read();
+    std::vector<std::string> names;
+    for (const Camera& camera : loaded.scene.cameras) names.push_back(camera.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"driver", "n1", "n2", "n3"}));
+    EXPECT_FLOAT_EQ(loaded.scene.cameras[0].vertical_fov, 0.7f);
+    EXPECT_EQ(loaded.scene.nodes[4].camera, kNone);
+    EXPECT_TRUE(mentions(loaded.notes, "orthographic"));
+}
+
+json lights(const json& list) { return {{"KHR_lights_punctual", {{"lights", list}}}}; }
+json light(int index) { return {{"extensions", {{"KHR_lights_punctual", {{"light", index}}}}}}; }
+
+TEST(GltfLight, KeepsTheProductOfIntensityAndColour) {
+    GltfFile file;
+    file.root["extensions"] = lights({{{"type", "point"}, {"intensity", 100}, {"color", {1, 0.5, 0.25}}, {"range", 3}},
+                                      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}},
+                                      {{"type", "directional"}, {"intensity", 5}}});
+    file.root["nodes"] = {light(0), light(1), light(2)};
+    const LoadedScene loaded = file.read();
+    const auto& read = loaded.scene.lights;
+    ASSERT_EQ(read.size(), 3u);
+    const double y = luminance({1, 0.5, 0.25});
+    EXPECT_NEAR(read[0].intensity, 100 * y, 1e-4);
+    EXPECT_NEAR(luminance(read[0].colour), 1, 1e-6);
+    EXPECT_NEAR(read[0].colour.r * read[0].intensity, 100, 1e-4);
+    EXPECT_TRUE(mentions(loaded.notes, "range"));
+    EXPECT_EQ(read[1].kind, Light::Kind::Spot);
+    EXPECT_FLOAT_EQ(read[1].inner_cone, 0.1f);
+    EXPECT_FLOAT_EQ(read[1].outer_cone, 0.5f);
+    EXPECT_FLOAT_EQ(read[1].intensity, 1);  // the default
+    EXPECT_EQ(read[2].kind, Light::Kind::Directional);
+    EXPECT_EQ(loaded.scene.nodes[2].light, 2u);
+}
+
+TEST(GltfLight, ReadsTheVesperBlock) {
+    GltfFile file;
+    file.root["extensions"] = lights({{{"type", "spot"}, {"intensity", 12000}}});
+    file.root["nodes"] = {light(0)};
+    file.root["extras"]["vesper"] = {{"version", 1},
+                                     {"transfer", {{"kind", "gamma"}, {"gamma", 2.2}}},
+                                     {"ambient", {{"illuminance_lx", 0.4}, {"colour", {2, 2, 2}}}},
+                                     {"sky", {{"luminance_cd_m2", 0.02}}},
+                                     {"lobes", {{{"light", 0}, {"type", "cosine_power"}, {"exponent", 250}}}}};
+    const Scene scene = file.read().scene;
+    EXPECT_EQ(scene.transfer.kind, Transfer::Kind::Gamma);
+    EXPECT_FLOAT_EQ(scene.ambient_illuminance, 0.4f);
+    EXPECT_NEAR(luminance(scene.ambient_colour), 1, 1e-6);
+    EXPECT_FLOAT_EQ(scene.sky_luminance, 0.02f);
+    EXPECT_EQ(scene.lights[0].kind, Light::Kind::CosinePower);
+    EXPECT_EQ(scene.lights[0].exponent, 250);
+    file.root["extras"]["vesper"]["version"] = 2;
+    EXPECT_TRUE(contains(file.complaint(), "/extras/vesper/version"));
+    file.root["extras"]["vesper"] = {{"version", 1},
+                                     {"lobes", {{{"light", 1}, {"type", "cosine_power"}, {"exponent", 2}}}}};
+    EXPECT_TRUE(contains(file.complaint(), "/extras/vesper/lobes/0/light"));
+}
+
+/// A node moved by one channel.
+Scene animated(const std::string& path, const std::string& mode, const std::vector<float>& times,
+               const std::vector<float>& values, int components) {
+    GltfFile file;
+    file.root["nodes"] = {json::object()};
+    const size_t input = file.accessor(times, 5126, "SCALAR", 1);
+    const size_t output =
+        file.accessor(values, 5126, components == 4 ? "VEC4" : "VEC3", static_cast<size_t>(components));
+    file.root["animations"] = {{{"samplers", {{{"input", input}, {"output", output}, {"interpolation", mode}}}},
+                                {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
+    return file.read().scene;
+}
+
+TEST(GltfAnimation, InterpolatesStepAndLinear) {
+    const std::vector<float> times = {1, 3}, values = {0, 0, 0, 8, 0, 0};
+    const Scene linear = animated("translation", "LINEAR", times, values, 3),
+                step = animated("translation", "STEP", times, values, 3);
+    const auto x = [](const Scene& scene, double seconds) { return world_transforms(scene, seconds)[0][3].x; };
+    EXPECT_EQ(animation_length(linear), 3);
+    for (const auto& [seconds, expected] :
+         std::vector<std::pair<double, float>>{{0, 0}, {1, 0}, {1.5, 2}, {2, 4}, {3, 8}, {9, 8}})
+        EXPECT_FLOAT_EQ(x(linear, seconds), expected) << seconds;
+    EXPECT_EQ(x(step, 2.9), 0);
+    EXPECT_EQ(x(step, 3), 8);
+}
+
+TEST(GltfAnimation, TurnsAlongTheShortestWay) {
+    const float h = std::sqrt(0.5f);
+    // From 0 to 90 degrees about Y, the end given with the opposite sign: the same rotation.
+    const Scene scene = animated("rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, -h, 0, -h}, 4);
+    const glm::mat4 half = world_transforms(scene, 0.5)[0];
+    EXPECT_NEAR(half[0].x, std::cos(std::numbers::pi / 4), 1e-6);
+    EXPECT_NEAR(half[0].z, -std::sin(std::numbers::pi / 4), 1e-6);
+}
+
+TEST(GltfAnimation, FollowsCubicSplines) {
+    // x(t) = t^3 on [0, 2]: a cubic spline must reproduce it. Per key: in-tangent, value, out-tangent.
+    const Scene scene =
+        animated("translation", "CUBICSPLINE", {0, 2}, {0, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 0, 0, 12, 0, 0}, 3);
+    for (const double t : {0.0, 0.3, 1.0, 1.7, 2.0}) EXPECT_NEAR(world_transforms(scene, t)[0][3].x, t * t * t, 1e-5);
+}
+
+TEST(GltfAnimation, PlaysAllAnimationsTogether) {
+    GltfFile file;
+    file.root["nodes"] = {json::object(), {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}};
+    const size_t input = file.accessor(std::vector<float>{0, 4}, 5126, "SCALAR", 1);
+    const size_t up = file.vec3({0, 0, 0, 0, 4, 0}), big = file.vec3({1, 1, 1, 3, 3, 3});
+    const auto animation = [&](size_t output, const char* path, int node) {
+        return json{{"samplers", {{{"input", input}, {"output", output}}}},
+                    {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}}}}};
+    };
+    file.root["animations"] = {animation(up, "translation", 0), animation(big, "scale", 0),
+                               animation(up, "translation", 1)};
+    const LoadedScene loaded = file.read();
+    EXPECT_EQ(loaded.scene.channels.size(), 2u);
+    EXPECT_TRUE(mentions(loaded.notes, "matrix"));
+    const glm::mat4 world = world_transforms(loaded.scene, 2)[0];
+    EXPECT_EQ(world[3].y, 2);
+    EXPECT_EQ(world[0].x, 2);
+}
+
+}  // namespace
+}  // namespace vesper::test

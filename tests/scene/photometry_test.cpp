@@ -1,0 +1,174 @@
+// The photometry file: what is read, what is refused, which names its patterns match. SPDX-License-Identifier: MIT
+#include "scene/photometry.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/colour.h"
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+using nlohmann::json;
+
+json street_lamp() {
+    return {{"name", "street lamp"},       {"nodes", "lamp_*"},    {"type", "spot"},
+            {"intensity_cd", 1800},        {"inner_cone_deg", 40}, {"outer_cone_deg", 80},
+            {"colour_temperature_K", 2100}};
+}
+
+Photometry read(const json& file) {
+    const TempFolder folder;
+    return read_photometry(folder.write("p.json", file.dump()));
+}
+
+TEST(Photometry, ReadsAWholeFile) {
+    const Photometry p = read(
+        {{"version", 1},
+         {"textures", {{"transfer", "gamma"}, {"gamma", 2.4}}},
+         {"ambient", {{"illuminance_lx", 0.4}, {"colour_temperature_K", 3200}}},
+         {"sky", {{"luminance_cd_m2", 0.02}, {"colour_rgb", {0, 0, 1}}}},
+         {"lights", {{"keep", true}}},
+         {"lamps",
+          {street_lamp(),
+           {{"nodes", {"a", "b"}},
+            {"type", "cosine_power"},
+            {"intensity_cd", 12000},
+            {"exponent", 250},
+            {"aim", {0, -2, 0}},
+            {"offset_m", {0, 0, 1}}}}},
+         {"emitters", {{{"materials", "glass"}, {"luminance_cd_m2", 7000}, {"modulate", true}}}},
+         {"surfaces", {{{"materials", "asphalt*"}, {"reflectance_scale", 0.5}, {"roughness", 0.8}, {"metallic", 0}}}}});
+    EXPECT_FLOAT_EQ(p.transfer.gamma, 2.4f);
+    EXPECT_EQ(p.ambient->value, 0.4);
+    EXPECT_NEAR(luminance(p.sky->colour), 1, 1e-9);
+    EXPECT_TRUE(p.keep_lights);
+    ASSERT_EQ(p.lamps.size(), 2u);
+    EXPECT_EQ(p.lamps[0].light.kind, Light::Kind::Spot);
+    EXPECT_FLOAT_EQ(p.lamps[0].light.outer_cone, static_cast<float>(80 * std::numbers::pi / 180));
+    EXPECT_EQ(p.lamps[1].name, "a");
+    EXPECT_EQ(p.lamps[1].aim, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(p.lamps[1].light.colour, glm::vec3(1));
+    EXPECT_TRUE(p.emitters[0].modulate);
+    EXPECT_EQ(p.surfaces[0].roughness, 0.8);
+}
+
+TEST(Photometry, StartsFromEquationOne) {
+    const Photometry p = read({{"version", 1}});
+    EXPECT_EQ(p.transfer.kind, Transfer::Kind::Gamma);
+    EXPECT_FLOAT_EQ(p.transfer.gamma, 2.2f);
+    EXPECT_FALSE(p.ambient);
+}
+
+TEST(Photometry, NamesThePlaceOfWhatIsWrong) {
+    const struct {
+        const char* pointer;
+        json value;
+        const char* place;
+    } cases[] = {
+        {"/version", 2, "/version"},
+        {"/lamp", json::array(), "/lamp: unknown key"},
+        {"/lamps", json::object(), "/lamps"},
+        {"/lamps/0/intensity", 5, "/lamps/0/intensity: unknown key"},
+        {"/lamps/0/exponent", 5, "/lamps/0/exponent: unknown key"},
+        {"/lamps/0/intensity_cd", 0, "/lamps/0/intensity_cd"},
+        {"/lamps/0/intensity_cd", "1800", "/lamps/0/intensity_cd"},
+        {"/lamps/0/intensity_cd", 1e12, "/lamps/0/intensity_cd"},
+        {"/lamps/0/type", "area", "/lamps/0/type"},
+        {"/lamps/0/nodes", json::array(), "/lamps/0/nodes"},
+        {"/lamps/0/nodes", {"a", 3}, "/lamps/0/nodes/1"},
+        {"/lamps/0/inner_cone_deg", 85, "/lamps/0/inner_cone_deg"},
+        {"/lamps/0/outer_cone_deg", 91, "/lamps/0/outer_cone_deg"},
+        {"/lamps/0/colour_temperature_K", 500, "/lamps/0/colour_temperature_K"},
+        {"/lamps/0/colour_rgb", {1, 1, 1}, "/lamps/0/colour_rgb"},  // beside a temperature
+        {"/lamps/0/aim", {0, 0, 0}, "/lamps/0/aim"},
+        {"/textures/transfer", "linear", "/textures/transfer"},
+        {"/textures", {{"transfer", "srgb"}, {"gamma", 2}}, "/textures/gamma"},
+        {"/emitters", {{{"materials", "x"}}}, "/emitters/0: has no \"luminance_cd_m2\""},
+        {"/emitters", {{{"materials", "x"}, {"luminance_cd_m2", -1}}}, "/emitters/0/luminance_cd_m2"},
+        {"/emitters",
+         {{{"materials", "x"}, {"luminance_cd_m2", 1}, {"colour_rgb", {0, 0, 0}}}},
+         "/emitters/0/colour_rgb"},
+        {"/surfaces", {{{"materials", ""}}}, "/surfaces/0/materials"},
+        {"/sky/luminance_cd_m2", nullptr, "/sky/luminance_cd_m2"},
+    };
+    for (const auto& c : cases) {
+        json file = {{"version", 1}, {"lamps", {street_lamp()}}, {"sky", {{"luminance_cd_m2", 1}}}};
+        EXPECT_NO_THROW(read(file));
+        file[json::json_pointer(c.pointer)] = c.value;
+        try {
+            read(file);
+            ADD_FAILURE() << c.pointer << " = " << c.value << " was accepted";
+        } catch (const Error& error) {
+            EXPECT_TRUE(contains(error.what(), std::string("p.json: ") + c.place)) << c.value;
+        }
+    }
+    const TempFolder folder;
+    EXPECT_THROW(read_photometry(folder.write("p.json", "{\"version\": 1")), Error);
+    EXPECT_THROW(read_photometry(folder / "missing.json"), Error);
+}
+
+/// Flux by numerical integration of the lobe over the sphere.
+double integrated(const Light& light) {
+    double sum = 0;
+    constexpr int kSteps = 200'000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double angle = std::numbers::pi * (i + 0.5) / kSteps, cosine = std::cos(angle);
+        double value = 1;
+        if (light.kind == Light::Kind::CosinePower) value = cosine > 0 ? std::pow(cosine, light.exponent) : 0;
+        if (light.kind == Light::Kind::Spot) {
+            const double outer = std::cos(light.outer_cone), inner = std::cos(light.inner_cone);
+            const double ramp = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
+            value = ramp * ramp;
+        }
+        sum += 2 * std::numbers::pi * std::sin(angle) * light.intensity * value * std::numbers::pi / kSteps;
+    }
+    return sum;
+}
+
+TEST(Photometry, IntegratesLobes) {
+    Light light;
+    light.intensity = 100;
+    EXPECT_NEAR(luminous_flux(light), integrated(light), 1e-4);
+    EXPECT_NEAR(luminous_flux(light), 400 * std::numbers::pi, 1e-6);
+    light.kind = Light::Kind::Spot;
+    light.inner_cone = 0.3f, light.outer_cone = 1.2f;
+    EXPECT_NEAR(luminous_flux(light), integrated(light), 1e-4);
+    light.kind = Light::Kind::CosinePower;
+    for (const float exponent : {0.0f, 1.0f, 250.0f}) {
+        light.exponent = exponent;
+        EXPECT_NEAR(luminous_flux(light), integrated(light), 1e-3) << exponent;
+    }
+}
+
+TEST(Pattern, MatchesNames) {
+    for (const char* pattern : {"lamp_1", "*", "lamp*", "*1", "l?mp_?", "*a*_*", "lamp_1*", "**"})
+        EXPECT_TRUE(matches_name(pattern, "lamp_1")) << pattern;
+    for (const char* pattern : {"lamp", "amp_1", "?", "lamp_1?", "*2", "", "LAMP_1"})
+        EXPECT_FALSE(matches_name(pattern, "lamp_1")) << pattern;
+    EXPECT_TRUE(matches_name("*", ""));
+    EXPECT_TRUE(matches_name("a*b*a*c", "aXbYbaZc"));
+    EXPECT_TRUE(matches_name("r?verb?re", "réverbère"));
+    EXPECT_FALSE(matches_name(std::string(50, '*') + "x", std::string(5000, 'a')));  // at once
+}
+
+TEST(Pattern, MatchesEndsOfPaths) {
+    const std::vector<std::string> path = {"light", "street_lamp_07", "street"};
+    for (const char* pattern :
+         {"light", "l*", "street_lamp_*/light", "street/street_lamp_07/light", "*/*/light", "*/light"})
+        EXPECT_TRUE(matches_path(pattern, path)) << pattern;
+    for (const char* pattern :
+         {"street*", "lamp_*/light", "street/light", "street*light", "*/*/*/light", "street_lamp_*", "/light"})
+        EXPECT_FALSE(matches_path(pattern, path)) << pattern;
+    // A name may hold slashes: it counts as one component, whose inside no match begins in.
+    const std::vector<std::string> odd = {"street_lamp_07/light", "street"};
+    for (const char* pattern :
+         {"street_lamp_*/light", "street_lamp_*7/light", "street_lamp_?7/*", "street/street_lamp_07/light", "*"})
+        EXPECT_TRUE(matches_path(pattern, odd)) << pattern;
+    EXPECT_FALSE(matches_path("light", odd));
+    EXPECT_FALSE(matches_path("street/*", odd));
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -1,0 +1,131 @@
+// Making small glTF files for tests of the reader and the converter. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "scene/gltf.h"
+#include "scene/uri.h"
+
+namespace vesper::test {
+
+/// A folder that goes with the test.
+class TempFolder {
+public:
+    TempFolder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "vesper-test-XXXXXX").string();
+        if (!mkdtemp(pattern.data())) throw Error("no temporary folder");
+        path_ = pattern;
+    }
+    ~TempFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TempFolder(const TempFolder&) = delete;
+    TempFolder& operator=(const TempFolder&) = delete;
+
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(path_ / name, std::ios::binary) << text;
+        return path_ / name;
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+inline std::string read_text(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// A glTF file in the making: JSON, and one buffer that accessors are appended to.
+class GltfFile {
+public:
+    nlohmann::json root = {{"asset", {{"version", "2.0"}}}};
+    std::vector<uint8_t> bytes;
+
+    /// Appends values as an accessor, tightly packed, and returns its number.
+    template <class T>
+    size_t accessor(const std::vector<T>& values, int component_type, const char* type, size_t components,
+                    bool normalized = false) {
+        const size_t view = buffer_view(values);
+        root["accessors"].push_back({{"bufferView", view},
+                                     {"componentType", component_type},
+                                     {"count", values.size() / components},
+                                     {"type", type},
+                                     {"normalized", normalized}});
+        return root["accessors"].size() - 1;
+    }
+    size_t vec3(const std::vector<float>& values) { return accessor(values, 5126, "VEC3", 3); }
+    size_t vec2(const std::vector<float>& values) { return accessor(values, 5126, "VEC2", 2); }
+    size_t indices(const std::vector<uint16_t>& values) { return accessor(values, 5123, "SCALAR", 1); }
+
+    template <class T>
+    size_t buffer_view(const std::vector<T>& values) {
+        while (bytes.size() % 4 != 0) bytes.push_back(0);
+        const size_t offset = bytes.size(), size = values.size() * sizeof(T);
+        bytes.resize(offset + size);
+        if (size) std::memcpy(bytes.data() + offset, values.data(), size);
+        root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
+        return root["bufferViews"].size() - 1;
+    }
+
+    /// A mesh of one primitive, on a node of its own.
+    void show(const nlohmann::json& primitive, const nlohmann::json& node = nlohmann::json::object()) {
+        root["meshes"].push_back({{"primitives", {primitive}}});
+        nlohmann::json placed = node;
+        placed["mesh"] = root["meshes"].size() - 1;
+        root["nodes"].push_back(placed);
+    }
+
+    std::string text() {
+        if (!bytes.empty())
+            root["buffers"] = {
+                {{"byteLength", bytes.size()}, {"uri", encode_data_uri("application/octet-stream", bytes)}}};
+        return root.dump();
+    }
+
+    LoadedScene read(const SceneLimits& limits = {}) {
+        const TempFolder folder;
+        return read_gltf(folder.write("scene.gltf", text()), limits);
+    }
+
+    /// The message of the Error that reading throws; empty when it throws none.
+    std::string complaint(const SceneLimits& limits = {}) {
+        try {
+            read(limits);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+/// A right triangle in the plane z = 0, facing +Z.
+inline const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+inline bool mentions(const std::vector<std::string>& lines, const std::string& part) {
+    for (const std::string& line : lines)
+        if (line.find(part) != std::string::npos) return true;
+    return false;
+}
+
+inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
+    if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "'" << text << "' does not contain '" << part << "'";
+}
+
+}  // namespace vesper::test

@@ -1,0 +1,95 @@
+// A scene as the ray caster of the reference sees it: in the view frame, in double. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "passes/gbuffer_reference.h"
+#include "passes/passes.h"
+#include "scene/scene.h"
+
+namespace vesper::test {
+
+/// Linear value of an 8-bit code: Eq. 1 of Petit, Bremond and Vienne, or IEC 61966-2-1.
+inline double linear_value(uint8_t code, const Transfer& transfer) {
+    const double t = code / 255.0;
+    if (transfer.kind == Transfer::Kind::Gamma) return std::pow(t, double(transfer.gamma));
+    return t <= 0.04045 ? t / 12.92 : std::pow((t + 0.055) / 1.055, 2.4);
+}
+
+/// A texture of the reference. `transfer` null: codes are linear. Opacity always is.
+inline std::optional<reference::Texture> texture_of(const Scene& scene, const TextureUse& use, const Transfer* transfer) {
+    if (use.image == kNone) return std::nullopt;
+    const Image& image = scene.images[use.image];
+    const auto wrapping = [](Wrap w) {
+        return w == Wrap::Repeat ? reference::Wrapping::Repeat : w == Wrap::Mirror ? reference::Wrapping::Mirror : reference::Wrapping::Clamp;
+    };
+    reference::Texture t{image.width, image.height, {}, wrapping(use.wrap_u), wrapping(use.wrap_v)};
+    for (size_t i = 0; i < image.rgba.size(); i += 4) {
+        glm::dvec4 texel;
+        for (size_t c = 0; c < 4; ++c)
+            texel[int(c)] = transfer && c < 3 ? linear_value(image.rgba[i + c], *transfer) : image.rgba[i + c] / 255.0;
+        t.texels.push_back(texel);
+    }
+    return t;
+}
+
+/// Every triangle of every node, in the order of nodes.
+inline reference::Geometry geometry_of(const Scene& scene, const std::vector<glm::mat4>& world, const glm::mat4& world_to_view) {
+    reference::Geometry g;
+    const Transfer srgb{};
+    for (const Material& m : scene.materials) {
+        reference::Surface s;
+        s.base = glm::dvec4(m.base_colour), s.metallic = m.metallic, s.roughness = m.roughness, s.emission = glm::dvec3(m.emission);
+        s.base_texture = texture_of(scene, m.base_colour_texture, &scene.transfer);
+        s.metallic_roughness_texture = texture_of(scene, m.metallic_roughness_texture, nullptr);
+        s.emission_texture = texture_of(scene, m.emission_texture, &srgb);
+        s.double_sided = m.double_sided;
+        s.alpha_cutoff = m.alpha == Material::Alpha::Mask ? m.alpha_cutoff : 0;
+        g.surfaces.push_back(s);
+    }
+    for (size_t n = 0; n < scene.nodes.size(); ++n) {
+        if (scene.nodes[n].mesh == kNone) continue;
+        const glm::dmat4 m = glm::dmat4(world_to_view) * glm::dmat4(world[n]);
+        const glm::dmat3 normals = glm::transpose(glm::inverse(glm::dmat3(m)));
+        const bool mirrored = glm::determinant(glm::dmat3(m)) < 0;  // glTF 2.0, 3.7.4: the winding turns round
+        for (const Primitive& p : scene.meshes[scene.nodes[n].mesh].primitives)
+            for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+                reference::Triangle t{};
+                t.surface = p.material;
+                for (size_t k = 0; k < 3; ++k) {
+                    const Vertex& v = p.vertices[p.indices[i + (mirrored && k > 0 ? 3 - k : k)]];
+                    t.position[k] = glm::dvec3(m * glm::dvec4(v.position, 1));
+                    t.normal[k] = normals * glm::dvec3(v.normal);  // interpolated as in the mesh's frame, then turned
+                    t.uv[k] = glm::dvec2(v.uv);
+                    t.colour[k] = glm::dvec4(v.colour[0], v.colour[1], v.colour[2], v.colour[3]) / 255.0;
+                }
+                g.triangles.push_back(t);
+            }
+    }
+    return g;
+}
+
+/// Adds a mesh of one primitive and the node that carries it.
+inline uint32_t add_mesh(Scene& scene, std::vector<Vertex> vertices, std::vector<uint32_t> indices, uint32_t material, Node node = {}) {
+    Primitive p;
+    p.material = material, p.vertices = std::move(vertices), p.indices = std::move(indices);
+    for (const Vertex& v : p.vertices) p.bounds.add(v.position);
+    scene.meshes.push_back({"mesh", {p}});
+    node.mesh = uint32_t(scene.meshes.size() - 1);
+    scene.nodes.push_back(node);
+    return node.mesh;
+}
+
+/// A rectangle at `corner` with sides `u` and `v`, seen from where u x v points. uv (0, 0) is the upper left: at corner + v.
+inline std::vector<Vertex> rectangle(glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
+    const glm::vec3 n = glm::normalize(glm::cross(u, v));
+    const auto vertex = [&](glm::vec3 p, float s, float t) {
+        Vertex x;
+        x.position = p, x.normal = n, x.uv = {s, t};
+        return x;
+    };
+    return {vertex(corner, 0, 1), vertex(corner + u, 1, 1), vertex(corner + u + v, 1, 0), vertex(corner + v, 0, 0)};
+}
+const std::vector<uint32_t> kRectangle{0, 1, 2, 0, 2, 3};
+
+}  // namespace vesper::test

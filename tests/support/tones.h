@@ -1,0 +1,48 @@
+// Scene images and tone curves to test the display side with. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "passes/passes.h"
+
+namespace vesper::test {
+
+constexpr uint32_t kEveryTone[]{shared::kToneCurve, shared::kToneReinhard, shared::kToneLinear, shared::kToneLdr};
+
+/// A tone curve with parameters for every operator: a crooked table from 0.01 to 1e4 cd/m^2, Reinhard with white at 3000,
+/// linear from 0.05 to 80.
+inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 100) {
+    shared::ToneCurve c{};
+    c.adaptation = c.log_average = 0.7f, c.maximum = 3000;
+    c.reinhard_scale = 0.18f / 0.7f, c.reinhard_white = 1 / (c.reinhard_scale * 3000 * c.reinhard_scale * 3000);
+    c.linear_low = 0.05f, c.linear_gain = 1 / 79.95f;
+    c.ln_low = std::log(0.01f), c.bins_per_ln = float(bins) / std::log(1e6f), c.bins = float(bins);
+    const double low = std::log(double(display.low())), range = std::log(double(display.high())) - low;
+    double sum = 0;
+    std::vector<double> steps;
+    for (uint32_t i = 0; i < bins; ++i) steps.push_back(i % 7 == 3 ? 0 : 1 + std::sin(0.3 * i)), sum += steps.back();
+    double at = 0;
+    for (uint32_t i = 0; i <= bins; ++i) {
+        c.node[i] = float(low + range * at / sum);
+        if (i < bins) at += steps[i];
+    }
+    return c;
+}
+
+/// Pixels from 1e-4 to 1e8 cd/m^2, saturated and grey, some black.
+inline std::vector<glm::vec4> night_pixels(VkExtent2D extent, uint32_t seed, float log10_low = -4, float log10_high = 8) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> decades(log10_low, log10_high), unit(0, 1);
+    std::vector<glm::vec4> pixels;
+    for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
+        const glm::vec3 tint = i % 3 == 0 ? glm::vec3(1) : glm::vec3(unit(random), unit(random), i % 5 == 0 ? 0.0f : unit(random));
+        pixels.emplace_back(i % 17 == 0 ? glm::vec3(0) : tint * std::pow(10.0f, decades(random)), 1);
+    }
+    return pixels;
+}
+
+}  // namespace vesper::test

@@ -76,16 +76,18 @@ void main() {
     const uvec2 tile = corner / kTileSize;
     const uint base = block * push.capacity;
     uint cones = 0u, powers = 0u;
+    bool fits = true;
     uint slice = bound_slice(corner, 0u);
-    while (slice != kNoSlice) {
+    while (fits && slice != kNoSlice) {
         const uint cell = (slice * push.view.grid.tiles_y + tile.y) * push.view.grid.tiles_x + tile.x;
-        const uint listed_cones = texelFetch(counts, int(2u * cell)).r;
-        const bool every_light = listed_cones == kAllLights;
-        const uint cell_cones = every_light ? push.view.lights.cones : listed_cones;
-        const uint cell_powers = every_light ? push.view.lights.powers : texelFetch(counts, int(2u * cell + 1u)).r;
-        const uint list = every_light ? 0u : cell * push.view.grid.capacity;
-        for (uint i = 0u; i < cell_cones + cell_powers; ++i) {
-            const uint light = every_light ? i : texelFetch(indices, int(list + i)).r;
+        const uint cell_cones = texelFetch(counts, int(2u * cell)).r;
+        // Where a froxel overflowed the block looks at every light, too. To choose among all of them once per slice would
+        // run into the 65,535 turns that lavapipe allows all loops of an invocation together.
+        fits = cell_cones != kAllLights;
+        const uint cell_lights = fits ? cell_cones + texelFetch(counts, int(2u * cell + 1u)).r : 0u;
+        const uint list = cell * push.view.grid.capacity;
+        for (uint i = 0u; i < cell_lights; ++i) {
+            const uint light = texelFetch(indices, int(list + i)).r;
             const bool power = i >= cell_cones;
             if (!lights_block(light, power)) continue;
             const uint at = power ? push.capacity - 1u - powers : cones;
@@ -93,9 +95,9 @@ void main() {
             powers += power ? 1u : 0u;
             cones += power ? 0u : 1u;
         }
+        fits = fits && cones + powers <= push.capacity;
         slice = slice < push.view.grid.slices - 1u ? bound_slice(corner, slice + 1u) : kNoSlice;
     }
-    const bool fits = cones + powers <= push.capacity;
     imageStore(block_counts, int(2u * block), uvec4(fits ? cones : kAllLights));
     imageStore(block_counts, int(2u * block + 1u), uvec4(fits ? powers : kAllLights));
 }

@@ -8,6 +8,8 @@ namespace vesper {
 namespace {
 
 constexpr float kNear = 1;             // m, where slice 1 begins
+// Loops over lights, slices and lists must end by themselves: lavapipe ends them after 65,535 turns of an invocation.
+constexpr uint32_t kMaxLights = 60000, kMaxSlices = 32, kMaxCapacity = 1024;
 constexpr uint32_t kCoarseTiles = 4;   // side of a coarse cell
 constexpr uint32_t kCoarseSlices = 4;
 constexpr uint64_t kCoarseIndices = 8u << 20;  // bound on the memory of the coarse lists
@@ -22,6 +24,16 @@ float lit_depth(const LightList& list, float threshold) {
     return far;
 }
 
+void check_limits(uint32_t lights, const ClusterSettings& settings) {
+    const auto in_range = [](const char* what, uint32_t value, uint32_t low, uint32_t high) {
+        if (value < low || value > high)
+            throw Error("clusters: " + std::to_string(value) + " " + what + "; " + std::to_string(low) + " to " + std::to_string(high) + " are possible");
+    };
+    in_range("lights", lights, 0, kMaxLights);
+    in_range("slices", settings.slices, 2, kMaxSlices);
+    in_range("lights in a list", settings.capacity, 1, kMaxCapacity);
+}
+
 struct Lists {
     Resource counts, indices;
 };
@@ -30,6 +42,7 @@ struct Lists {
 
 Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList& list, const View& view, const ClusterSettings& settings) {
     const uint32_t lights = list.counts.cones + list.counts.powers;
+    check_limits(lights, settings);
     float far = lit_depth(list, settings.threshold);
     if (settings.far > 0) far = std::max(2 * kNear, std::min(far, settings.far));
     const float slice_scale = float(settings.slices - 1) / std::log2(far / kNear);

@@ -137,7 +137,7 @@ double JsonValue::number_or(const char* key, double fallback, double low, double
 
 uint64_t JsonValue::integer(uint64_t high) const {
     uint64_t number = 0;
-    if (value_->is_number_unsigned()) {
+    if (value_->is_number_integer() && (value_->is_number_unsigned() || value_->get<int64_t>() >= 0)) {
         number = value_->get<uint64_t>();
     } else if (value_->is_number_float()) {
         const double real = value_->get<double>();

@@ -151,6 +151,22 @@ TEST(Shade, OverflowedFroxelsLookAtEveryLight) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// Dim lamps: the lists of most froxels overflow, and yet hardly any lamp lights a given pixel. Every pixel has a slice of
+// its own. Lavapipe runs no more than 65,535 turns of all of an invocation's loops together, which must not cost a light.
+TEST(Shade, ThousandsOfLampsInOverflowedFroxels) {
+    PassRig rig;
+    const Surfaces s = street({64, 24}, 15);
+    for (uint32_t count : {4000u, 12000u}) {
+        const LightList list = street_lamps(half_and_half(count), 0.05f, count);
+        const Shot all = shade(rig, s, list, {}, {.all_lights = true});
+        for (uint32_t capacity : {1u, 256u}) {
+            const Shot got = shade(rig, s, list, {.capacity = capacity}, {});
+            EXPECT_TRUE(same_light("overflowed", picture(s.extent, got.pixels), picture(s.extent, all.pixels), {0, 0})) << count << ", capacity " << capacity;
+        }
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 TEST(Shade, SlicesAndFarDoNotChangeTheResult) {
     PassRig rig;
     const Surfaces s = street({70, 66}, 6, 0.2f, 900);
@@ -234,17 +250,40 @@ TEST(Shade, KeepsTwelveDecades) {
 
 TEST(Shade, WhatIsNotFiniteStaysInItsPixel) {
     PassRig rig;
-    const Surfaces clean = street({40, 20}, 9);
+    const Surfaces clean = street({80, 40}, 9, 3, 30);
     Surfaces s = clean;
     const LightList list = street_lamps({8, 8, 1}, 300, 9);
-    const auto poisoned = [](size_t i) { return i % 37 == 5; };
-    for (size_t i = 0; i < s.emission.size(); ++i)
-        if (poisoned(i)) {
-            (i % 2 ? s.emission[i] : s.surface[i]) = i % 2 ? glm::vec4(kNan, kInf, 1, 1) : glm::vec4(kNan, kNan, kInf, kNan);
-        }
+    const auto poisoned = [](size_t i) { return i % 7 == 5; };
+    for (size_t i = 0; i < s.emission.size(); ++i) {
+        if (!poisoned(i)) continue;
+        if (i % 4 == 0) s.emission[i] = {kNan, kInf, 1, 1};
+        if (i % 4 == 1) s.surface[i] = {kNan, kNan, kInf, kNan};
+        if (i % 4 == 2) s.surface[i] = {kNan, kNan, s.surface[i].z, 0.5f};  // a normal of no length
+        if (i % 4 == 3) s.reflectance[i] = {kInf, kNan, 1, kNan};
+    }
     const Shot got = shade(rig, s, list, {}, {}), want = shade(rig, clean, list, {}, {});
     for (size_t i = 0; i < got.pixels.size(); ++i)
         if (!poisoned(i)) { EXPECT_EQ(got.pixels[i], want.pixels[i]) << "pixel " << i; }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A block's lights are chosen by a box around its normals, which a normal that is no number must not undo.
+TEST(Shade, ANormalOfNoLengthCostsItsNeighboursNoLight) {
+    PassRig rig;
+    Surfaces s = street({8, 8}, 10);
+    LightList list = street_lamps({1, 0, 0}, 1);
+    list.lights[0] = {{-20, 0, -5}, 1e4f, {1, 0, 0}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
+    for (uint32_t broken : {0u, 31u, 32u, 63u}) {
+        for (uint32_t i = 0; i < 64; ++i) {
+            const float side = i < 32 ? -1 : 1;  // half of the surfaces face the lamp
+            s.surface[i] = glm::vec4(glm::vec2(reference::octahedral_encode(glm::normalize(glm::dvec3(side, 0, 0.1)))), 5, 1);
+            if (i == broken) s.surface[i].x = s.surface[i].y = kNan;
+        }
+        const Shot got = shade(rig, s, list, {}, {}), all = shade(rig, s, list, {}, {.all_lights = true});
+        for (uint32_t i = 0; i < 64; ++i) {
+            if (i != broken) { EXPECT_EQ(got.pixels[i], all.pixels[i]) << "pixel " << i << " beside " << broken; }
+        }
+    }
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -21,6 +21,7 @@ layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
 layout(push_constant, scalar) uniform Push { SelectPush push; };
 
 const uint kNoSlice = 32u;
+const uint kMaxTurns = 40000u;
 
 vec3 position_low, position_high, normal_low, normal_high;
 
@@ -75,16 +76,18 @@ void main() {
     const uvec2 corner = uvec2(block % push.blocks_x, block / push.blocks_x) * kBlockSize;
     const uvec2 tile = corner / kTileSize;
     const uint base = block * push.capacity;
-    uint cones = 0u, powers = 0u;
+    uint cones = 0u, powers = 0u, turns = 0u;
     bool fits = true;
     uint slice = bound_slice(corner, 0u);
     while (fits && slice != kNoSlice) {
         const uint cell = (slice * push.view.grid.tiles_y + tile.y) * push.view.grid.tiles_x + tile.x;
         const uint cell_cones = texelFetch(counts, int(2u * cell)).r;
-        // Where a froxel overflowed the block looks at every light, too. To choose among all of them once per slice would
-        // run into the 65,535 turns that lavapipe allows all loops of an invocation together.
-        fits = cell_cones != kAllLights;
-        const uint cell_lights = fits ? cell_cones + texelFetch(counts, int(2u * cell + 1u)).r : 0u;
+        // Where a froxel overflowed, or the lists are very long together, the block looks at every light, too: lavapipe
+        // silently ends the loops of an invocation after 65,535 turns in all.
+        uint cell_lights = cell_cones == kAllLights ? 0u : cell_cones + texelFetch(counts, int(2u * cell + 1u)).r;
+        turns += cell_lights;
+        fits = cell_cones != kAllLights && turns <= kMaxTurns;
+        cell_lights = fits ? cell_lights : 0u;
         const uint list = cell * push.view.grid.capacity;
         for (uint i = 0u; i < cell_lights; ++i) {
             const uint light = texelFetch(indices, int(list + i)).r;

@@ -117,8 +117,8 @@ void replace_file(const fs::path& file, std::span<const uint8_t> bytes) {
     }
 }
 
-std::string one_line(const std::string& text) {
-    std::string line = text.substr(0, 200);
+std::string one_line(const std::string& text, size_t max_bytes) {
+    std::string line = text.substr(0, max_bytes);
     for (char& c : line)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
     if (text.size() > line.size()) {

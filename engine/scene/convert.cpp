@@ -2,6 +2,8 @@
 #include "scene/convert.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <new>
 
 #include "base/error.h"
 #include "io/atomic_file.h"

@@ -2,6 +2,7 @@
 #include "scene/gltf.h"
 
 #include <cmath>
+#include <new>
 
 #include "base/error.h"
 #include "io/atomic_file.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cstdio>
 
 #include "base/error.h"
 #include "io/atomic_file.h"

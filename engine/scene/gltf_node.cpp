@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "io/atomic_file.h"
 #include "scene/gltf_reader.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 
 #include "base/error.h"
@@ -94,9 +95,9 @@ std::optional<JsonValue> JsonValue::find(const char* key) const {
 
 void JsonValue::allow_only(std::initializer_list<const char*> keys) const {
     if (!value_->is_object()) fail("must be an object");
-    for (const auto& [key, member] : value_->items())
-        if (std::none_of(keys.begin(), keys.end(), [&](const char* allowed) { return key == allowed; }))
-            JsonValue(*file_, member).fail("unknown key");
+    for (const auto& item : value_->items())
+        if (std::none_of(keys.begin(), keys.end(), [&](const char* allowed) { return item.key() == allowed; }))
+            JsonValue(*file_, item.value()).fail("unknown key");
 }
 
 std::vector<JsonValue> JsonValue::elements(size_t count) const {
@@ -189,6 +190,6 @@ std::string JsonValue::place() const {
     return file_->name + ": " + (pointer.empty() ? "/" : one_line(pointer));
 }
 
-void JsonValue::fail(const std::string& reason) const { throw Error(place() + ": " + one_line(reason)); }
+void JsonValue::fail(const std::string& reason) const { throw Error(place() + ": " + one_line(reason, 1000)); }
 
 }  // namespace vesper

@@ -1,8 +1,8 @@
 // Pictures: out and in again, every kind, and damaged ones. SPDX-License-Identifier: MIT
 #include "io/image_file.h"
 
-#include <csetjmp>
-#include <limits>
+#include <cstdio>
+#include <cstdlib>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

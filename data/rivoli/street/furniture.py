@@ -217,25 +217,30 @@ def scooter(paint):
     mesh = Mesh(f"scooter_{paint}")
     for z in (-0.62, 0.58):
         disc = Mesh("wheel")
-        disc.lathe("car_black", [(0.12, -0.05), (0.24, -0.045), (0.25, 0.0), (0.24, 0.045), (0.12, 0.05)], 10)
+        disc.lathe(
+            "car_black", [(0.0, -0.07), (0.2, -0.05), (0.25, 0.0), (0.2, 0.05), (0.0, 0.07)], 10, crease_deg=40.0
+        )
         mesh.merge(disc, translation(0, 0.25, z) @ rotation("z", 90.0))
-    mesh.box("car_black", (-0.16, 0.26, -0.25), (0.16, 0.34, 0.2))
-    tail = [_slab(0.24, 0.30, 0.13, 0.62), _slab(0.36, 0.42, 0.19, 0.76), _slab(0.66, 0.74, 0.14, 0.84)]
-    shield = [_shield(0.28, -0.30, 0.2), _shield(0.7, -0.42, 0.22), _shield(1.0, -0.5, 0.13)]
+    mesh.box("car_black", (-0.15, 0.26, -0.28), (0.15, 0.33, 0.3))
+    tail = [_slab(0.34, 0.16, 0.66, 0.11), _slab(0.52, 0.06, 0.84, 0.17), _slab(0.72, 0.0, 0.9, 0.13)]
+    shield = [_shield(0.28, -0.30, 0.16), _shield(0.62, -0.40, 0.22), _shield(1.0, -0.5, 0.12)]
     for rings in (tail, shield):
         mesh.loft(paint, rings, cap_end=True, crease_deg=60.0, uvs=[PLAIN_PANEL] * 12)
-    mesh.box("car_black", (-0.15, 0.74, -0.02), (0.15, 0.84, 0.74))
-    mesh.tube("car_black", [(-0.33, 1.06, -0.4), (0.33, 1.06, -0.4)], [0.025, 0.025], 5)
-    mesh.tube("grey_metal", [(0, 0.28, -0.62), (0, 1.05, -0.44)], [0.045, 0.045], 5)
-    mesh.box("headlamp_glass_parked", (-0.07, 0.86, -0.64), (0.07, 0.98, -0.55))
-    mesh.box("tail_glass_parked", (-0.08, 0.62, 0.82), (0.08, 0.7, 0.86))
+    mesh.loft("car_black", [_slab(0.71, -0.04, 0.80, 0.13), _slab(0.80, 0.0, 0.72, 0.10)], cap_end=True)
+    fender = [(-0.07, 0.5, -0.40), (0.07, 0.5, -0.40), (0.07, 0.46, -0.86), (-0.07, 0.46, -0.86)]
+    mesh.loft(
+        paint, [fender, [(x * 0.6, y + 0.06, z * 0.96) for x, y, z in fender]], cap_end=True, uvs=[PLAIN_PANEL] * 8
+    )
+    mesh.tube("car_black", [(-0.33, 1.06, -0.4), (0.33, 1.06, -0.4)], [0.022, 0.022], 5)
+    mesh.tube("grey_metal", [(0, 0.25, -0.62), (0, 1.05, -0.44)], [0.04, 0.04], 5)
+    mesh.box("grey_metal", (-0.07, 0.88, -0.6), (0.07, 0.99, -0.5))
+    mesh.box("signal_off", (-0.07, 0.58, 0.84), (0.07, 0.65, 0.9))
     return mesh
 
 
-def _slab(y, y_front, half, z_back):
-    """A horizontal ring of the scooter's tail."""
-    front = 0.02
-    return [(-half, y, z_back), (half, y, z_back), (half, (y + y_front) / 2, front), (-half, (y + y_front) / 2, front)]
+def _slab(y, front, back, half):
+    """A horizontal ring of the scooter's body from z = ``front`` to ``back``."""
+    return [(-half, y, back), (half, y, back), (half, y, front), (-half, y, front)]
 
 
 def _shield(y, z, half):

@@ -217,6 +217,6 @@ def place_people(document):
 
 def place_cameras(document):
     """The fixed cameras; the driver's belongs to the ego car."""
-    document.camera("pedestrian", 45.0, translation=(9.9, PAVEMENT_Y + 1.6, -13.4), rotation=quaternion("y", 40.0))
+    document.camera("pedestrian", 45.0, translation=(9.9, PAVEMENT_Y + 1.6, -15.7), rotation=quaternion("y", 45.0))
     document.camera("overview", 40.0, translation=(3.0, 11.0, 34.0), rotation=quaternion("x", -6.0))
     document.camera("crossing", 40.0, translation=(-7.4, 1.65, -51.2), rotation=quaternion("y", -16.0))

@@ -24,12 +24,9 @@ layout(binding = 5) uniform usamplerBuffer entries;
 layout(binding = 6, rgba32f) writeonly uniform image2D scene_image;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
-const uint kNoSlice = 32u;     // of a pixel where nothing is drawn
-const uint kEverySlice = 33u;  // of a light that all pixels take
-
 vec3 position[kRows], normal[kRows], toward_eye[kRows];
 float alpha_squared[kRows], normal_eye[kRows];  // GGX a^2, cosine towards the eye
-uint slice[kRows];
+uint slice_bit[kRows];                   // 0: nothing is drawn
 vec3 diffuse[kRows];                  // illuminance, lx RGB
 vec3 specular[kRows], grazing[kRows]; // sums that F0 and F90 multiply, cd/m^2 RGB
 bool shiny;                           // true if any of the pixels has a specular lobe
@@ -73,14 +70,13 @@ Lamp fetch(uint index) {
     return Lamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w);
 }
 
-// Adds a lamp to the pixels of a slice. `power`: cosine power rather than cone. `glossy`: with specular lobe.
-void add_lamp(Lamp lamp, uint at, bool power, bool glossy) {
+// Adds a lamp to the pixels of some slices, a bit for each. `power`: cosine power rather than cone. `glossy`: with specular lobe.
+void add_lamp(Lamp lamp, uint slices, bool power, bool glossy) {
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const vec3 to = lamp.position - position[r];
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
-        const vec3 toward_light = to * inverse;
-        const float normal_light = dot(normal[r], toward_light);
-        const float cosine = -dot(lamp.axis, toward_light);
+        const float normal_light = dot(normal[r], to) * inverse;
+        const float cosine = -dot(lamp.axis, to) * inverse;
         float relative;
         if (power) {
             relative = cosine > 0.0 ? exp2(lamp.lobe_a * log2(cosine)) : 0.0;
@@ -89,10 +85,10 @@ void add_lamp(Lamp lamp, uint at, bool power, bool glossy) {
             relative = ramp * ramp;
         }
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
-        const bool counts_here = facing >= push.threshold && normal_light > 0.0 && (slice[r] == at || at == kEverySlice);
-        const vec3 e = lamp.colour * (counts_here ? facing * normal_light : 0.0);
+        const bool counts_here = facing >= push.threshold && (slice_bit[r] & slices) != 0u;
+        const vec3 e = lamp.colour * (counts_here ? facing * max(normal_light, 0.0) : 0.0);
         diffuse[r] += e;
-        if (glossy) reflect_light(r, e, toward_light, max(normal_light, 0.0));
+        if (glossy) reflect_light(r, e, to * inverse, max(normal_light, 0.0));
     }
 }
 
@@ -114,7 +110,7 @@ List list_of(uint block) {
 void add_entry(List list, uint at, uint number, bool power, bool glossy) {
     const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
     const uint light = list.all_of_them ? number : entry & ((1u << kSliceShift) - 1u);
-    add_lamp(fetch(light), list.all_of_them ? kEverySlice : entry >> kSliceShift, power, glossy);
+    add_lamp(fetch(light), list.all_of_them ? ~0u : 1u << (entry >> kSliceShift), power, glossy);
 }
 
 void add_lamps(List list, bool glossy) {
@@ -128,7 +124,7 @@ void add_directional() {
         const Lamp lamp = fetch(first + i);
         [[unroll]] for (uint r = 0u; r < kRows; ++r) {
             const float normal_light = dot(normal[r], -lamp.axis);
-            const bool lit = normal_light > 0.0 && slice[r] != kNoSlice;
+            const bool lit = normal_light > 0.0 && slice_bit[r] != 0u;
             const vec3 e = lamp.colour * (lit ? lamp.intensity * normal_light : 0.0);
             diffuse[r] += e;
             if (lit && shiny) reflect_light(r, e, -lamp.axis, normal_light);
@@ -154,9 +150,9 @@ void main() {
         normal_eye[r] = max(dot(normal[r], toward_eye[r]), 1e-4);
         const float a = max(surface.w * surface.w, 1e-3);
         alpha_squared[r] = a * a;
-        slice[r] = kNoSlice;
+        slice_bit[r] = 0u;
         if (drawn) {
-            slice[r] = uint(clamp(log2(depth) * push.grid.slice_scale + push.grid.slice_bias, 0.0, float(push.grid.slices) - 1.0));
+            slice_bit[r] = 1u << uint(clamp(log2(depth) * push.grid.slice_scale + push.grid.slice_bias, 0.0, float(push.grid.slices) - 1.0));
             const float metallic = imageLoad(reflectance_image, ivec2(pixel)).a;
             if (surface.w < 1.0 || metallic > 0.0) shiny = true;
         }
@@ -182,7 +178,7 @@ void main() {
         const float f90 = clamp(25.0 * max(f0.r, max(f0.g, f0.b)), 0.0, 1.0);
         const vec3 emission = min(imageLoad(emission_image, ivec2(pixel)).rgb, vec3(push.emission_limit));
         const vec3 reflected = (diffuse[r] * rho + push.ambient * base) * push.lambert + f0 * specular[r] + f90 * grazing[r];
-        const vec3 luminance = slice[r] == kNoSlice ? push.sky : reflected + emission;
+        const vec3 luminance = slice_bit[r] == 0u ? push.sky : reflected + emission;
         if (all(lessThan(pixel, push.size))) imageStore(scene_image, ivec2(pixel), vec4(luminance, 1.0));
     }
 }

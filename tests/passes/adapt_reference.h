@@ -19,8 +19,8 @@ inline double cone_threshold(double luminance) {
     return std::pow(10, l - 1.255);
 }
 
-/// Fractions of the votes per bin, with 1e-4 of them spread evenly from the first to the last occupied bin, so that what
-/// the foveal texels average away does not land on a plateau.
+/// Fractions of the votes per bin, with 1e-4 of them spread evenly from the first to the last occupied bin, so that
+/// what the foveal texels average away does not land on a plateau.
 inline std::vector<double> fractions(const shared::Histogram& histogram, uint32_t bins) {
     std::vector<double> h(bins, 0.0);
     uint32_t first = bins, last = 0;
@@ -40,8 +40,8 @@ struct Slopes {
     bool under = false;  ///< all slopes are at their ceilings
 };
 
-/// s_i = min(lambda h_i, c_i) with sum s_i delta = range: the fixed point of Ward's clipping (1997, section 4.4) for given
-/// ceilings c. Exact: bins reach their ceilings in the order of c_i / h_i.
+/// s_i = min(lambda h_i, c_i) with sum s_i delta = range: the fixed point of Ward's clipping (1997, section 4.4) for
+/// given ceilings c. Exact: bins reach their ceilings in the order of c_i / h_i.
 inline Slopes fill(const std::vector<double>& h, const std::vector<double>& c, double delta, double range) {
     Slopes out{std::vector<double>(h.size(), 0.0), 0, false};
     std::vector<size_t> order;
@@ -56,8 +56,10 @@ inline Slopes fill(const std::vector<double>& h, const std::vector<double>& c, d
     for (size_t k = 0; k < order.size() && out.under; ++k) {
         const size_t i = order[k];
         lambda = (range / delta - clipped) / free[k];
-        if (lambda * h[i] <= c[i]) out.under = false;
-        else clipped += c[i];
+        if (lambda * h[i] <= c[i])
+            out.under = false;
+        else
+            clipped += c[i];
     }
     for (size_t i : order) out.s[i] = out.under ? c[i] : std::min(lambda * h[i], c[i]);
     if (out.under) out.slack = range - delta * clipped;
@@ -127,7 +129,8 @@ struct Adapted {
 };
 
 /// `top` is the 1x1 level of the pyramid.
-inline Adapted adapt(const shared::Histogram& histogram, dvec4 top, shared::EyeState previous, const shared::AdaptPush& p) {
+inline Adapted adapt(const shared::Histogram& histogram, dvec4 top, shared::EyeState previous,
+                     const shared::AdaptPush& p) {
     Adapted out;
     const bool empty = histogram.finite == 0;
     const double log_average = empty ? kFloor : std::max(std::exp(top.z), kFloor), maximum = empty ? 0.0 : top.w;

@@ -41,8 +41,9 @@ shared::Histogram fog(uint32_t from, uint32_t to) {
 
 // The table in tone-mapping.md, 1.1, computed there from Ferwerda et al. 1996.
 TEST(AdaptReference, ConeThresholdsArePublished) {
-    const std::pair<double, double> table[]{{-4, 0.190546}, {-3, 0.190546}, {-2, 0.193277}, {-1, 0.231643}, {-0.5, 0.285768},
-                                            {0, 0.391302}, {1, 1.07190}, {1.5, 2.21169}, {2, 5.55904}, {3, 55.5904}, {4, 555.904}};
+    const std::pair<double, double> table[]{{-4, 0.190546},   {-3, 0.190546}, {-2, 0.193277}, {-1, 0.231643},
+                                            {-0.5, 0.285768}, {0, 0.391302},  {1, 1.07190},   {1.5, 2.21169},
+                                            {2, 5.55904},     {3, 55.5904},   {4, 555.904}};
     for (auto [log10_luminance, threshold] : table)
         EXPECT_NEAR(cone_threshold(std::pow(10, log10_luminance)) / threshold, 1, 5e-6) << log10_luminance;
     EXPECT_NEAR(cone_threshold(5000) / 5000, std::pow(10, -1.255), 1e-12) << "Weber's law";
@@ -56,7 +57,8 @@ TEST(AdaptReference, FillsTheRangeUnderTheCeilings) {
     for (const auto& [range, want] : cases) {
         const Slopes got = fill(h, c, 0.5, range);
         EXPECT_FALSE(got.under);
-        for (size_t i = 0; i < h.size(); ++i) EXPECT_NEAR(got.s[i], want[i], 1e-12) << "range " << range << " bin " << i;
+        for (size_t i = 0; i < h.size(); ++i)
+            EXPECT_NEAR(got.s[i], want[i], 1e-12) << "range " << range << " bin " << i;
     }
     const Slopes all = fill(h, c, 0.5, 2.0);
     EXPECT_TRUE(all.under);

@@ -9,8 +9,8 @@
 namespace vesper::test {
 namespace {
 
-// ln of display luminance, absolute: 24 rounds of sums over 256 bins in float. An eighth of the smallest step of an 8-bit
-// display near white (1 / 255 / gamma is 2e-3 in ln).
+// ln of display luminance, absolute: 24 rounds of sums over 256 bins in float. An eighth of the smallest step of an
+// 8-bit display near white (1 / 255 / gamma is 2e-3 in ln).
 constexpr double kNodeError = 2e-4;
 
 struct Frame {
@@ -22,7 +22,8 @@ struct Frame {
     float seconds = 0;
 
     shared::AdaptPush push() const {
-        return {bins.bins, bins.ln_low(), bins.bins_per_ln(), display.low(), display.high(), tone.key, tone.white, tone.linear_low, tone.linear_high, seconds};
+        return {bins.bins, bins.ln_low(), bins.bins_per_ln(), display.low(),    display.high(),
+                tone.key,  tone.white,    tone.linear_low,    tone.linear_high, seconds};
     }
 };
 
@@ -35,7 +36,8 @@ Got adapt(PassRig& rig, const Frame& frame) {
     FrameGraph graph;
     const Resource top = rig.image(graph, "top", kSceneFormat, {1, 1}, std::vector{frame.top});
     const Resource histogram = rig.buffer(graph, "histogram", std::vector{frame.histogram});
-    const Adaptation a = add_adaptation(graph, rig.kernels(), {{top}, {{1, 1}}}, histogram, frame.bins, frame.tone, frame.display, frame.seconds);
+    const Adaptation a = add_adaptation(graph, rig.kernels(), {{top}, {{1, 1}}}, histogram, frame.bins, frame.tone,
+                                        frame.display, frame.seconds);
     const Resource curve = keep<shared::ToneCurve>(graph, a.curve), eye = keep<shared::EyeState>(graph, a.eye.current);
     rig.run(graph);
     return {rig.got<shared::ToneCurve>(curve).at(0), rig.got<shared::EyeState>(eye).at(0)};
@@ -60,26 +62,32 @@ Frame frame_of(const std::vector<Hill>& hills, uint32_t bins = 100, uint32_t see
             sum_ln += ln, sum += std::exp(ln), highest = std::max(highest, std::exp(ln));
         }
     }
-    if (f.histogram.finite) f.top = {sum / f.histogram.finite, f.histogram.finite, sum_ln / f.histogram.finite, highest};
+    if (f.histogram.finite)
+        f.top = {sum / f.histogram.finite, f.histogram.finite, sum_ln / f.histogram.finite, highest};
     return f;
 }
 
 void expect_same(const Got& got, const reference::Adapted& want, const Frame& frame) {
     Picture got_nodes(frame.bins.bins + 1, 1, 1), want_nodes = got_nodes;
-    for (uint32_t i = 0; i <= frame.bins.bins; ++i) got_nodes.values[i] = got.curve.node[i], want_nodes.values[i] = want.adjusted.curve.node[i];
+    for (uint32_t i = 0; i <= frame.bins.bins; ++i)
+        got_nodes.values[i] = got.curve.node[i], want_nodes.values[i] = want.adjusted.curve.node[i];
     EXPECT_TRUE(same_light("nodes", got_nodes, want_nodes, {0, 0}, [&] {
         Picture allowed(frame.bins.bins + 1, 1, 1);
         for (double& a : allowed.values) a = kNodeError;
         return allowed;
     }()));
     const shared::ToneCurve& w = want.tone;
-    const auto near = [](float a, float b, double relative) { return std::abs(a - b) <= relative * std::abs(b) + 1e-30; };
+    const auto near = [](float a, float b, double relative) {
+        return std::abs(a - b) <= relative * std::abs(b) + 1e-30;
+    };
     // 1e-5: one exponential and a few products in float.
     EXPECT_TRUE(near(got.curve.adaptation, w.adaptation, 1e-5)) << got.curve.adaptation << " want " << w.adaptation;
     EXPECT_TRUE(near(got.curve.log_average, w.log_average, 1e-5)) << got.curve.log_average << " want " << w.log_average;
     EXPECT_TRUE(near(got.curve.maximum, w.maximum, 0)) << got.curve.maximum << " want " << w.maximum;
-    EXPECT_TRUE(near(got.curve.reinhard_scale, w.reinhard_scale, 1e-5)) << got.curve.reinhard_scale << " want " << w.reinhard_scale;
-    EXPECT_TRUE(near(got.curve.reinhard_white, w.reinhard_white, 3e-5)) << got.curve.reinhard_white << " want " << w.reinhard_white;
+    EXPECT_TRUE(near(got.curve.reinhard_scale, w.reinhard_scale, 1e-5))
+        << got.curve.reinhard_scale << " want " << w.reinhard_scale;
+    EXPECT_TRUE(near(got.curve.reinhard_white, w.reinhard_white, 3e-5))
+        << got.curve.reinhard_white << " want " << w.reinhard_white;
     EXPECT_EQ(got.curve.linear_low, w.linear_low);
     EXPECT_TRUE(near(got.curve.linear_gain, w.linear_gain, 1e-6)) << got.curve.linear_gain << " want " << w.linear_gain;
     EXPECT_EQ(got.curve.ln_low, w.ln_low);
@@ -115,7 +123,8 @@ TEST(Adapt, MatchesTheReferenceOnRoadsDayAndNight) {
 }
 
 TEST(Adapt, MatchesTheReferenceOnOtherDisplays) {
-    for (const Display& display : {Display{10, 0.01f, 2.2f, 0, 0}, Display{1000, 0.001f, 2.4f, 0, 0}, Display{80, 1, 2.2f, 60, 0.02f}})
+    for (const Display& display :
+         {Display{10, 0.01f, 2.2f, 0, 0}, Display{1000, 0.001f, 2.4f, 0, 0}, Display{80, 1, 2.2f, 60, 0.02f}})
         for (Frame frame : {frame_of({{30, 8, 20000}, {85, 3, 200}}), frame_of({{74, 0.8, 1000}})}) {
             PassRig rig;
             frame.display = display;
@@ -131,7 +140,8 @@ TEST(Adapt, MatchesTheReferenceOnRandomHistograms) {
     for (int k = 0; k < 40; ++k) {
         SCOPED_TRACE(k);
         std::vector<Hill> hills;
-        for (int i = 0; i < 1 + k % 4; ++i) hills.push_back({100 * unit(random), 15 * unit(random), uint32_t(1 + 20000 * unit(random))});
+        for (int i = 0; i < 1 + k % 4; ++i)
+            hills.push_back({100 * unit(random), 15 * unit(random), uint32_t(1 + 20000 * unit(random))});
         Frame frame = frame_of(hills, 100, uint32_t(k));
         frame.seconds = 0.02f;
         const auto want = reference::adapt(frame.histogram, frame.top, eye, frame.push());

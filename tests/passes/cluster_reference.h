@@ -35,7 +35,8 @@ inline double intensity(const shared::Light& light, LightKind kind, double cosin
         case LightKind::Power:
             if (cosine <= 0) return 0;  // also for exponent 0: nothing goes backwards
             return light.intensity * std::pow(cosine, double(light.lobe_a));
-        case LightKind::Directional: break;
+        case LightKind::Directional:
+            break;
     }
     return light.intensity;
 }
@@ -86,6 +87,12 @@ struct Froxel {
     dvec3 at(const shared::ClusterGrid& grid, dvec3 t) const {  ///< t in [0, 1]^3
         return view_position(grid, glm::mix(pixel_low, pixel_high, dvec2(t)), near + (far - near) * t.z);
     }
+    /// The t of the point of the froxel that is near a point of the view frame (0 < -z).
+    dvec3 nearest(const shared::ClusterGrid& grid, dvec3 point) const {
+        const dvec2 pixel = (dvec2(point) / -point.z - dvec2(grid.ray_offset)) / dvec2(grid.ray_scale);
+        const dvec3 span = glm::max(dvec3(pixel_high - pixel_low, far - near), dvec3(1e-12));
+        return glm::clamp(dvec3(pixel - pixel_low, -point.z - near) / span, dvec3(0), dvec3(1));
+    }
     std::array<dvec3, 8> corners(const shared::ClusterGrid& grid) const {
         std::array<dvec3, 8> points;
         for (int i = 0; i < 8; ++i) points[size_t(i)] = at(grid, dvec3(i & 1, (i >> 1) & 1, (i >> 2) & 1));
@@ -94,14 +101,17 @@ struct Froxel {
 };
 
 /// The last slice ends at `far`.
-inline Froxel froxel(const shared::ClusterPush& p, shared::uvec2 size, uint32_t tile_x, uint32_t tile_y, uint32_t slice) {
-    const auto last = [](uint32_t tile, uint32_t pixels) { return std::min((tile + 1) * shared::kTileSize, pixels) - 0.5; };
+inline Froxel froxel(const shared::ClusterPush& p, shared::uvec2 size, uint32_t tile_x, uint32_t tile_y,
+                     uint32_t slice) {
+    const auto last = [](uint32_t tile, uint32_t pixels) {
+        return std::min((tile + 1) * shared::kTileSize, pixels) - 0.5;
+    };
     return {dvec2(tile_x, tile_y) * double(shared::kTileSize) + 0.5, dvec2(last(tile_x, size.x), last(tile_y, size.y)),
             slice_depth(p.grid, slice), slice + 1 == p.grid.slices ? double(p.far) : slice_depth(p.grid, slice + 1)};
 }
 
-/// The largest illuminance found in a froxel, lx, by `steps`^3 samples and a pattern search from the best of them. Never
-/// more than the true maximum.
+/// The largest illuminance found in a froxel, lx, by `steps`^3 samples, others where the lamp's axis comes near, and a
+/// pattern search from the best of them. Never more than the true maximum.
 inline double brightest(const shared::ClusterGrid& grid, const Froxel& f, const shared::Light& light, LightKind kind,
                         int steps = 5) {
     const auto value = [&](dvec3 t) { return facing_illuminance(light, kind, f.at(grid, t)); };
@@ -113,6 +123,12 @@ inline double brightest(const shared::ClusterGrid& grid, const Froxel& f, const 
                 const dvec3 t = dvec3(i, j, k) / double(steps - 1);
                 if (const double e = value(t); e > best) best = e, at = t;
             }
+    for (double along = 0.01; along < 1e4; along *= 1.05) {
+        const dvec3 point = dvec3(light.position) + along * dvec3(light.axis);
+        if (point.z >= 0) continue;
+        const dvec3 t = f.nearest(grid, point);
+        if (const double e = value(t); e > best) best = e, at = t;
+    }
     for (double step = 0.5 / (steps - 1); step > 1e-4; step *= 0.5)
         for (bool moved = true; moved;) {
             moved = false;

@@ -151,6 +151,18 @@ TEST(ClusterReference, BrightestIsNoLessThanDenseSampling) {
     }
 }
 
+TEST(ClusterReference, BrightestFindsANarrowBeam) {
+    const shared::ClusterPush p = grid_of(1, 64, 7);
+    const Froxel f = froxel(p, kSize, 1, 1, 5);
+    const dvec3 target = f.at(p.grid, {0.37, 0.81, 0.43});
+    EXPECT_NEAR(glm::length(f.nearest(p.grid, target) - dvec3(0.37, 0.81, 0.43)), 0, 1e-9);
+    shared::Light beam = point_lamp({12, 9, -3}, 1e4f);
+    beam.axis = glm::normalize(glm::vec3(target) - beam.position);
+    beam.lobe_a = 1e5f;  // half of the intensity 0.2 degrees off the axis
+    const double d = glm::length(target - dvec3(beam.position));
+    EXPECT_GT(brightest(p.grid, f, beam, LightKind::Power), 0.9e4 / (d * d));
+}
+
 // What clustering is for: wherever a lamp counts, it is listed; and a higher threshold lists no more.
 TEST(ClusterReference, ListsHoldEveryLampThatLightsAPointThere) {
     shared::ClusterPush p = grid_of(1, 100, 5);

@@ -22,7 +22,8 @@ struct Lists {
 Lists cluster(PassRig& rig, const LightList& list, const View& view, const ClusterSettings& settings) {
     FrameGraph graph;
     const Clusters clusters = add_clusters(graph, rig.kernels(), list, view, settings);
-    const Resource counts = keep<uint32_t>(graph, clusters.counts), indices = keep<uint32_t>(graph, clusters.indices), report = keep<shared::ClusterReport>(graph, clusters.report);
+    const Resource counts = keep<uint32_t>(graph, clusters.counts), indices = keep<uint32_t>(graph, clusters.indices),
+                   report = keep<shared::ClusterReport>(graph, clusters.report);
     rig.run(graph);
 
     Lists out;
@@ -53,7 +54,9 @@ void expect_well_formed(const Lists& lists, const LightList& list) {
         EXPECT_TRUE(std::is_sorted(l.begin(), l.end())) << "froxel " << i;
         EXPECT_EQ(std::adjacent_find(l.begin(), l.end()), l.end()) << "froxel " << i << " has a light twice";
         EXPECT_TRUE(std::all_of(l.begin(), powers, [&](uint32_t k) { return k < list.counts.cones; }));
-        EXPECT_TRUE(std::all_of(powers, l.end(), [&](uint32_t k) { return k >= list.counts.cones && k < list.counts.cones + list.counts.powers; }));
+        EXPECT_TRUE(std::all_of(powers, l.end(), [&](uint32_t k) {
+            return k >= list.counts.cones && k < list.counts.cones + list.counts.powers;
+        }));
         listed += l.size(), longest = std::max<uint64_t>(longest, l.size()), overflowed += lists.overflowed[i];
     }
     EXPECT_EQ(lists.report.overflowed, overflowed);
@@ -89,7 +92,8 @@ TEST(Cluster, ListsEveryLampThatLightsTheFroxel) {
     PassRig rig;
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {65, 64}, {300, 190}})
         for (uint32_t count : {1u, 64u}) {
-            SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", " + std::to_string(count) + " lights");
+            SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", " +
+                         std::to_string(count) + " lights");
             const LightList list = street_lamps(half_and_half(count), 0.3f, extent.width + count);  // 17 m of reach
             const Lists lists = cluster(rig, list, view_of(extent), {});
             expect_well_formed(lists, list);
@@ -104,7 +108,8 @@ TEST(Cluster, ListsEveryLampOfAWholeFrame) {
     const LightList list = street_lamps({20, 12, 0}, 0.3f, 4);
     const Lists lists = cluster(rig, list, view_of(extent), {});
     expect_well_formed(lists, list);
-    // The bound is a sphere around each froxel, so lists are longer than they must be; but not so long as to be useless.
+    // The bound is a sphere around each froxel, so lists are longer than they must be; but not so long as to be
+    // useless.
     const auto [found, listed] = expect_superset(lists, list, extent, 3);
     EXPECT_GT(found, 0u);
     EXPECT_LT(listed, 4 * found);
@@ -138,6 +143,25 @@ TEST(Cluster, BrightLampsReachTheEndOfTheStreet) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// Beams narrower than a froxel: it is their direction that decides.
+TEST(Cluster, NarrowBeamsAreFollowed) {
+    PassRig rig;
+    const VkExtent2D extent{190, 130};
+    LightList list = street_lamps(half_and_half(120), 2e4f, 12);
+    for (uint32_t i = 0; i < list.lights.size(); ++i) {
+        shared::Light& beam = list.lights[i];
+        const float inner = 0.003f, outer = 0.02f;
+        beam.lobe_a = i < list.counts.cones ? 1 / (std::cos(inner) - std::cos(outer)) : 5000;
+        beam.lobe_b = -std::cos(outer) * beam.lobe_a;
+    }
+    const Lists lists = cluster(rig, list, view_of(extent), {.slices = 24, .far = 300});
+    expect_well_formed(lists, list);
+    const auto [found, listed] = expect_superset(lists, list, extent, 3);
+    EXPECT_GT(found, 200u);
+    EXPECT_LT(listed, lists.lights.size() * 120 / 4) << "most lights are listed in few froxels";
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 TEST(Cluster, SaysWhatDidNotFit) {
     PassRig rig;
     const VkExtent2D extent{200, 130};
@@ -152,7 +176,9 @@ TEST(Cluster, SaysWhatDidNotFit) {
             const bool over = roomy.lights[i].size() > capacity;
             want += over;
             EXPECT_EQ(tight.overflowed[i], over) << "froxel " << i;
-            if (!over) { EXPECT_EQ(tight.lights[i], roomy.lights[i]); }
+            if (!over) {
+                EXPECT_EQ(tight.lights[i], roomy.lights[i]);
+            }
         }
         EXPECT_GT(want, 0u);
         EXPECT_EQ(tight.report.overflowed, want);
@@ -180,10 +206,15 @@ TEST(Cluster, ALampDarkerThanTheThresholdEverywhereIsNotListed) {
     list.lights[0].intensity = 0.001f;  // 1 m of reach
     const Lists lists = cluster(rig, list, view_of({64, 64}), {.far = 100});
     for (uint32_t slice = 0; slice < lists.push.grid.slices; ++slice) {
-        const double begin = reference::slice_depth(lists.push.grid, slice), end = reference::slice_depth(lists.push.grid, slice + 1);
+        const double begin = reference::slice_depth(lists.push.grid, slice),
+                     end = reference::slice_depth(lists.push.grid, slice + 1);
         const auto& got = lists.lights[reference::froxel_index(lists.push.grid, 0, 0, slice)];
-        if (begin < 50 && end > 50) { EXPECT_EQ(got.size(), 1u); }
-        if (end < 10) { EXPECT_TRUE(got.empty()) << "slice " << slice; }
+        if (begin < 50 && end > 50) {
+            EXPECT_EQ(got.size(), 1u);
+        }
+        if (end < 10) {
+            EXPECT_TRUE(got.empty()) << "slice " << slice;
+        }
     }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -191,7 +222,8 @@ TEST(Cluster, ALampDarkerThanTheThresholdEverywhereIsNotListed) {
 TEST(Cluster, GridMapsDepthsFromAMetreToTheEnd) {
     PassRig rig;
     FrameGraph graph;
-    const Clusters c = add_clusters(graph, rig.kernels(), street_lamps({3, 0, 0}, 100), view_of({1680, 1050}), {.far = 400});
+    const Clusters c =
+        add_clusters(graph, rig.kernels(), street_lamps({3, 0, 0}, 100), view_of({1680, 1050}), {.far = 400});
     EXPECT_EQ(c.push.grid.tiles_x, 27u);
     EXPECT_EQ(c.push.grid.tiles_y, 17u);
     EXPECT_EQ(reference::slice_of(c.push.grid, 0.01), 0u);

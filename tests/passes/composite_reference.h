@@ -7,16 +7,20 @@
 
 namespace vesper::reference {
 
-/// Luminance of a code V in [0, 1], cd/m^2 (Mantiuk, Daly and Kerofsky 2008): (peak - black) V^gamma + black + k E / pi.
-inline double display_luminance(double code, double peak, double black, double gamma, double ambient, double reflection) {
+/// Luminance of a code V in [0, 1], cd/m^2 (Mantiuk, Daly and Kerofsky 2008): (peak - black) V^gamma + black + k E /
+/// pi.
+inline double display_luminance(double code, double peak, double black, double gamma, double ambient,
+                                double reflection) {
     return (peak - black) * std::pow(code, gamma) + black + reflection * ambient / 3.14159265358979323846;
 }
 
 /// Displayed luminance of a scene luminance, relative, for the operators that map luminance.
-inline double tone_mapped(double y, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high) {
+inline double tone_mapped(double y, uint32_t tone, const shared::ToneCurve& c, double display_low,
+                          double display_high) {
     double d = 0;
     if (tone == shared::kToneCurve) {
-        const double t = std::clamp((std::log(std::max(y, kFloor)) - c.ln_low) * double(c.bins_per_ln), 0.0, double(c.bins));
+        const double t =
+            std::clamp((std::log(std::max(y, kFloor)) - c.ln_low) * double(c.bins_per_ln), 0.0, double(c.bins));
         const uint32_t i = std::min(uint32_t(t), uint32_t(c.bins) - 1);
         const double ln = c.node[i] + (double(c.node[i + 1]) - c.node[i]) * (t - i);
         d = (std::exp(ln) - display_low) / (display_high - display_low);
@@ -29,8 +33,8 @@ inline double tone_mapped(double y, uint32_t tone, const shared::ToneCurve& c, d
     return std::clamp(d, 0.0, 1.0);
 }
 
-/// Displayed light of a scene colour: the colour at the mapped luminance, no channel negative, and where one would exceed
-/// white the colour moved towards the grey of the mapped luminance. Non-finite pixels are black.
+/// Displayed light of a scene colour: the colour at the mapped luminance, no channel negative, and where one would
+/// exceed white the colour moved towards the grey of the mapped luminance. Non-finite pixels are black.
 inline dvec3 displayed(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high) {
     if (!finite(rgb)) return dvec3(0);
     if (tone == shared::kToneLdr) return glm::clamp(rgb, 0.0, 1.0);

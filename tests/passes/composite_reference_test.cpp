@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
-/// A curve that shows 1 cd/m^2 and less as 1 cd/m^2, 100 and more as 100, and is straight in ln between: identity there.
+/// A curve that shows 1 cd/m^2 and less as 1 cd/m^2, 100 and more as 100, and is straight in ln between: identity
+/// there.
 shared::ToneCurve identity() {
     shared::ToneCurve c{};
     c.bins = 20, c.ln_low = 0, c.bins_per_ln = float(20 / std::log(100.0));
@@ -62,7 +63,8 @@ TEST(CompositeReference, LuminanceIsKeptWhateverTheColour) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (int i = 0; i < 2000; ++i) {
-        const dvec3 rgb = dvec3(uniform(random), uniform(random), uniform(random)) * std::pow(10, 4 * uniform(random) - 1);
+        const dvec3 rgb =
+            dvec3(uniform(random), uniform(random), uniform(random)) * std::pow(10, 4 * uniform(random) - 1);
         const dvec3 shown = displayed(rgb, shared::kToneCurve, c, 1, 100);
         EXPECT_NEAR(luminance(shown), tone_mapped(luminance(rgb), shared::kToneCurve, c, 1, 100), 1e-12);
         for (int k = 0; k < 3; ++k) {
@@ -79,7 +81,8 @@ TEST(CompositeReference, BrightColoursGoTowardsGreyNoFartherThanTheyMust) {
     EXPECT_NEAR(red.x, 1, 1e-12) << "just in gamut";
     EXPECT_NEAR(luminance(red), luminance({1.8, 0.1, 0.1}), 1e-7);
     EXPECT_GT(red.y, 0.1);
-    EXPECT_EQ(displayed({0.9, 0.5, 0.1}, shared::kToneLinear, c, 0, 1), dvec3(0.9, 0.5, 0.1)) << "others are left alone";
+    EXPECT_EQ(displayed({0.9, 0.5, 0.1}, shared::kToneLinear, c, 0, 1), dvec3(0.9, 0.5, 0.1))
+        << "others are left alone";
     EXPECT_EQ(displayed({30, 1, 1}, shared::kToneLinear, c, 0, 1), dvec3(1)) << "as bright as white: white";
 }
 

@@ -29,10 +29,14 @@ std::vector<uint8_t> composite(PassRig& rig, const Inputs& in, uint32_t tone) {
     View view;
     view.extent = in.extent;
     CompositeInputs inputs{rig.image(graph, "scene", kSceneFormat, in.extent, in.scene),
-                           graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32_SFLOAT), {}, {}};
+                           graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32_SFLOAT),
+                           {},
+                           {}};
     if (!in.veil.empty()) inputs.luminance_glare = rig.image(graph, "veil", kSceneFormat, in.extent, in.veil);
-    if (!in.glare.empty()) inputs.ldr_glare = rig.image(graph, "glare", kGlareFormat, quarter(in.extent), to_halves(in.glare));
-    const Resource kept = keep<glm::u8vec4>(graph, add_composite(graph, rig.kernels(), inputs, tone, view, in.display, in.gain));
+    if (!in.glare.empty())
+        inputs.ldr_glare = rig.image(graph, "glare", kGlareFormat, quarter(in.extent), to_halves(in.glare));
+    const Resource kept =
+        keep<glm::u8vec4>(graph, add_composite(graph, rig.kernels(), inputs, tone, view, in.display, in.gain));
     rig.run(graph);
     return rig.got<uint8_t>(kept);
 }
@@ -91,11 +95,16 @@ TEST(Composite, AddsBothKindsOfGlare) {
 TEST(Composite, OtherDisplaysAndTables) {
     PassRig rig;
     const VkExtent2D extent{40, 30};
-    for (const Display& display : {Display{10, 0.01f, 2.2f, 0, 0}, Display{1000, 0.5f, 1.8f, 300, 0.02f}, Display{80, 1, 1, 0, 0}})
+    for (const Display& display :
+         {Display{10, 0.01f, 2.2f, 0, 0}, Display{1000, 0.5f, 1.8f, 300, 0.02f}, Display{80, 1, 1, 0, 0}})
         for (uint32_t bins : {1u, 17u, 256u}) {
             const Inputs in{extent, night_pixels(extent, bins), {}, {}, crooked_curve(display, bins), display};
             expect_reference(composite(rig, in, shared::kToneCurve), in, shared::kToneCurve);
         }
+    // A table that begins below the floor of the logarithm.
+    Inputs in{extent, night_pixels(extent, 2, -8, 2), {}, {}, crooked_curve({}), {}};
+    in.curve.ln_low = std::log(1e-7f);
+    expect_reference(composite(rig, in, shared::kToneCurve), in, shared::kToneCurve);
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -103,7 +112,8 @@ TEST(Composite, WhatIsNotFiniteIsBlack) {
     PassRig rig;
     const VkExtent2D extent{4, 3};
     Inputs in{extent, std::vector<glm::vec4>(12, glm::vec4(50, 50, 50, 1)), {}, {}, crooked_curve({}), {}};
-    in.scene[0] = {kNan, 1, 1, 1}, in.scene[1] = {1, kInf, 1, 1}, in.scene[2] = {1, 1, -kInf, 1}, in.scene[3] = {kInf, -kInf, kNan, 1};
+    in.scene[0] = {kNan, 1, 1, 1}, in.scene[1] = {1, kInf, 1, 1}, in.scene[2] = {1, 1, -kInf, 1},
+    in.scene[3] = {kInf, -kInf, kNan, 1};
     in.scene[4] = {-5, -5, -5, 1}, in.scene[5] = {90, -1, 20, 1}, in.scene[6] = {-1, -1, 40, 1};
     for (uint32_t tone : kEveryTone) {
         const auto got = composite(rig, in, tone);

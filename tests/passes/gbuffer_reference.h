@@ -39,7 +39,8 @@ struct Texture {
     dvec4 bilinear(dvec2 uv) const {
         const dvec2 at = uv * dvec2(width, height) - 0.5, low = glm::floor(at), f = at - low;
         const int64_t x = int64_t(low.x), y = int64_t(low.y);
-        return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x), f.y);
+        return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x),
+                        glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x), f.y);
     }
 };
 
@@ -79,13 +80,13 @@ struct Geometry {
 
 /// Where a ray through direction (x, y, -1) meets something.
 struct Meeting {
-    double depth = 0;       ///< along the view axis, m
-    dvec3 normal{0};        ///< unit, as modelled
+    double depth = 0;  ///< along the view axis, m
+    dvec3 normal{0};   ///< unit, as modelled
     dvec2 uv{0};
     dvec4 colour{1};
     uint32_t surface = 0;
     bool front = true;
-    size_t which = 0;       ///< primitive: triangles, then spheres, then planes
+    size_t which = 0;  ///< primitive: triangles, then spheres, then planes
 };
 
 /// Ray and triangle (Moeller and Trumbore 1997). Depth may be negative.
@@ -108,7 +109,8 @@ inline std::optional<Meeting> meet(const Triangle& t, dvec3 ray, bool bounded = 
 }
 
 inline std::vector<Meeting> meet(const Sphere& s, dvec3 ray) {
-    const double a = glm::dot(ray, ray), b = glm::dot(ray, s.centre), c = glm::dot(s.centre, s.centre) - s.radius * s.radius;
+    const double a = glm::dot(ray, ray), b = glm::dot(ray, s.centre),
+                 c = glm::dot(s.centre, s.centre) - s.radius * s.radius;
     const double root = b * b - a * c;
     if (root < 0) return {};
     std::vector<Meeting> both;
@@ -154,7 +156,8 @@ struct Rays {
 };
 
 /// Texture value at a meeting. Area: 16 x 16 points of the pixel, cast onto the same triangle's plane.
-inline dvec4 textured(const Geometry& g, const Texture& texture, const Meeting& m, Filter filter, const Rays& rays, dvec2 pixel) {
+inline dvec4 textured(const Geometry& g, const Texture& texture, const Meeting& m, Filter filter, const Rays& rays,
+                      dvec2 pixel) {
     if (filter == Filter::Nearest) return texture.nearest(m.uv);
     if (filter == Filter::Bilinear || m.which >= g.triangles.size()) return texture.bilinear(m.uv);
     constexpr int kPoints = 16;

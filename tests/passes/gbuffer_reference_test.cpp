@@ -18,7 +18,8 @@ Triangle triangle(dvec3 a, dvec3 b, dvec3 c) {
 Geometry wall(double depth, Surface surface = {}) {
     const double r = depth;
     Geometry g;
-    g.triangles = {triangle({-r, -r, -depth}, {r, -r, -depth}, {r, r, -depth}), triangle({-r, -r, -depth}, {r, r, -depth}, {-r, r, -depth})};
+    g.triangles = {triangle({-r, -r, -depth}, {r, -r, -depth}, {r, r, -depth}),
+                   triangle({-r, -r, -depth}, {r, r, -depth}, {-r, r, -depth})};
     g.triangles[0].uv = {dvec2(0, 1), dvec2(1, 1), dvec2(1, 0)};
     g.triangles[1].uv = {dvec2(0, 1), dvec2(1, 0), dvec2(0, 0)};
     g.surfaces = {surface};
@@ -108,7 +109,8 @@ TEST(GbufferReference, TheNearestCountsAndNothingBeforeTheNearPlane) {
 Texture checker(uint32_t width, uint32_t height) {
     Texture t{width, height, {}};
     for (uint32_t y = 0; y < height; ++y)
-        for (uint32_t x = 0; x < width; ++x) t.texels.push_back((x + y) % 2 ? dvec4(1, 0.5, 0.25, 1) : dvec4(0, 0, 0, 1));
+        for (uint32_t x = 0; x < width; ++x)
+            t.texels.push_back((x + y) % 2 ? dvec4(1, 0.5, 0.25, 1) : dvec4(0, 0, 0, 1));
     return t;
 }
 

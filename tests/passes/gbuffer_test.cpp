@@ -23,7 +23,8 @@ Layers draw(PassRig& rig, const Scene& scene, const View& view) {
     const SceneFrame frame{world_transforms(scene, 0)};
     FrameGraph graph;
     const GBuffer g = add_gbuffer(graph, resident, frame, view);
-    const Resource reflectance = keep<uint64_t>(graph, g.reflectance), surface = keep<glm::vec4>(graph, g.surface), emission = keep<glm::vec4>(graph, g.emission);
+    const Resource reflectance = keep<uint64_t>(graph, g.reflectance), surface = keep<glm::vec4>(graph, g.surface),
+                   emission = keep<glm::vec4>(graph, g.emission);
     rig.run(graph);
     return {from_halves(rig.got<uint64_t>(reflectance)), rig.got<glm::vec4>(surface), rig.got<glm::vec4>(emission)};
 }
@@ -65,16 +66,23 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
                     slack += std::abs(other - want.depth);
                 }
                 const glm::dvec3 normal = reference::octahedral_decode({surface.x, surface.y});
-                if (!(std::abs(surface.z - want.depth) <= slack)) wrong += " depth " + std::to_string(surface.z) + " want " + std::to_string(want.depth);
-                if (!(glm::length(normal - want.normal) <= near.normal)) wrong += " normal off by " + std::to_string(glm::length(normal - want.normal));
+                if (!(std::abs(surface.z - want.depth) <= slack))
+                    wrong += " depth " + std::to_string(surface.z) + " want " + std::to_string(want.depth);
+                if (!(glm::length(normal - want.normal) <= near.normal))
+                    wrong += " normal off by " + std::to_string(glm::length(normal - want.normal));
                 for (int c = 0; c < 3; ++c) {
                     if (!(std::abs(reflectance[c] - want.base[c]) <= near.reflectance))
-                        wrong += " reflectance " + std::to_string(reflectance[c]) + " want " + std::to_string(want.base[c]);
-                    if (!(std::abs(got.emission[i][c] - want.emission[c]) <= near.emission * std::max(want.emission[c], 1e-6)))
-                        wrong += " emission " + std::to_string(got.emission[i][c]) + " want " + std::to_string(want.emission[c]);
+                        wrong +=
+                            " reflectance " + std::to_string(reflectance[c]) + " want " + std::to_string(want.base[c]);
+                    if (!(std::abs(got.emission[i][c] - want.emission[c]) <=
+                          near.emission * std::max(want.emission[c], 1e-6)))
+                        wrong += " emission " + std::to_string(got.emission[i][c]) + " want " +
+                                 std::to_string(want.emission[c]);
                 }
-                if (!(std::abs(reflectance.w - want.metallic) <= near.reflectance)) wrong += " metallic " + std::to_string(reflectance.w) + " want " + std::to_string(want.metallic);
-                if (!(std::abs(surface.w - want.roughness) <= near.reflectance)) wrong += " roughness " + std::to_string(surface.w) + " want " + std::to_string(want.roughness);
+                if (!(std::abs(reflectance.w - want.metallic) <= near.reflectance))
+                    wrong += " metallic " + std::to_string(reflectance.w) + " want " + std::to_string(want.metallic);
+                if (!(std::abs(surface.w - want.roughness) <= near.reflectance))
+                    wrong += " roughness " + std::to_string(surface.w) + " want " + std::to_string(want.roughness);
             }
             if (!wrong.empty() && bad++ == 0) ADD_FAILURE() << "pixel (" << x << ", " << y << "):" << wrong;
         }
@@ -83,7 +91,8 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
 }
 
 size_t expect_scene(PassRig& rig, const Scene& scene, const View& view, Nearness near = {}) {
-    return expect_reference(draw(rig, scene, view), geometry_of(scene, world_transforms(scene, 0), view.world_to_view), view, near);
+    return expect_reference(draw(rig, scene, view), geometry_of(scene, world_transforms(scene, 0), view.world_to_view),
+                            view, near);
 }
 
 View view_of(VkExtent2D extent, float fov = 0.9f) { return View::symmetric(extent, fov, glm::mat4(1)); }
@@ -101,12 +110,14 @@ Scene soup(uint32_t seed) {
     const auto point = [&](float r) { return r * glm::vec3(unit(random), unit(random), unit(random)); };
     Scene scene;
     scene.materials = {plain({0.8f, 0.2f, 0.1f}), plain({0.1f, 0.6f, 0.9f}, true)};
-    scene.materials[1].metallic = 0.7f, scene.materials[1].roughness = 0.35f, scene.materials[1].emission = {3, 0.5f, 1e8f};
+    scene.materials[1].metallic = 0.7f, scene.materials[1].roughness = 0.35f,
+    scene.materials[1].emission = {3, 0.5f, 1e8f};
     for (int k = 0; k < 12; ++k) {
         std::vector<Vertex> vertices(9);
         std::vector<uint32_t> indices(9);
         for (uint32_t i = 0; i < 9; ++i) {
-            vertices[i].position = point(2), vertices[i].normal = glm::normalize(point(1) + glm::vec3(0, 0, 2)), indices[i] = i;
+            vertices[i].position = point(2), vertices[i].normal = glm::normalize(point(1) + glm::vec3(0, 0, 2)),
+            indices[i] = i;
             for (int c = 0; c < 3; ++c) vertices[i].colour[size_t(c)] = uint8_t(128 + 120 * unit(random));
         }
         Node node;
@@ -144,11 +155,13 @@ TEST(Gbuffer, AFloorReachesTheHorizon) {
     PassRig rig;
     Scene scene;
     scene.materials = {plain({0.3f, 0.3f, 0.3f})};
-    add_mesh(scene, rectangle({-1e5f, -1.2f, 1e5f}, {2e5f, 0, 0}, {0, 0, -2e5f}), kRectangle, 0);  // also behind the eye
+    add_mesh(scene, rectangle({-1e5f, -1.2f, 1e5f}, {2e5f, 0, 0}, {0, 0, -2e5f}), kRectangle,
+             0);  // also behind the eye
     const View view = view_of({64, 50});
     const Layers got = draw(rig, scene, view);
     reference::Geometry floor;
-    floor.planes = {{{0, -1.2, 0}, {0, 1, 0}, 0}}, floor.surfaces.resize(1), floor.surfaces[0].base = {0.3, 0.3, 0.3, 1};
+    floor.planes = {{{0, -1.2, 0}, {0, 1, 0}, 0}}, floor.surfaces.resize(1),
+    floor.surfaces[0].base = {0.3, 0.3, 0.3, 1};
     // Depth is interpolated as 1 / z over a triangle 2e5 m long that the near plane cuts.
     expect_reference(got, floor, view, {.depth = 2e-4});
     EXPECT_EQ(rig.complaints(), "");
@@ -212,7 +225,8 @@ Image noise(uint32_t width, uint32_t height, uint32_t seed, int low = 0) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> code(low, 255);
     Image image{"noise", width, height, {}};
-    for (uint32_t i = 0; i < width * height * 4; ++i) image.rgba.push_back(i % 4 == 3 ? uint8_t(255) : uint8_t(code(random)));
+    for (uint32_t i = 0; i < width * height * 4; ++i)
+        image.rgba.push_back(i % 4 == 3 ? uint8_t(255) : uint8_t(code(random)));
     return image;
 }
 

@@ -1,5 +1,6 @@
-// The glare of Petit, Bremond and Vienne: bright displayed light convolved with a normalised Gaussian. SPDX-License-Identifier: MIT
-// Twice: as the pass does it (a quarter of the resolution, separable), and as it is defined (full resolution, direct).
+// The glare of Petit, Bremond and Vienne: bright displayed light convolved with a normalised Gaussian.
+// SPDX-License-Identifier: MIT Twice: as the pass does it (a quarter of the resolution, separable), and as it is
+// defined (full resolution, direct).
 #pragma once
 
 #include "passes/composite_reference.h"
@@ -81,8 +82,10 @@ inline LightImage direct_glare(const LightImage& shown, double threshold, double
         for (int64_t x = 0; x < shown.width; ++x) {
             const dvec3 source = glaring(shown.at(uint32_t(x), uint32_t(y)), threshold);
             if (source == dvec3(0)) continue;
-            for (int64_t j = std::max<int64_t>(0, y - radius); j <= std::min<int64_t>(shown.height - 1, y + radius); ++j)
-                for (int64_t i = std::max<int64_t>(0, x - radius); i <= std::min<int64_t>(shown.width - 1, x + radius); ++i)
+            for (int64_t j = std::max<int64_t>(0, y - radius); j <= std::min<int64_t>(shown.height - 1, y + radius);
+                 ++j)
+                for (int64_t i = std::max<int64_t>(0, x - radius); i <= std::min<int64_t>(shown.width - 1, x + radius);
+                     ++i)
                     out.at(uint32_t(i), uint32_t(j)) +=
                         source * std::exp(-double((i - x) * (i - x) + (j - y) * (j - y)) / (2 * sigma * sigma)) / total;
         }

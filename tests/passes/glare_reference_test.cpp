@@ -1,4 +1,5 @@
-// The display-image glare: a normalised Gaussian, and how near the small separable one comes. SPDX-License-Identifier: MIT
+// The display-image glare: a normalised Gaussian, and how near the small separable one comes. SPDX-License-Identifier:
+// MIT
 #include "passes/glare_reference.h"
 
 #include <numeric>
@@ -83,11 +84,13 @@ TEST(GlareReference, DirectGlareOfAPointIsTheGaussian) {
 
 /// Largest difference between the definition and the pass's way, relative to the largest glare.
 double approximation_error(const LightImage& shown, double sigma) {
-    const LightImage exact = direct_glare(shown, 0.9, sigma), small = ldr_glare(shown, 0.9, sigma / shared::kGlareShrink);
+    const LightImage exact = direct_glare(shown, 0.9, sigma),
+                     small = ldr_glare(shown, 0.9, sigma / shared::kGlareShrink);
     double worst = 0, most = 0;
     for (uint32_t y = 0; y < shown.height; ++y)
         for (uint32_t x = 0; x < shown.width; ++x) {
-            const dvec3 up = bilinear(std::span<const dvec3>(small.pixels), small.width, small.height, (dvec2(x, y) + 0.5) / 4.0 - 0.5);
+            const dvec3 up = bilinear(std::span<const dvec3>(small.pixels), small.width, small.height,
+                                      (dvec2(x, y) + 0.5) / 4.0 - 0.5);
             worst = std::max(worst, std::abs(up.y - exact.at(x, y).y)), most = std::max(most, exact.at(x, y).y);
         }
     return worst / most;
@@ -104,9 +107,7 @@ TEST(GlareReference, TheSmallGlareIsNearTheDefinition) {
     EXPECT_LT(approximation_error(shown, 12), 0.04);
 }
 
-TEST(GlareReference, SigmaIsGivenAsAnAngle) {
-    EXPECT_DOUBLE_EQ(small_sigma(0.35, 0.035), 2.5);
-}
+TEST(GlareReference, SigmaIsGivenAsAnAngle) { EXPECT_DOUBLE_EQ(small_sigma(0.35, 0.035), 2.5); }
 
 }  // namespace
 }  // namespace vesper::reference

@@ -18,13 +18,16 @@ struct Inputs {
     LdrGlareSettings settings{};
 };
 
-View view_of(VkExtent2D extent) { return View::symmetric(extent, 0.02f * float(extent.height) / 57.2958f, glm::mat4(1)); }
+View view_of(VkExtent2D extent) {
+    return View::symmetric(extent, 0.02f * float(extent.height) / 57.2958f, glm::mat4(1));
+}
 
 Picture glare(PassRig& rig, const Inputs& in, uint32_t tone) {
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, in.view.extent, in.scene);
     const Resource curve = graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32_SFLOAT);
-    const Resource kept = keep<uint64_t>(graph, add_ldr_glare(graph, rig.kernels(), scene, curve, tone, in.view, in.display, in.settings));
+    const Resource kept = keep<uint64_t>(
+        graph, add_ldr_glare(graph, rig.kernels(), scene, curve, tone, in.view, in.display, in.settings));
     rig.run(graph);
     const uint32_t w = (in.view.extent.width + 3) / 4, h = (in.view.extent.height + 3) / 4;
     const auto texels = from_halves(rig.got<uint64_t>(kept));
@@ -36,7 +39,9 @@ Picture glare(PassRig& rig, const Inputs& in, uint32_t tone) {
 
 reference::LightImage shown(const Inputs& in, uint32_t tone) {
     reference::LightImage image{in.view.extent.width, in.view.extent.height, {}};
-    for (const glm::vec4& p : in.scene) image.pixels.push_back(reference::displayed(glm::dvec3(p), tone, in.curve, in.display.low(), in.display.high()));
+    for (const glm::vec4& p : in.scene)
+        image.pixels.push_back(
+            reference::displayed(glm::dvec3(p), tone, in.curve, in.display.low(), in.display.high()));
     return image;
 }
 
@@ -51,7 +56,8 @@ Picture picture(const reference::LightImage& image) {
 void avoid_threshold(Inputs& in, uint32_t tone) {
     for (glm::vec4& p : in.scene) {
         const auto light = reference::displayed(glm::dvec3(p), tone, in.curve, in.display.low(), in.display.high());
-        if (std::abs(reference::luminance(light) - in.settings.threshold) < 1e-3) p *= tone == shared::kToneLdr ? 0.9f : 0.1f;
+        if (std::abs(reference::luminance(light) - in.settings.threshold) < 1e-3)
+            p *= tone == shared::kToneLdr ? 0.9f : 0.1f;
     }
 }
 
@@ -59,9 +65,10 @@ void expect_reference(PassRig& rig, Inputs in, uint32_t tone) {
     avoid_threshold(in, tone);
     const double sigma = reference::small_sigma(in.settings.sigma_degrees, in.view.degrees_per_pixel());
     const auto want = reference::ldr_glare(shown(in, tone), in.settings.threshold, sigma);
-    // Stored three times in 16-bit floats, each time rounded to nearest or towards zero as the device likes: up to an ulp
-    // of 2^-10 each, of at least the smallest normal number, 6e-5. The float arithmetic between is far below that.
-    EXPECT_TRUE(same_light("glare of tone " + std::to_string(tone), glare(rig, in, tone), picture(want), {6.1 * kHalfUlp16, 6e-5}));
+    // Stored three times in 16-bit floats, each time rounded to nearest or towards zero as the device likes: up to an
+    // ulp of 2^-10 each, of at least the smallest normal number, 6e-5. The float arithmetic between is far below that.
+    EXPECT_TRUE(same_light("glare of tone " + std::to_string(tone), glare(rig, in, tone), picture(want),
+                           {6.1 * kHalfUlp16, 6e-5}));
 }
 
 TEST(LdrGlare, MatchesTheReferenceForEveryOperatorAndSize) {
@@ -90,9 +97,11 @@ TEST(LdrGlare, MatchesTheReferenceForEveryWidthAndThreshold) {
 
 /// Black but for a lamp of some pixels.
 Inputs lamp(VkExtent2D extent, glm::uvec2 corner, glm::uvec2 size, float luminance) {
-    Inputs in{view_of(extent), std::vector<glm::vec4>(size_t(extent.width) * extent.height, glm::vec4(0.01f, 0.01f, 0.01f, 1))};
+    Inputs in{view_of(extent),
+              std::vector<glm::vec4>(size_t(extent.width) * extent.height, glm::vec4(0.01f, 0.01f, 0.01f, 1))};
     for (uint32_t y = corner.y; y < corner.y + size.y; ++y)
-        for (uint32_t x = corner.x; x < corner.x + size.x; ++x) in.scene[y * extent.width + x] = {luminance, luminance, luminance, 1};
+        for (uint32_t x = corner.x; x < corner.x + size.x; ++x)
+            in.scene[y * extent.width + x] = {luminance, luminance, luminance, 1};
     return in;
 }
 
@@ -116,12 +125,15 @@ TEST(LdrGlare, IsNearTheFullResolutionConvolution) {
     in.settings.sigma_degrees = 0.18f;  // 9 px
     const Picture small = glare(rig, in, shared::kToneReinhard);
     std::vector<glm::dvec3> texels;
-    for (size_t i = 0; i < small.values.size(); i += 3) texels.emplace_back(small.values[i], small.values[i + 1], small.values[i + 2]);
-    const auto exact = reference::direct_glare(shown(in, shared::kToneReinhard), in.settings.threshold, 0.18 / in.view.degrees_per_pixel());
+    for (size_t i = 0; i < small.values.size(); i += 3)
+        texels.emplace_back(small.values[i], small.values[i + 1], small.values[i + 2]);
+    const auto exact = reference::direct_glare(shown(in, shared::kToneReinhard), in.settings.threshold,
+                                               0.18 / in.view.degrees_per_pixel());
     double most = 0, worst = 0;
     for (uint32_t y = 0; y < exact.height; ++y)
         for (uint32_t x = 0; x < exact.width; ++x) {
-            const auto up = reference::bilinear(std::span<const glm::dvec3>(texels), small.width, small.height, (glm::dvec2(x, y) + 0.5) / 4.0 - 0.5);
+            const auto up = reference::bilinear(std::span<const glm::dvec3>(texels), small.width, small.height,
+                                                (glm::dvec2(x, y) + 0.5) / 4.0 - 0.5);
             most = std::max(most, exact.at(x, y).y), worst = std::max(worst, std::abs(up.y - exact.at(x, y).y));
         }
     EXPECT_GT(most, 0.05);

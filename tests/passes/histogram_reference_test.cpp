@@ -12,8 +12,12 @@ namespace {
 /// 100 bins of a tenth of a decade from 1e-4 to 1e6 cd/m^2.
 shared::HistogramPush tenths(shared::uvec2 image, uint32_t level) {
     const uint32_t side = 1u << level;
-    return {image, {(image.x + side - 1) / side, (image.y + side - 1) / side}, level, 100,
-            float(std::log(1e-4)), float(10 / std::log(10.0))};
+    return {image,
+            {(image.x + side - 1) / side, (image.y + side - 1) / side},
+            level,
+            100,
+            float(std::log(1e-4)),
+            float(10 / std::log(10.0))};
 }
 
 TEST(HistogramReference, ATenthOfADecadePerBin) {

@@ -30,15 +30,22 @@ std::vector<glm::vec4> random_level(shared::HistogramPush p, float log10_low, fl
 
 shared::HistogramPush push_of(VkExtent2D image, uint32_t level, const HistogramSettings& s) {
     const uint32_t side = 1u << level;
-    return {{image.width, image.height}, {(image.width + side - 1) / side, (image.height + side - 1) / side}, level, s.bins, s.ln_low(), s.bins_per_ln()};
+    return {{image.width, image.height},
+            {(image.width + side - 1) / side, (image.height + side - 1) / side},
+            level,
+            s.bins,
+            s.ln_low(),
+            s.bins_per_ln()};
 }
 
-shared::Histogram count(PassRig& rig, const std::vector<glm::vec4>& texels, VkExtent2D image, const shared::HistogramPush& p, const HistogramSettings& s) {
+shared::Histogram count(PassRig& rig, const std::vector<glm::vec4>& texels, VkExtent2D image,
+                        const shared::HistogramPush& p, const HistogramSettings& s) {
     FrameGraph graph;
     const VkExtent2D size{p.level_size.x, p.level_size.y};
     const Resource level = rig.image(graph, "level", kSceneFormat, size, texels);
     const Pyramid pyramid{std::vector<Resource>(p.level, level), std::vector<VkExtent2D>(p.level, size)};
-    const Resource kept = keep<shared::Histogram>(graph, add_histogram(graph, rig.kernels(), pyramid, p.level, image, s));
+    const Resource kept =
+        keep<shared::Histogram>(graph, add_histogram(graph, rig.kernels(), pyramid, p.level, image, s));
     rig.run(graph);
     return rig.got<shared::Histogram>(kept).at(0);
 }
@@ -55,7 +62,8 @@ TEST(Histogram, MatchesTheReferenceAtEverySizeAndLevel) {
                 const auto got = count(rig, texels, image, p, settings);
                 EXPECT_EQ(got.finite, want.exact.finite);
                 EXPECT_EQ(got.non_finite, want.exact.non_finite);
-                EXPECT_TRUE(want.admits(got)) << image.width << " x " << image.height << " level " << level << ", " << bins << " bins";
+                EXPECT_TRUE(want.admits(got))
+                    << image.width << " x " << image.height << " level " << level << ", " << bins << " bins";
             }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -77,7 +85,8 @@ TEST(Histogram, BlackNegativeAndExtremeTexelsCountInTheEndBins) {
     PassRig rig;
     const HistogramSettings settings;
     const auto p = push_of({12, 2}, 1, settings);
-    const std::vector<glm::vec4> texels{{0, 4, 0, 0}, {-5, 4, 0, 0}, {1e-30f, 4, 0, 0}, {1e30f, 4, 0, 0}, {1e8f, 3, 0, 0}, {0, 0, 0, 0}};
+    const std::vector<glm::vec4> texels{{0, 4, 0, 0},     {-5, 4, 0, 0},   {1e-30f, 4, 0, 0},
+                                        {1e30f, 4, 0, 0}, {1e8f, 3, 0, 0}, {0, 0, 0, 0}};
     const auto got = count(rig, texels, {12, 2}, p, settings);
     EXPECT_EQ(got.count[0], 12u);
     EXPECT_EQ(got.count[99], 7u);

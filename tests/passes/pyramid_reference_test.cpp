@@ -34,7 +34,8 @@ TEST(PyramidReference, WhiteHasLuminanceOne) {
 TEST(PyramidReference, SizesHalveRoundingUp) {
     const auto sizes = [](uint32_t w, uint32_t h) {
         std::vector<std::pair<uint32_t, uint32_t>> all;
-        for (const auto& level : pyramid_of(std::vector<dvec3>(size_t(w) * h, dvec3(1)), w, h)) all.emplace_back(level.width, level.height);
+        for (const auto& level : pyramid_of(std::vector<dvec3>(size_t(w) * h, dvec3(1)), w, h))
+            all.emplace_back(level.width, level.height);
         return all;
     };
     using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
@@ -60,7 +61,8 @@ TEST(PyramidReference, EveryLevelHasTheMeanOfTheImage) {
     for (auto [w, h] : {std::pair{65u, 33u}, {127u, 1u}, {50u, 75u}}) {
         const auto image = random_image(w, h);
         double mean = 0, mean_ln = 0, largest = 0;
-        for (dvec3 p : image) mean += luminance(p), mean_ln += std::log(luminance(p)), largest = std::max(largest, luminance(p));
+        for (dvec3 p : image)
+            mean += luminance(p), mean_ln += std::log(luminance(p)), largest = std::max(largest, luminance(p));
         for (const auto& level : pyramid_of(image, w, h)) {
             dvec3 sum(0);
             double top = 0;

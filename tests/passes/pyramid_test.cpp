@@ -38,7 +38,8 @@ void expect_pyramid(const std::vector<glm::vec4>& pixels, VkExtent2D extent) {
         ASSERT_EQ(pyramid.extents[k].width, want[k].width);
         ASSERT_EQ(pyramid.extents[k].height, want[k].height);
         const auto got = rig.got<glm::vec4>(kept[k]);
-        Picture got_means(want[k].width, want[k].height, 2), want_means = got_means, got_ln(want[k].width, want[k].height, 1), want_ln = got_ln;
+        Picture got_means(want[k].width, want[k].height, 2), want_means = got_means,
+                                                             got_ln(want[k].width, want[k].height, 1), want_ln = got_ln;
         for (size_t i = 0; i < got.size(); ++i) {
             EXPECT_EQ(got[i].g, want[k].texels[i].y) << "pixels of texel " << i << " of level " << k + 1;
             got_means.values[2 * i] = got[i].r, got_means.values[2 * i + 1] = got[i].a;
@@ -68,7 +69,8 @@ TEST(Pyramid, LeavesOutWhatIsNotFinite) {
     auto pixels = night(extent, 9);
     for (size_t i = 0; i < pixels.size(); i += 5) pixels[i][int(i % 3)] = i % 2 ? kNan : kInf;
     for (uint32_t y = 0; y < 4; ++y)
-        for (uint32_t x = 8; x < 12; ++x) pixels[y * extent.width + x] = {kNan, -kInf, 1, 1};  // a whole texel of level 2
+        for (uint32_t x = 8; x < 12; ++x)
+            pixels[y * extent.width + x] = {kNan, -kInf, 1, 1};  // a whole texel of level 2
     expect_pyramid(pixels, extent);
 }
 

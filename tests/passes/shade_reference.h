@@ -45,8 +45,8 @@ struct Specular {
     double relative_rounding = 0;
 };
 
-/// GGX (Walter et al. 2007, Eq. 33) with height-correlated Smith masking (Heitz 2014, Eq. 99) and Schlick's Fresnel term
-/// (1994), whose grazing reflectance fades with F0 (Lagarde and de Rousiers 2014: clamp(F0 / 0.04)).
+/// GGX (Walter et al. 2007, Eq. 33) with height-correlated Smith masking (Heitz 2014, Eq. 99) and Schlick's Fresnel
+/// term (1994), whose grazing reflectance fades with F0 (Lagarde and de Rousiers 2014: clamp(F0 / 0.04)).
 inline Specular specular(dvec3 n, dvec3 l, dvec3 v, dvec3 f0, double roughness, double epsilon = 3e-7) {
     const double a = std::max(roughness * roughness, 1e-3), a2 = a * a;
     const dvec3 h = glm::normalize(l + v);
@@ -57,8 +57,8 @@ inline Specular specular(dvec3 n, dvec3 l, dvec3 v, dvec3 f0, double roughness, 
     const double masking = 0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
     const double f90 = std::clamp(25 * std::max({f0.x, f0.y, f0.z}), 0.0, 1.0);
     const dvec3 fresnel = f0 + (f90 - f0) * std::pow(1 - vh, 5);
-    // d(1/q^2) = 2 dq / q with dq = 2 nh d(nh), and l + v is the shorter the more its direction is rounded; masking moves
-    // with n.l and n.v relative to their size.
+    // d(1/q^2) = 2 dq / q with dq = 2 nh d(nh), and l + v is the shorter the more its direction is rounded; masking
+    // moves with n.l and n.v relative to their size.
     const double half_rounding = epsilon * (1 + 1 / std::max(glm::length(l + v), 1e-9));
     const double rounding = 4 * half_rounding / q + epsilon / std::max(nl, a) + epsilon / std::max(nv, a);
     return {distribution * masking * fresnel, std::min(rounding, 1.0)};
@@ -94,7 +94,8 @@ inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, d
     if (nl > 0 && (!lamp || e >= threshold)) sum.luminance += reflected * e * nl;
     const bool uncertain = lamp && (std::min(more, less) < threshold) != (std::max(more, less) < threshold);
     const double brightest = std::max(more, less);
-    sum.rounding += uncertain ? reflected * brightest * std::max(nl, 0.0) : reflected * std::abs(more - less) * std::max(nl, 0.0);
+    sum.rounding +=
+        uncertain ? reflected * brightest * std::max(nl, 0.0) : reflected * std::abs(more - less) * std::max(nl, 0.0);
     sum.rounding += glm::abs(reflected) * brightest * epsilon +
                     dvec3(light.colour) * s.value * brightest * std::max(nl, 0.0) * s.relative_rounding;
 }

@@ -23,7 +23,8 @@ shared::ShadePush ahead(uint32_t cones, uint32_t powers = 0, uint32_t directiona
     return p;
 }
 
-SurfaceTexel wall(double depth, dvec3 normal = {0, 0, 1}, double roughness = 1, dvec4 reflectance = dvec4(0.5, 0.5, 0.5, 0)) {
+SurfaceTexel wall(double depth, dvec3 normal = {0, 0, 1}, double roughness = 1,
+                  dvec4 reflectance = dvec4(0.5, 0.5, 0.5, 0)) {
     return {reflectance, dvec4(octahedral_encode(glm::normalize(normal)), depth, roughness), dvec3(0)};
 }
 
@@ -151,14 +152,16 @@ double albedo(double angle, double roughness) {
     double sum = 0;
     for (int i = 0; i < rows; ++i)
         for (int j = 0; j < columns; ++j) {
-            const double sine2 = (i + 0.5) / rows, azimuth = 2 * kPi * (j + 0.5) / columns;  // uniform in sin^2: cos-weighted
-            sum += specular({0, 0, 1}, toward(std::asin(std::sqrt(sine2)), azimuth), toward(angle), dvec3(1), roughness).value.x;
+            const double sine2 = (i + 0.5) / rows,
+                         azimuth = 2 * kPi * (j + 0.5) / columns;  // uniform in sin^2: cos-weighted
+            sum += specular({0, 0, 1}, toward(std::asin(std::sqrt(sine2)), azimuth), toward(angle), dvec3(1), roughness)
+                       .value.x;
         }
     return kPi * sum / (rows * columns);
 }
 
-// Walter et al. 2007: D cos is normalised over the hemisphere, so a smooth white metal reflects nearly everything; single
-// scattering loses light as it gets rough, and never gains any.
+// Walter et al. 2007: D cos is normalised over the hemisphere, so a smooth white metal reflects nearly everything;
+// single scattering loses light as it gets rough, and never gains any.
 TEST(ShadeReference, WhiteMetalConservesEnergy) {
     EXPECT_NEAR(albedo(0.2, 0.35), 0.98, 0.01);
     for (double angle : {0.1, 0.8, 1.3})
@@ -180,7 +183,8 @@ TEST(ShadeReference, RoughWhiteMetalHasItsAlbedoInClosedForm) {
 TEST(ShadeReference, GrazingLightIsReflectedWhole) {
     // Schlick: F = 1 where v.h = 0; the difference between F0 = 0.04 and F0 = 1 vanishes there.
     const dvec3 l = toward(1.5607), v = toward(-1.5607);
-    EXPECT_NEAR(specular({0, 0, 1}, l, v, dvec3(0.04), 0.3).value.x / specular({0, 0, 1}, l, v, dvec3(1), 0.3).value.x, 1, 0.06);
+    EXPECT_NEAR(specular({0, 0, 1}, l, v, dvec3(0.04), 0.3).value.x / specular({0, 0, 1}, l, v, dvec3(1), 0.3).value.x,
+                1, 0.06);
     const Specular half = specular({0, 0, 1}, l, v, dvec3(0.02), 0.3);
     EXPECT_NEAR(half.value.x / specular({0, 0, 1}, l, v, dvec3(0.04), 0.3).value.x, 0.5, 0.01) << "F90 fades with F0";
 }

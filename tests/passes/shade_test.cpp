@@ -34,9 +34,11 @@ Surfaces street(VkExtent2D extent, uint32_t seed, float nearest = 0.5f, float fa
         s.reflectance.emplace_back(value(), value(), value(), i % 3 == 0 ? value() : 0.0f);
         const glm::dvec3 n = glm::normalize(glm::dvec3(normal(random), normal(random), std::abs(normal(random)) + 0.1));
         const bool sky = unit(random) < 0.1f;
-        s.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)), sky ? 0 : nearest * std::pow(farthest / nearest, unit(random)),
+        s.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)),
+                               sky ? 0 : nearest * std::pow(farthest / nearest, unit(random)),
                                i % 4 == 0 ? 1.0f : 0.2f + 0.8f * unit(random));
-        s.emission.emplace_back(i % 7 == 0 ? std::pow(10.0f, 12 * unit(random) - 4) * glm::vec3(1, 0.7f, 0.3f) : glm::vec3(0), 1);
+        s.emission.emplace_back(
+            i % 7 == 0 ? std::pow(10.0f, 12 * unit(random) - 4) * glm::vec3(1, 0.7f, 0.3f) : glm::vec3(0), 1);
     }
     return s;
 }
@@ -47,14 +49,17 @@ struct Shot {
     shared::ClusterReport report;
 };
 
-Shot shade(PassRig& rig, const Surfaces& s, const LightList& list, const ClusterSettings& clusters, const ShadeSettings& settings) {
+Shot shade(PassRig& rig, const Surfaces& s, const LightList& list, const ClusterSettings& clusters,
+           const ShadeSettings& settings) {
     FrameGraph graph;
     const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
     const GBuffer g{rig.image(graph, "reflectance", kReflectanceFormat, s.extent, to_halves(s.reflectance)),
                     rig.image(graph, "surface", kSurfaceFormat, s.extent, s.surface),
-                    rig.image(graph, "emission", kEmissionFormat, s.extent, s.emission), {}};
+                    rig.image(graph, "emission", kEmissionFormat, s.extent, s.emission),
+                    {}};
     const Clusters c = add_clusters(graph, rig.kernels(), list, view, clusters);
-    const Resource scene = keep<glm::vec4>(graph, add_shading(graph, rig.kernels(), g, c, view, settings)), report = keep<shared::ClusterReport>(graph, c.report);
+    const Resource scene = keep<glm::vec4>(graph, add_shading(graph, rig.kernels(), g, c, view, settings)),
+                   report = keep<shared::ClusterReport>(graph, c.report);
     rig.run(graph);
     return {rig.got<glm::vec4>(scene), c.push, rig.got<shared::ClusterReport>(report).at(0)};
 }
@@ -63,7 +68,8 @@ shared::ShadePush push_of(const Surfaces& s, const Shot& shot, const ShadeSettin
     shared::ShadePush p{};
     p.size = {s.extent.width, s.extent.height};
     p.grid = shot.cluster.grid, p.lights = shot.cluster.lights, p.threshold = shot.cluster.threshold;
-    p.lambert = settings.lambert, p.emission_limit = settings.emission_limit, p.ambient = settings.ambient, p.sky = settings.sky;
+    p.lambert = settings.lambert, p.emission_limit = settings.emission_limit, p.ambient = settings.ambient,
+    p.sky = settings.sky;
     return p;
 }
 
@@ -79,11 +85,13 @@ void expect_reference(const Shot& shot, const Surfaces& s, const LightList& list
     Picture want(s.extent.width, s.extent.height, 3), rounding = want;
     for (size_t i = 0; i < shot.pixels.size(); ++i) {
         const auto shaded = reference::shade(s.texel(i), {i % s.extent.width, i / s.extent.width}, list.lights, p);
-        for (int c = 0; c < 3; ++c) want.values[3 * i + size_t(c)] = shaded.luminance[c], rounding.values[3 * i + size_t(c)] = shaded.rounding[c];
+        for (int c = 0; c < 3; ++c)
+            want.values[3 * i + size_t(c)] = shaded.luminance[c],
+                                rounding.values[3 * i + size_t(c)] = shaded.rounding[c];
         EXPECT_EQ(shot.pixels[i].w, 1.0f);
     }
-    // 2e-5 for sums of positive terms in float with exp2 and log2 of cosines; `rounding` holds what cancels: dot products
-    // near a threshold, a cone's edge or a mirror's highlight. 1e-12 cd/m^2 is nothing.
+    // 2e-5 for sums of positive terms in float with exp2 and log2 of cosines; `rounding` holds what cancels: dot
+    // products near a threshold, a cone's edge or a mirror's highlight. 1e-12 cd/m^2 is nothing.
     EXPECT_TRUE(same_light("scene", picture(s.extent, shot.pixels), want, {2e-5, 1e-7}, rounding));
 }
 
@@ -132,8 +140,11 @@ TEST(Shade, ClusteredIsEveryLight) {
         const Shot clustered = shade(rig, s, list, {.capacity = 4000}, {});
         const Shot all = shade(rig, s, list, {.capacity = 4000}, {.all_lights = true});
         EXPECT_EQ(clustered.report.overflowed, 0u);
-        EXPECT_TRUE(same_light("clustered", picture(s.extent, clustered.pixels), picture(s.extent, all.pixels), {0, 0}));
-        if (count > 1) { EXPECT_LT(clustered.report.listed, count * clustered.cluster.grid.slices * 12) << "nothing was left out"; }
+        EXPECT_TRUE(
+            same_light("clustered", picture(s.extent, clustered.pixels), picture(s.extent, all.pixels), {0, 0}));
+        if (count > 1) {
+            EXPECT_LT(clustered.report.listed, count * clustered.cluster.grid.slices * 12) << "nothing was left out";
+        }
     }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -151,8 +162,9 @@ TEST(Shade, OverflowedFroxelsLookAtEveryLight) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Dim lamps: the lists of most froxels overflow, and yet hardly any lamp lights a given pixel. Every pixel has a slice of
-// its own. Lavapipe runs no more than 65,535 turns of all of an invocation's loops together, which must not cost a light.
+// Dim lamps: the lists of most froxels overflow, and yet hardly any lamp lights a given pixel. Every pixel has a slice
+// of its own. Lavapipe runs no more than 65,535 turns of all of an invocation's loops together, which must not cost a
+// light.
 TEST(Shade, ThousandsOfLampsInOverflowedFroxels) {
     PassRig rig;
     const Surfaces s = street({64, 24}, 15);
@@ -161,7 +173,8 @@ TEST(Shade, ThousandsOfLampsInOverflowedFroxels) {
         const Shot all = shade(rig, s, list, {}, {.all_lights = true});
         for (uint32_t capacity : {1u, 256u}) {
             const Shot got = shade(rig, s, list, {.capacity = capacity}, {});
-            EXPECT_TRUE(same_light("overflowed", picture(s.extent, got.pixels), picture(s.extent, all.pixels), {0, 0})) << count << ", capacity " << capacity;
+            EXPECT_TRUE(same_light("overflowed", picture(s.extent, got.pixels), picture(s.extent, all.pixels), {0, 0}))
+                << count << ", capacity " << capacity;
         }
     }
     EXPECT_EQ(rig.complaints(), "");
@@ -198,9 +211,11 @@ TEST(Shade, OneLampOverTheRoad) {
     const Shot shot = shade(rig, s, list, {}, {});
     for (uint32_t y = extent.height / 2; y < extent.height; ++y)
         for (uint32_t x = 0; x < extent.width; ++x) {
-            const glm::dvec3 point = reference::view_position(shot.cluster.grid, {x + 0.5, y + 0.5}, s.surface[y * extent.width + x].z);
+            const glm::dvec3 point =
+                reference::view_position(shot.cluster.grid, {x + 0.5, y + 0.5}, s.surface[y * extent.width + x].z);
             const double d2 = glm::dot(glm::dvec3(1, 5.3, -15) - point, glm::dvec3(1, 5.3, -15) - point);
-            const double want = 4000 / d2 < 0.001 ? 0 : 0.25 * 4000 * (5.3 - point.y) / std::sqrt(d2) / (3.14159265358979 * d2);
+            const double want =
+                4000 / d2 < 0.001 ? 0 : 0.25 * 4000 * (5.3 - point.y) / std::sqrt(d2) / (3.14159265358979 * d2);
             EXPECT_NEAR(shot.pixels[y * extent.width + x].y, want, 1e-5 * want) << x << ", " << y;
         }
     EXPECT_EQ(rig.complaints(), "");
@@ -215,10 +230,12 @@ TEST(Shade, HeadlampsDownAWetRoad) {
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         const float slope = view.ray_scale().y * (float(i / extent.width) + 0.5f) + view.ray_offset().y;
         s.reflectance.emplace_back(0.25f, 0.25f, 0.25f, 0), s.emission.emplace_back(0);
-        s.surface.emplace_back(reference::octahedral_encode({0, 1, 0}), slope < 0 ? 1.2f / -slope : 0, i % 2 ? 0.3f : 0.5f);
+        s.surface.emplace_back(reference::octahedral_encode({0, 1, 0}), slope < 0 ? 1.2f / -slope : 0,
+                               i % 2 ? 0.3f : 0.5f);
     }
     LightList list = street_lamps({2, 0, 0}, 1);
-    for (uint32_t i = 0; i < 2; ++i) list.lights[i] = {{1.4f * float(i) - 2, -0.55f, -250}, 30000, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
+    for (uint32_t i = 0; i < 2; ++i)
+        list.lights[i] = {{1.4f * float(i) - 2, -0.55f, -250}, 30000, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
     expect_reference(shade(rig, s, list, {}, {}), s, list, {});
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -263,7 +280,9 @@ TEST(Shade, WhatIsNotFiniteStaysInItsPixel) {
     }
     const Shot got = shade(rig, s, list, {}, {}), want = shade(rig, clean, list, {}, {});
     for (size_t i = 0; i < got.pixels.size(); ++i)
-        if (!poisoned(i)) { EXPECT_EQ(got.pixels[i], want.pixels[i]) << "pixel " << i; }
+        if (!poisoned(i)) {
+            EXPECT_EQ(got.pixels[i], want.pixels[i]) << "pixel " << i;
+        }
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -276,12 +295,15 @@ TEST(Shade, ANormalOfNoLengthCostsItsNeighboursNoLight) {
     for (uint32_t broken : {0u, 31u, 32u, 63u}) {
         for (uint32_t i = 0; i < 64; ++i) {
             const float side = i < 32 ? -1 : 1;  // half of the surfaces face the lamp
-            s.surface[i] = glm::vec4(glm::vec2(reference::octahedral_encode(glm::normalize(glm::dvec3(side, 0, 0.1)))), 5, 1);
+            s.surface[i] =
+                glm::vec4(glm::vec2(reference::octahedral_encode(glm::normalize(glm::dvec3(side, 0, 0.1)))), 5, 1);
             if (i == broken) s.surface[i].x = s.surface[i].y = kNan;
         }
         const Shot got = shade(rig, s, list, {}, {}), all = shade(rig, s, list, {}, {.all_lights = true});
         for (uint32_t i = 0; i < 64; ++i) {
-            if (i != broken) { EXPECT_EQ(got.pixels[i], all.pixels[i]) << "pixel " << i << " beside " << broken; }
+            if (i != broken) {
+                EXPECT_EQ(got.pixels[i], all.pixels[i]) << "pixel " << i << " beside " << broken;
+            }
         }
     }
     EXPECT_EQ(rig.complaints(), "");

@@ -76,7 +76,8 @@ inline std::string write_failure(const std::string& name, const Picture& got, co
                                  bool codes) {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     std::string stem = test ? std::string(test->test_suite_name()) + "." + test->name() + "." + name : name;
-    std::replace_if(stem.begin(), stem.end(), [](char c) { return c == '/' || c == ' '; }, '-');
+    std::replace_if(
+        stem.begin(), stem.end(), [](char c) { return c == '/' || c == ' '; }, '-');
     std::error_code ignored;  // a read-only directory must not hide the failure itself
     std::filesystem::create_directories("failures", ignored);
     const std::filesystem::path base = std::filesystem::path("failures") / stem;

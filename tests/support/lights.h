@@ -53,7 +53,8 @@ inline LightList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
     }
     for (uint32_t i = 0; i < mix.directional; ++i) {
         shared::Light moon{};
-        moon.intensity = 0.3f * unit(random), moon.axis = direction({0, -1, -1}), moon.colour = colour(), moon.distribution = -1;
+        moon.intensity = 0.3f * unit(random), moon.axis = direction({0, -1, -1}), moon.colour = colour(),
+        moon.distribution = -1;
         list.lights.push_back(moon);
     }
     return list;

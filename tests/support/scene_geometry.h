@@ -17,11 +17,14 @@ inline double linear_value(uint8_t code, const Transfer& transfer) {
 }
 
 /// A texture of the reference. `transfer` null: codes are linear. Opacity always is.
-inline std::optional<reference::Texture> texture_of(const Scene& scene, const TextureUse& use, const Transfer* transfer) {
+inline std::optional<reference::Texture> texture_of(const Scene& scene, const TextureUse& use,
+                                                    const Transfer* transfer) {
     if (use.image == kNone) return std::nullopt;
     const Image& image = scene.images[use.image];
     const auto wrapping = [](Wrap w) {
-        return w == Wrap::Repeat ? reference::Wrapping::Repeat : w == Wrap::Mirror ? reference::Wrapping::Mirror : reference::Wrapping::Clamp;
+        return w == Wrap::Repeat   ? reference::Wrapping::Repeat
+               : w == Wrap::Mirror ? reference::Wrapping::Mirror
+                                   : reference::Wrapping::Clamp;
     };
     reference::Texture t{image.width, image.height, {}, wrapping(use.wrap_u), wrapping(use.wrap_v)};
     for (size_t i = 0; i < image.rgba.size(); i += 4) {
@@ -34,12 +37,14 @@ inline std::optional<reference::Texture> texture_of(const Scene& scene, const Te
 }
 
 /// Every triangle of every node, in the order of nodes.
-inline reference::Geometry geometry_of(const Scene& scene, const std::vector<glm::mat4>& world, const glm::mat4& world_to_view) {
+inline reference::Geometry geometry_of(const Scene& scene, const std::vector<glm::mat4>& world,
+                                       const glm::mat4& world_to_view) {
     reference::Geometry g;
     const Transfer srgb{};
     for (const Material& m : scene.materials) {
         reference::Surface s;
-        s.base = glm::dvec4(m.base_colour), s.metallic = m.metallic, s.roughness = m.roughness, s.emission = glm::dvec3(m.emission);
+        s.base = glm::dvec4(m.base_colour), s.metallic = m.metallic, s.roughness = m.roughness,
+        s.emission = glm::dvec3(m.emission);
         s.base_texture = texture_of(scene, m.base_colour_texture, &scene.transfer);
         s.metallic_roughness_texture = texture_of(scene, m.metallic_roughness_texture, nullptr);
         s.emission_texture = texture_of(scene, m.emission_texture, &srgb);
@@ -70,7 +75,8 @@ inline reference::Geometry geometry_of(const Scene& scene, const std::vector<glm
 }
 
 /// Adds a mesh of one primitive and the node that carries it.
-inline uint32_t add_mesh(Scene& scene, std::vector<Vertex> vertices, std::vector<uint32_t> indices, uint32_t material, Node node = {}) {
+inline uint32_t add_mesh(Scene& scene, std::vector<Vertex> vertices, std::vector<uint32_t> indices, uint32_t material,
+                         Node node = {}) {
     Primitive p;
     p.material = material, p.vertices = std::move(vertices), p.indices = std::move(indices);
     for (const Vertex& v : p.vertices) p.bounds.add(v.position);
@@ -80,7 +86,8 @@ inline uint32_t add_mesh(Scene& scene, std::vector<Vertex> vertices, std::vector
     return node.mesh;
 }
 
-/// A rectangle at `corner` with sides `u` and `v`, seen from where u x v points. uv (0, 0) is the upper left: at corner + v.
+/// A rectangle at `corner` with sides `u` and `v`, seen from where u x v points. uv (0, 0) is the upper left: at corner
+/// + v.
 inline std::vector<Vertex> rectangle(glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     const glm::vec3 n = glm::normalize(glm::cross(u, v));
     const auto vertex = [&](glm::vec3 p, float s, float t) {

@@ -13,8 +13,8 @@ namespace vesper::test {
 
 constexpr uint32_t kEveryTone[]{shared::kToneCurve, shared::kToneReinhard, shared::kToneLinear, shared::kToneLdr};
 
-/// A tone curve with parameters for every operator: a crooked table from 0.01 to 1e4 cd/m^2, Reinhard with white at 3000,
-/// linear from 0.05 to 80.
+/// A tone curve with parameters for every operator: a crooked table from 0.01 to 1e4 cd/m^2, Reinhard with white at
+/// 3000, linear from 0.05 to 80.
 inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 100) {
     shared::ToneCurve c{};
     c.adaptation = c.log_average = 0.7f, c.maximum = 3000;
@@ -34,12 +34,14 @@ inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 1
 }
 
 /// Pixels from 1e-4 to 1e8 cd/m^2, saturated and grey, some black.
-inline std::vector<glm::vec4> night_pixels(VkExtent2D extent, uint32_t seed, float log10_low = -4, float log10_high = 8) {
+inline std::vector<glm::vec4> night_pixels(VkExtent2D extent, uint32_t seed, float log10_low = -4,
+                                           float log10_high = 8) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> decades(log10_low, log10_high), unit(0, 1);
     std::vector<glm::vec4> pixels;
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
-        const glm::vec3 tint = i % 3 == 0 ? glm::vec3(1) : glm::vec3(unit(random), unit(random), i % 5 == 0 ? 0.0f : unit(random));
+        const glm::vec3 tint =
+            i % 3 == 0 ? glm::vec3(1) : glm::vec3(unit(random), unit(random), i % 5 == 0 ? 0.0f : unit(random));
         pixels.emplace_back(i % 17 == 0 ? glm::vec3(0) : tint * std::pow(10.0f, decades(random)), 1);
     }
     return pixels;

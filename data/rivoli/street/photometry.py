@@ -2,7 +2,8 @@
 
 import json
 
-_SODIUM, _HALOGEN, _TAIL_RED = 2400, 3800, [1.0, 0.02, 0.01]
+_SODIUM, _HALOGEN = 2400, 3800  # K
+_TAIL_RED, _SIGNAL_RED, _SIGNAL_GREEN = [1.0, 0.02, 0.01], [1.0, 0.05, 0.02], [0.05, 1.0, 0.55]
 
 
 def photometry():
@@ -14,76 +15,18 @@ def photometry():
         "sky": {"luminance_cd_m2": 0.02, "colour_temperature_K": 2800},
         "lights": {"keep": False},
         "lamps": [
-            # the lanterns' reflectors: mostly down and, tilted 6 degrees, towards the carriageway
-            {
-                "name": "street lamp",
-                "nodes": "street_lamp_*/light",
-                "type": "spot",
-                "intensity_cd": 1300,
-                "inner_cone_deg": 48,
-                "outer_cone_deg": 82,
-                "aim": [-0.1, 0, -1],
-                "colour_temperature_K": _SODIUM,
-            },
-            # what their glass lets out in all directions, on facades and trees
-            {
-                "name": "street lamp glass",
-                "nodes": "street_lamp_*/light",
-                "type": "point",
-                "intensity_cd": 300,
-                "colour_temperature_K": _SODIUM,
-            },
-            {
-                "name": "arcade lantern",
-                "nodes": "arcade_lamp_*/light",
-                "type": "point",
-                "intensity_cd": 150,
-                "colour_temperature_K": 2700,
-            },
-            {
-                "name": "ego low beam",
-                "nodes": "car_ego/headlamp_*",
-                "type": "cosine_power",
-                "intensity_cd": 7000,
-                "exponent": 250,
-                "colour_temperature_K": _HALOGEN,
-            },
-            {
-                "name": "low beam",
-                "nodes": "car_traffic_*/headlamp_*",
-                "type": "cosine_power",
-                "intensity_cd": 9000,
-                "exponent": 250,
-                "colour_temperature_K": _HALOGEN,
-            },
-            {
-                "name": "position lamp",
-                "nodes": "car_parked_*/headlamp_*",
-                "type": "spot",
-                "intensity_cd": 8,
-                "inner_cone_deg": 40,
-                "outer_cone_deg": 80,
-                "colour_temperature_K": 3000,
-            },
-            _red("ego tail lamp", "car_ego/tail_*", 7),
-            _red("tail lamp", "car_traffic_*/tail_*", 7),
-            _red("parked tail lamp", "car_parked_*/tail_*", 3),
-            {
-                "name": "red signal",
-                "nodes": "signal_*/red",
-                "type": "cosine_power",
-                "intensity_cd": 70,
-                "exponent": 6,
-                "colour_rgb": [1.0, 0.05, 0.02],
-            },
-            {
-                "name": "green signal",
-                "nodes": "signal_*/green",
-                "type": "cosine_power",
-                "intensity_cd": 70,
-                "exponent": 6,
-                "colour_rgb": [0.05, 1.0, 0.55],
-            },
+            # The lanterns' reflectors: mostly down and, tilted 6 degrees, towards the carriageway.
+            _spot("street lamp", "street_lamp_*/light", 1300, (48, 82), _SODIUM, aim=[-0.1, 0, -1]),
+            # What their glass lets out above the reflector, on facades and trees.
+            _spot("street lamp glass", "street_lamp_*/light", 300, (50, 86), _SODIUM, aim=[0, 0, 1]),
+            _spot("arcade lantern", "arcade_lamp_*/light", 150, (45, 80), 2700),
+            _spot("ego low beam", "car_ego/headlamp_*", 9000, (1.5, 17), _HALOGEN),
+            _spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 14), _HALOGEN),
+            _spot("position lamp", "car_parked_*/headlamp_*", 6, (20, 65), 3000),
+            _red("tail lamp", ["car_traffic_*/tail_*", "car_ego/tail_*"], 6, (15, 70)),
+            _red("parked tail lamp", "car_parked_*/tail_*", 3, (15, 65)),
+            _signal("red signal", "signal_*/red", _SIGNAL_RED),
+            _signal("green signal", "signal_*/green", _SIGNAL_GREEN),
         ],
         "emitters": [
             {
@@ -111,12 +54,12 @@ def photometry():
                 "luminance_cd_m2": 45,
                 "colour_rgb": _TAIL_RED,
             },
-            {"name": "red signal", "materials": "signal_red", "luminance_cd_m2": 2200, "colour_rgb": [1.0, 0.05, 0.02]},
+            {"name": "red signal", "materials": "signal_red", "luminance_cd_m2": 2200, "colour_rgb": _SIGNAL_RED},
             {
                 "name": "green signal",
                 "materials": "signal_green",
                 "luminance_cd_m2": 2200,
-                "colour_rgb": [0.05, 1.0, 0.55],
+                "colour_rgb": _SIGNAL_GREEN,
             },
             {
                 "name": "warm room",
@@ -157,14 +100,34 @@ def photometry():
     }
 
 
-def _red(name, nodes, candela):
+def _spot(name, nodes, candela, cones, kelvin, aim=(0, 0, -1)):
+    """A lamp of full intensity within the first half angle (degrees) that fades to nothing at the second."""
+    return {
+        "name": name,
+        "nodes": nodes,
+        "type": "spot",
+        "intensity_cd": candela,
+        "inner_cone_deg": cones[0],
+        "outer_cone_deg": cones[1],
+        "aim": list(aim),
+        "colour_temperature_K": kelvin,
+    }
+
+
+def _red(name, nodes, candela, cones):
+    lamp = _spot(name, nodes, candela, cones, None)
+    del lamp["colour_temperature_K"]
+    return lamp | {"colour_rgb": _TAIL_RED}
+
+
+def _signal(name, nodes, colour):
     return {
         "name": name,
         "nodes": nodes,
         "type": "cosine_power",
-        "intensity_cd": candela,
-        "exponent": 1.5,
-        "colour_rgb": _TAIL_RED,
+        "intensity_cd": 70,
+        "exponent": 6,
+        "colour_rgb": colour,
     }
 
 

@@ -1,5 +1,6 @@
 #include "renderer.h"
 
+#include <chrono>
 #include <cstring>
 
 namespace vesper {
@@ -79,12 +80,14 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
 }
 
 Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, Outputs outputs) {
+    const auto start = std::chrono::steady_clock::now();
     LightList lights = light_list(lights_, frame, view);
     if (settings.tone_operator == Operator::Ldr) set_to_one(lights, settings.ldr_reference_distance);
 
     FrameGraph graph;
     const Declared declared = declare(graph, settings, view, frame, lights, seconds, outputs);
     executor_.run(graph);
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     plan_ = graph.describe(executor_.plan());
 
     Frame result;
@@ -105,6 +108,7 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     result.lights = uint32_t(lights.lights.size());
     result.far = declared.far;
     result.timings = executor_.timings();
+    result.milliseconds = elapsed.count();
     return result;
 }
 

@@ -58,6 +58,7 @@ struct Frame {
     uint32_t lights = 0;            ///< lamps that shine
     float far = 0;                  ///< m: the far limit of the clusters
     std::vector<Timing> timings;
+    double milliseconds = 0;        ///< from declaring the frame to the device being done, on the host's clock
 };
 
 /// Renders one scene on one device. Not thread-safe; several renderers may share a device in one thread.

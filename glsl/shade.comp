@@ -133,8 +133,11 @@ void add_directional() {
 }
 
 void main() {
-    const uint group = gl_WorkGroupID.x * push.group_step % push.groups;
-    const uvec2 invocation = uvec2(group % push.groups_x, group / push.groups_x) * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
+    // A CPU device gives each thread a run of consecutive workgroups. Taking every bands-th row of the image in turn spreads
+    // sky and road over the threads and still reads the images in order.
+    const uint row = gl_WorkGroupID.y, turn = push.group_rows / push.bands;
+    const uvec2 group = uvec2(gl_WorkGroupID.x, row % turn * push.bands + row / turn);
+    const uvec2 invocation = group * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
     const uvec2 first = invocation * uvec2(1u, kRows);
 
     shiny = false;

@@ -94,7 +94,8 @@ Header describe_frame(const RenderArguments& arguments, const Device& device, co
             {"vesper:device", device.name() + ", " + device.driver()}};
 }
 
-void print_statistics(const RenderArguments& arguments, const Device& device, const Renderer& renderer, const Frame& frame) {
+void print_statistics(const RenderArguments& arguments, const Device& device, const Renderer& renderer, const Frame& frame,
+                      std::vector<double> milliseconds) {
     std::printf("%s on %s (%s)\n", arguments.scene.c_str(), device.name().c_str(), device.driver().c_str());
     std::printf("%ux%u, %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width, frame.extent.height,
                 name_of(arguments.settings.tone_operator).c_str(), static_cast<unsigned long long>(renderer.scene().triangles()),
@@ -107,11 +108,15 @@ void print_statistics(const RenderArguments& arguments, const Device& device, co
     double total = 0;
     std::printf("device time, ms\n");
     for (const Timing& timing : frame.timings) {
-        if (timing.pass.starts_with("read ")) continue;
         std::printf("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
         total += timing.milliseconds;
     }
-    std::printf("  %-24s %8.3f\n", "frame", total);
+    std::printf("  %-24s %8.3f\n", "sum", total);
+    // The first frame makes the driver compile its shaders.
+    if (milliseconds.size() > 1) milliseconds.erase(milliseconds.begin());
+    std::sort(milliseconds.begin(), milliseconds.end());
+    std::printf("frame on the host's clock, ms: median %.1f of %zu, least %.1f\n", milliseconds[milliseconds.size() / 2],
+                milliseconds.size(), milliseconds.front());
 }
 
 void write_outputs(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, unsigned index, double seconds) {
@@ -148,15 +153,17 @@ void run(RenderArguments& arguments) {
     Device device({.select = arguments.device});
     Renderer renderer(device, scene);
     Progress progress("rendering", arguments.frames);
+    std::vector<double> milliseconds;
     for (unsigned index = 0; index < arguments.frames; ++index) {
         const double seconds = arguments.start + index * arguments.dt;
         moment.world = world_transforms(scene, seconds);
         const View view = camera_view(scene, moment, arguments.camera, extent);
         const Frame frame = renderer.render(arguments.settings, view, moment, index == 0 ? 0.0f : float(arguments.dt), outputs);
+        milliseconds.push_back(frame.milliseconds);
         write_outputs(arguments, device, view, frame, index, seconds);
         if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);
         if (index + 1 == arguments.frames) {
-            if (arguments.statistics) print_statistics(arguments, device, renderer, frame);
+            if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
             if (!arguments.statistics_file.empty()) {
                 std::ofstream file(arguments.statistics_file);
                 file << json_of(luminance_statistics(frame.scene)) << "\n";

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "passes/passes.h"
 
 namespace vesper {
@@ -9,20 +5,13 @@ namespace {
 
 constexpr uint32_t kBlockCapacity = 256;  // lights of a block of pixels; more, and it looks at every light
 
-// A stride through `groups` that visits each once and keeps neighbours in time far apart: near the golden section.
-uint32_t scatter_step(uint32_t groups) {
-    uint32_t step = std::max(1u, uint32_t(groups * 0.618));
-    while (std::gcd(step, groups) != 1) ++step;
-    return step;
-}
-
 }  // namespace
 
 Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g, const Clusters& clusters, const View& view, const ShadeSettings& settings) {
     const Groups block_grid = cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
     const uint32_t blocks = block_grid.x * block_grid.y;
     const Groups group_grid = cover(view.extent.width, view.extent.height, kernels.shade_group.width, kernels.shade_group.height * kernels.shade_rows);
-    const uint32_t groups = group_grid.x * group_grid.y;
+    const uint32_t group_rows = (group_grid.y + kernels.shade_bands - 1) / kernels.shade_bands * kernels.shade_bands;
     const glm::uvec2 pixels{view.extent.width, view.extent.height};
     constexpr uint64_t kWord = sizeof(uint32_t);
 
@@ -45,11 +34,11 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
                                  .blocks_x = block_grid.x,
                                  .capacity = kBlockCapacity,
                                  .groups_x = group_grid.x,
-                                 .groups = groups,
-                                 .group_step = scatter_step(groups)};
+                                 .group_rows = group_rows,
+                                 .bands = kernels.shade_bands};
     graph.dispatch("shade", settings.all_lights ? kernels.shade_every_light : kernels.shade,
                    {load(g.reflectance), load(g.surface), load(g.emission), sample(clusters.lights), sample(counts), sample(entries), store(scene)},
-                   push, {groups, 1, 1});
+                   push, {group_grid.x, group_rows, 1});
     return scene;
 }
 

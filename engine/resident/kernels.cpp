@@ -38,6 +38,7 @@ Kernels::Kernels(const Device& device)
     : cluster(device, "cluster.comp", cluster_comp),
       shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{8, 8}),
       shade_rows(device.is_cpu() ? 8 : 1),
+      shade_bands(device.is_cpu() ? 16 : 1),
       select(device, "select.comp", select_comp),
       shade(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 0}),
       shade_every_light(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 1}),

@@ -12,6 +12,7 @@ struct Kernels {
     Kernel cluster;
     VkExtent2D shade_group;  ///< invocations per workgroup of the shading kernels
     uint32_t shade_rows;     ///< pixels of a column that one invocation shades; divides shared::kBlockSize
+    uint32_t shade_bands;    ///< as shared::ShadePush::bands
     Kernel select;
     Kernel shade, shade_every_light;
     Kernel pyramid_first, pyramid;

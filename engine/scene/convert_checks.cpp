@@ -40,7 +40,8 @@ double mean_reflectance(const Scene& scene, const Material& material, const Tran
 
 void check_reflectances(const Scene& scene, ConversionReport& report) {
     for (const Material& material : scene.materials) {
-        if (material.metallic > 0.5f) continue;  // no diffuse reflectance
+        // Metal has no diffuse reflectance; what shines hides what it reflects.
+        if (material.metallic > 0.5f || material.emission != glm::vec3(0)) continue;
         if (material.alpha == Material::Alpha::Mask && material.base_colour.a < material.alpha_cutoff)
             continue;  // glass
         const double mean = mean_reflectance(scene, material, scene.transfer);

@@ -31,8 +31,8 @@ struct ShadePush {
     uint blocks_x;          // as in SelectPush
     uint capacity;
     uint groups_x;          // workgroups in a row
-    uint groups;            // in all
-    uint group_step;        // workgroup i takes place (i group_step) mod groups: spreads sky and road over the cores
+    uint group_rows;        // rows of workgroups, rounded up to a multiple of bands
+    uint bands;             // consecutive rows of workgroups are `bands` rows apart in the image: spreads sky and road
 };
 SHARED_SIZE(ShadePush, 116)
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "support/lights.h"
 #include "support/texels.h"
 
@@ -231,6 +232,18 @@ TEST(Cluster, GridMapsDepthsFromAMetreToTheEnd) {
     EXPECT_EQ(reference::slice_of(c.push.grid, 1.001), 1u);
     EXPECT_EQ(reference::slice_of(c.push.grid, 399.9), c.push.grid.slices - 1);
     EXPECT_NEAR(reference::slice_depth(c.push.grid, c.push.grid.slices), 400, 0.01);
+}
+
+TEST(Cluster, RefusesImpossibleSettings) {
+    PassRig rig;
+    FrameGraph graph;
+    const LightList list = street_lamps({3, 0, 0}, 100);
+    for (const ClusterSettings& settings : {ClusterSettings{.slices = 0}, ClusterSettings{.slices = 1},
+                                            ClusterSettings{.slices = 33}, ClusterSettings{.capacity = 0}})
+        EXPECT_THROW(add_clusters(graph, rig.kernels(), list, view_of({64, 64}), settings), Error);
+    LightList crowd;
+    crowd.counts.cones = 1u << 20, crowd.lights.resize(1u << 20);
+    EXPECT_THROW(add_clusters(graph, rig.kernels(), crowd, view_of({64, 64}), {}), Error);
 }
 
 }  // namespace

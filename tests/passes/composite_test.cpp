@@ -124,6 +124,12 @@ TEST(Composite, WhatIsNotFiniteIsBlack) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+TEST(Composite, DisplaysShowTheLightThatFallsOnThem) {
+    const Display lcd{200, 0.8f, 2.2f, 60, 0.01f};  // Mantiuk et al. 2008, as in pfstools
+    EXPECT_NEAR(lcd.low(), reference::display_luminance(0, 200, 0.8, 2.2, 60, 0.01), 1e-6);
+    EXPECT_NEAR(lcd.high(), reference::display_luminance(1, 200, 0.8, 2.2, 60, 0.01), 1e-4);
+}
+
 TEST(Composite, GreyStaysGreyAndRampsStayMonotone) {
     PassRig rig;
     const VkExtent2D extent{512, 1};

@@ -103,6 +103,16 @@ Material plain(glm::vec3 colour, bool double_sided = false) {
     return m;
 }
 
+TEST(Gbuffer, ViewsMapPixelsToRays) {
+    const View view = view_of({200, 100}, 1.0f);
+    const reference::Rays rays = rays_of(view);
+    const double top = std::tan(0.5);
+    EXPECT_NEAR(glm::length(rays.at({0, 0}) - glm::dvec3(-2 * top, top, -1)), 0, 1e-6) << "the upper left corner";
+    EXPECT_NEAR(glm::length(rays.at({200, 100}) - glm::dvec3(2 * top, -top, -1)), 0, 1e-6);
+    const double degrees = 180 / 3.14159265358979, step = rays.at({100, 50}).y - rays.at({100, 51}).y;
+    EXPECT_NEAR(view.degrees_per_pixel(), std::atan(step) * degrees, 1e-4);
+}
+
 /// Triangles of every attitude, half of them double-sided, carried by nodes that turn, stretch and mirror them.
 Scene soup(uint32_t seed) {
     std::mt19937 random(seed);
@@ -134,7 +144,7 @@ Scene soup(uint32_t seed) {
 
 TEST(Gbuffer, MatchesRaysAtEverySize) {
     PassRig rig;
-    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {65, 33}, {160, 120}}) {
+    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {65, 33}, {320, 200}}) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
         expect_scene(rig, soup(extent.width), view_of(extent));
     }

@@ -1,6 +1,5 @@
-// The glare of Petit, Bremond and Vienne: bright displayed light convolved with a normalised Gaussian.
-// SPDX-License-Identifier: MIT Twice: as the pass does it (a quarter of the resolution, separable), and as it is
-// defined (full resolution, direct).
+// Bright displayed light convolved with a normalised Gaussian (Petit, Bremond, Vienne). SPDX-License-Identifier: MIT
+// Twice: as the pass does it (a quarter of the resolution, separable), and as it is defined (full resolution, direct).
 #pragma once
 
 #include "passes/composite_reference.h"

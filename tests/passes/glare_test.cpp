@@ -82,6 +82,14 @@ TEST(LdrGlare, MatchesTheReferenceForEveryOperatorAndSize) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+TEST(LdrGlare, MatchesTheReferenceOfAWholeFrame) {
+    PassRig rig;
+    const VkExtent2D extent{1680, 1050};
+    expect_reference(rig, {View::symmetric(extent, 0.6f, glm::mat4(1)), night_pixels(extent, 3, -2, 4)},
+                     shared::kToneCurve);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 TEST(LdrGlare, MatchesTheReferenceForEveryWidthAndThreshold) {
     PassRig rig;
     const VkExtent2D extent{90, 70};

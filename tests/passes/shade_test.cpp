@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "base/error.h"
 #include "support/compare.h"
 #include "support/lights.h"
 #include "support/texels.h"
@@ -149,6 +150,35 @@ TEST(Shade, ClusteredIsEveryLight) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+/// A street canyon: a road 1.2 m under the eye between walls at 8 m, sky above 20 m, in a whole frame.
+Surfaces canyon(const View& view) {
+    Surfaces s{view.extent, {}, {}, {}};
+    const glm::vec2 up = reference::octahedral_encode({0, 1, 0});
+    const glm::vec2 left = reference::octahedral_encode({-1, 0, 0}), right = reference::octahedral_encode({1, 0, 0});
+    for (uint32_t i = 0; i < view.extent.width * view.extent.height; ++i) {
+        const glm::vec2 pixel(i % view.extent.width, i / view.extent.width);
+        const glm::vec2 ray = view.ray_scale() * (pixel + 0.5f) + view.ray_offset();
+        const float road = ray.y < 0 ? 1.2f / -ray.y : 1e6f, wall = 8 / std::max(std::abs(ray.x), 1e-6f);
+        const float depth = std::min(road, wall);
+        s.reflectance.emplace_back(0.25f, 0.375f, 0.5f, 0), s.emission.emplace_back(0);
+        s.surface.emplace_back(road < wall ? up
+                               : ray.x < 0 ? right
+                                           : left,
+                               depth * ray.y > 20 || depth > 1000 ? 0 : depth, road < wall ? 0.5f : 1.0f);
+    }
+    return s;
+}
+
+TEST(Shade, ClusteredIsEveryLightInAWholeFrame) {
+    PassRig rig;
+    const Surfaces s = canyon(View::symmetric({1680, 1050}, 0.7f, glm::mat4(1)));
+    const LightList list = street_lamps({50, 30, 1}, 300, 16);
+    const Shot clustered = shade(rig, s, list, {.far = 400}, {}), all = shade(rig, s, list, {}, {.all_lights = true});
+    EXPECT_EQ(clustered.report.overflowed, 0u);
+    EXPECT_TRUE(same_light("clustered", picture(s.extent, clustered.pixels), picture(s.extent, all.pixels), {0, 0}));
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 TEST(Shade, OverflowedFroxelsLookAtEveryLight) {
     PassRig rig;
     const Surfaces s = street({140, 70}, 5);
@@ -177,6 +207,31 @@ TEST(Shade, ThousandsOfLampsInOverflowedFroxels) {
                 << count << ", capacity " << capacity;
         }
     }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// The most that add_clusters takes, all in every pixel, glossy pixels beside dull ones: none may be lost.
+TEST(Shade, AsManyLampsAsThereMayBe) {
+    PassRig rig;
+    constexpr uint32_t kMost = 32000;
+    Surfaces s = street({64, 8}, 17);
+    for (size_t i = 0; i < s.surface.size(); ++i) {
+        s.surface[i] = {0, 0, 10, i % 2 ? 0.5f : 1.0f};
+        s.reflectance[i] = {0.5f, 0.5f, 0.5f, 0}, s.emission[i] = glm::vec4(0);
+    }
+    LightList one = street_lamps({1, 0, 0}, 1);
+    one.lights[0] = {{0, 0, 0}, 1000, {0, 0, -1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
+    LightList most = one;
+    most.lights.assign(kMost, one.lights[0]), most.counts.cones = kMost;
+    const Shot single = shade(rig, s, one, {}, {});
+    for (bool all_lights : {false, true}) {
+        const Shot got = shade(rig, s, most, {}, {.all_lights = all_lights});
+        // 1e-3: the sum of 32,000 equal floats; a lost light in a thousand would show.
+        for (size_t i = 0; i < s.surface.size(); ++i)
+            ASSERT_NEAR(got.pixels[i].y / single.pixels[i].y / kMost, 1, 1e-3) << "pixel " << i;
+    }
+    most.lights.push_back(one.lights[0]), ++most.counts.cones;
+    EXPECT_THROW(shade(rig, s, most, {}, {}), Error);
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -25,7 +25,7 @@ layout(binding = 6, rgba32f) writeonly uniform image2D scene_image;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
 vec3 position[kRows], normal[kRows], toward_eye[kRows];
-float alpha_squared[kRows], normal_eye[kRows];  // GGX a^2, cosine towards the eye
+float alpha_squared[kRows], normal_eye[kRows], smith_eye[kRows];  // GGX a^2, cosine towards the eye, its masking
 uint slice_bit[kRows];                   // 0: nothing is drawn
 vec3 diffuse[kRows];                  // illuminance, lx RGB
 vec3 specular[kRows], grazing[kRows]; // sums that F0 and F90 multiply, cd/m^2 RGB
@@ -35,8 +35,7 @@ bool shiny;                           // true if any of the pixels has a specula
 float microfacets(uint r, float normal_half, float normal_light) {
     const float a2 = alpha_squared[r];
     const float bump = normal_half * normal_half * (a2 - 1.0) + 1.0;
-    const float smith = normal_light * sqrt(normal_eye[r] * normal_eye[r] * (1.0 - a2) + a2) +
-                        normal_eye[r] * sqrt(normal_light * normal_light * (1.0 - a2) + a2);
+    const float smith = normal_light * smith_eye[r] + normal_eye[r] * sqrt(normal_light * normal_light * (1.0 - a2) + a2);
     return 0.5 * a2 / (kPi * bump * bump * smith);
 }
 
@@ -153,6 +152,7 @@ void main() {
         normal_eye[r] = max(dot(normal[r], toward_eye[r]), 1e-4);
         const float a = max(surface.w * surface.w, 1e-3);
         alpha_squared[r] = a * a;
+        smith_eye[r] = sqrt(normal_eye[r] * normal_eye[r] * (1.0 - a * a) + a * a);
         slice_bit[r] = 0u;
         if (drawn) {
             slice_bit[r] = 1u << uint(clamp(log2(depth) * push.grid.slice_scale + push.grid.slice_bias, 0.0, float(push.grid.slices) - 1.0));

@@ -25,33 +25,27 @@ layout(binding = 6, rgba32f) writeonly uniform image2D scene_image;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
 vec3 position[kRows], normal[kRows], toward_eye[kRows];
-float alpha_squared[kRows], normal_eye[kRows], smith_eye[kRows];  // GGX a^2, cosine towards the eye, its masking
-uint slice_bit[kRows];                   // 0: nothing is drawn
-vec3 diffuse[kRows];                  // illuminance, lx RGB
-vec3 specular[kRows], grazing[kRows]; // sums that F0 and F90 multiply, cd/m^2 RGB
-bool shiny;                           // true if any of the pixels has a specular lobe
+uint slice_bit[kRows];        // 0: nothing is drawn
+bool shiny;                   // whether any of the pixels has a specular lobe
+vec3 sum[kRows];              // shiny: luminance, cd/m^2 RGB; otherwise illuminance, lx RGB
 
-// GGX distribution (Walter et al. 2007) times height-correlated Smith visibility (Heitz 2014), without Fresnel.
-float microfacets(uint r, float normal_half, float normal_light) {
-    const float a2 = alpha_squared[r];
-    const float bump = normal_half * normal_half * (a2 - 1.0) + 1.0;
-    const float smith = normal_light * smith_eye[r] + normal_eye[r] * sqrt(normal_light * normal_light * (1.0 - a2) + a2);
-    return 0.5 * a2 / (kPi * bump * bump * smith);
-}
+// What the specular lobe of a pixel needs; only filled where there is one.
+vec3 diffuse[kRows], f0[kRows];  // luminance coefficient rho lambert, sr^-1; reflectance facing the surface
+float f90[kRows];                // and at grazing incidence
+float a2[kRows];                 // GGX alpha^2
+float normal_eye[kRows], smith_eye[kRows];
 
-// Light of illuminance e (lx RGB, on the surface) arriving from a direction. The half vector is not needed itself: with
-// l and v of unit length, n.h = (n.l + n.v) / |l + v| and v.h = |l + v| / 2. |l + v|^2 is summed, not taken as 2 + 2 l.v:
-// towards a headlamp down the road l is nearly -v, and that difference would be nothing but rounding.
-void reflect_light(uint r, vec3 e, vec3 toward_light, float normal_light) {
-    const vec3 sum = toward_light + toward_eye[r];
-    const float squared = max(dot(sum, sum), 1e-8);
-    const float inverse = inversesqrt(squared);
-    const float normal_half = clamp((normal_light + dot(normal[r], toward_eye[r])) * inverse, 0.0, 1.0);
-    const float off = max(1.0 - 0.5 * squared * inverse, 0.0);
-    const float lobe = microfacets(r, normal_half, normal_light);
-    const float schlick = off * off * off * off * off;
-    specular[r] += e * (lobe * (1.0 - schlick));
-    grazing[r] += e * (lobe * schlick);
+// Luminance coefficient, sr^-1: Lambert, and GGX (Walter et al. 2007) with height-correlated Smith masking (Heitz 2014) and
+// Schlick's Fresnel. With s = l + v, n.h = n.s / |s| and v.h = |s| / 2, so that one division does for everything.
+vec3 coefficient(uint r, vec3 toward_light, float normal_light) {
+    const vec3 s = toward_light + toward_eye[r];
+    const float s2 = max(dot(s, s), 1e-8);
+    const float normal_s = normal_light + dot(normal[r], toward_eye[r]);
+    const float bump = max(s2 - (1.0 - a2[r]) * normal_s * max(normal_s, 0.0), a2[r] * s2);  // times s2 what GGX squares
+    const float smith = normal_light * smith_eye[r] + normal_eye[r] * sqrt(normal_light * normal_light * (1.0 - a2[r]) + a2[r]);
+    const float lobe = a2[r] * s2 * s2 / (2.0 * kPi * bump * bump * smith);
+    const float off = max(1.0 - 0.5 * sqrt(s2), 0.0), off2 = off * off, schlick = off2 * off2 * off;
+    return diffuse[r] + lobe * (f0[r] + (f90[r] - f0[r]) * schlick);
 }
 
 struct Lamp {
@@ -86,8 +80,7 @@ void add_lamp(Lamp lamp, uint slices, bool power, bool glossy) {
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
         const bool counts_here = facing >= push.threshold && (slice_bit[r] & slices) != 0u;
         const vec3 e = lamp.colour * (counts_here ? facing * max(normal_light, 0.0) : 0.0);
-        diffuse[r] += e;
-        if (glossy) reflect_light(r, e, to * inverse, max(normal_light, 0.0));
+        sum[r] += glossy ? e * coefficient(r, to * inverse, max(normal_light, 0.0)) : e;
     }
 }
 
@@ -122,13 +115,23 @@ void add_directional() {
     for (uint i = 0u; i < push.lights.directional; ++i) {
         const Lamp lamp = fetch(first + i);
         [[unroll]] for (uint r = 0u; r < kRows; ++r) {
-            const float normal_light = dot(normal[r], -lamp.axis);
-            const bool lit = normal_light > 0.0 && slice_bit[r] != 0u;
-            const vec3 e = lamp.colour * (lit ? lamp.intensity * normal_light : 0.0);
-            diffuse[r] += e;
-            if (lit && shiny) reflect_light(r, e, -lamp.axis, normal_light);
+            const float normal_light = max(dot(normal[r], -lamp.axis), 0.0);
+            const vec3 e = lamp.colour * (lamp.intensity * normal_light);
+            sum[r] += shiny ? e * coefficient(r, -lamp.axis, normal_light) : e;
         }
     }
+}
+
+// Prepares the specular lobe of a pixel. A dielectric's 4 % fades out as its lobe widens to a Lambert one, which its
+// reflectance already holds.
+void prepare_lobe(uint r, vec3 base, float metallic, float roughness) {
+    const float a = roughness * roughness, cosine = dot(normal[r], toward_eye[r]);
+    diffuse[r] = base * ((1.0 - metallic) * push.lambert);
+    f0[r] = mix(vec3(0.04 * (1.0 - a * a)), base, metallic);
+    f90[r] = clamp(25.0 * max(f0[r].r, max(f0[r].g, f0[r].b)), 0.0, 1.0);
+    a2[r] = max(a, 1e-3) * max(a, 1e-3);
+    normal_eye[r] = max(cosine, 1e-4);
+    smith_eye[r] = sqrt(normal_eye[r] * normal_eye[r] * (1.0 - a2[r]) + a2[r]);
 }
 
 void main() {
@@ -140,26 +143,24 @@ void main() {
     const uvec2 first = invocation * uvec2(1u, kRows);
 
     shiny = false;
+    vec3 base[kRows];
+    float metallic[kRows];
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const uvec2 pixel = first + uvec2(0u, r);
         const vec4 surface = imageLoad(surface_image, ivec2(pixel));
+        const vec4 reflectance = imageLoad(reflectance_image, ivec2(pixel));
         const bool drawn = surface.z > 0.0 && all(lessThan(pixel, push.size));
         const float depth = drawn ? surface.z : 1.0;
-        const vec2 ray = push.grid.ray_scale * (vec2(pixel) + 0.5) + push.grid.ray_offset;
-        position[r] = vec3(ray, -1.0) * depth;
+        const float slice = log2(depth) * push.grid.slice_scale + push.grid.slice_bias;
+        slice_bit[r] = drawn ? 1u << uint(clamp(slice, 0.0, float(push.grid.slices) - 1.0)) : 0u;
+        position[r] = vec3(push.grid.ray_scale * (vec2(pixel) + 0.5) + push.grid.ray_offset, -1.0) * depth;
         normal[r] = decode_normal(surface.xy);
         toward_eye[r] = normalize(-position[r]);
-        normal_eye[r] = max(dot(normal[r], toward_eye[r]), 1e-4);
-        const float a = max(surface.w * surface.w, 1e-3);
-        alpha_squared[r] = a * a;
-        smith_eye[r] = sqrt(normal_eye[r] * normal_eye[r] * (1.0 - a * a) + a * a);
-        slice_bit[r] = 0u;
-        if (drawn) {
-            slice_bit[r] = 1u << uint(clamp(log2(depth) * push.grid.slice_scale + push.grid.slice_bias, 0.0, float(push.grid.slices) - 1.0));
-            const float metallic = imageLoad(reflectance_image, ivec2(pixel)).a;
-            if (surface.w < 1.0 || metallic > 0.0) shiny = true;
-        }
-        diffuse[r] = specular[r] = grazing[r] = vec3(0.0);
+        base[r] = reflectance.rgb;
+        metallic[r] = reflectance.a;
+        shiny = shiny || (drawn && (surface.w < 1.0 || reflectance.a > 0.0));
+        prepare_lobe(r, base[r], metallic[r], surface.w);
+        sum[r] = vec3(0.0);
     }
 
     // Two loops, of which a CPU device skips the one that none of its lanes takes; it would not skip an if.
@@ -172,15 +173,8 @@ void main() {
 
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const uvec2 pixel = first + uvec2(0u, r);
-        const vec4 reflectance = imageLoad(reflectance_image, ivec2(pixel));
-        const vec3 base = reflectance.rgb, rho = base * (1.0 - reflectance.a);
-        const float roughness = imageLoad(surface_image, ivec2(pixel)).w;
-        const float a2 = roughness * roughness * roughness * roughness;
-        // A dielectric's 4 % fades out as its lobe widens to a Lambert one, which its reflectance already holds.
-        const vec3 f0 = mix(vec3(0.04 * (1.0 - a2)), base, reflectance.a);
-        const float f90 = clamp(25.0 * max(f0.r, max(f0.g, f0.b)), 0.0, 1.0);
+        const vec3 reflected = (shiny ? sum[r] : sum[r] * diffuse[r]) + push.ambient * base[r] * push.lambert;
         const vec3 emission = min(imageLoad(emission_image, ivec2(pixel)).rgb, vec3(push.emission_limit));
-        const vec3 reflected = (diffuse[r] * rho + push.ambient * base) * push.lambert + f0 * specular[r] + f90 * grazing[r];
         const vec3 luminance = slice_bit[r] == 0u ? push.sky : reflected + emission;
         if (all(lessThan(pixel, push.size))) imageStore(scene_image, ivec2(pixel), vec4(luminance, 1.0));
     }

@@ -131,7 +131,8 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
 
 void run(RenderArguments& arguments) {
     const VkExtent2D extent = parse_size(arguments.size);
-    Outputs outputs{.display = false, .scene = arguments.statistics || !arguments.statistics_file.empty()};
+    const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
+    Outputs outputs{.display = false, .scene = false};
     for (const std::string& output : arguments.outputs) {
         if (!ends_with(output, ".png") && !ends_with(output, ".exr")) throw Error("-o " + output + ": a .png or .exr file is expected");
         file_of_frame(output, 0, arguments.frames);
@@ -158,11 +159,13 @@ void run(RenderArguments& arguments) {
         const double seconds = arguments.start + index * arguments.dt;
         moment.world = world_transforms(scene, seconds);
         const View view = camera_view(scene, moment, arguments.camera, extent);
-        const Frame frame = renderer.render(arguments.settings, view, moment, index == 0 ? 0.0f : float(arguments.dt), outputs);
+        const bool last = index + 1 == arguments.frames;
+        const Frame frame = renderer.render(arguments.settings, view, moment, index == 0 ? 0.0f : float(arguments.dt),
+                                            {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
         write_outputs(arguments, device, view, frame, index, seconds);
         if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);
-        if (index + 1 == arguments.frames) {
+        if (last) {
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
             if (!arguments.statistics_file.empty()) {
                 std::ofstream file(arguments.statistics_file);

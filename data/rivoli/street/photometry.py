@@ -16,9 +16,9 @@ def photometry():
         "lights": {"keep": False},
         "lamps": [
             # The lanterns' reflectors: mostly down and, tilted 6 degrees, towards the carriageway.
-            _spot("street lamp", "street_lamp_*/light", 1300, (48, 82), _SODIUM, aim=[-0.1, 0, -1]),
+            _spot("street lamp", "street_lamp_*/light", 2200, (48, 82), _SODIUM, aim=[-0.1, 0, -1]),
             # What their glass lets out above the reflector, on facades and trees.
-            _spot("street lamp glass", "street_lamp_*/light", 300, (50, 86), _SODIUM, aim=[0, 0, 1]),
+            _spot("street lamp glass", "street_lamp_*/light", 600, (50, 86), _SODIUM, aim=[0, 0, 1]),
             _spot("arcade lantern", "arcade_lamp_*/light", 150, (45, 80), 2700),
             _spot("ego low beam", "car_ego/headlamp_*", 9000, (1.5, 17), _HALOGEN),
             _spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 12), _HALOGEN),
@@ -97,7 +97,9 @@ def photometry():
                 "colour_rgb": [0.05, 1.0, 0.25],
             },
         ],
-        "surfaces": [{"materials": "asphalt*", "reflectance_scale": 1.0, "roughness": 0.8}],
+        # A driver sees a road at grazing angles, where its luminance coefficient is about Q0 = 0.07 sr^-1 (CIE R3) and not
+        # the diffuse albedo of asphalt over pi: until the road has a measured table, its reflectance is pi Q0 = 0.22.
+        "surfaces": [{"materials": "asphalt*", "reflectance_scale": 2.2}],
     }
 
 

@@ -25,11 +25,12 @@ const uint kMaxTurns = 7000u;  // of one invocation; a CPU device counts those o
 
 vec3 position_low, position_high, normal_low, normal_high;
 
-// Finds the nearest slice at or beyond `from` that has pixels in the block, and boxes around them. Returns kNoSlice when
-// there is none.
-uint bound_slice(uvec2 corner, uint from) {
+// Finds the nearest slice at or beyond `from` that has pixels in the block, boxes around them, and the farthest slice of the
+// block. Returns kNoSlice when there is none.
+uint bound_slice(uvec2 corner, uint from, out uint farthest) {
     const ClusterGrid grid = push.view.grid;
     uint nearest = kNoSlice;
+    farthest = 0u;
     const uvec2 end = min(corner + kBlockSize, push.size);
     for (uint y = corner.y; y < end.y; ++y) {
         for (uint x = corner.x; x < end.x; ++x) {
@@ -41,6 +42,7 @@ uint bound_slice(uvec2 corner, uint from) {
             const vec3 position = vec3(grid.ray_scale * (vec2(x, y) + 0.5) + grid.ray_offset, -1.0) * surface.z;
             const vec3 normal = decode_normal(surface.xy);
             nearest = nearer ? slice : nearest;
+            farthest = slice != kNoSlice ? max(farthest, slice) : farthest;
             position_low = nearer ? position : here ? min(position_low, position) : position_low;
             position_high = nearer ? position : here ? max(position_high, position) : position_high;
             normal_low = nearer ? normal : here ? min(normal_low, normal) : normal_low;
@@ -78,7 +80,7 @@ void main() {
     const uint base = block * push.capacity;
     uint cones = 0u, powers = 0u, turns = 0u;
     bool fits = true;
-    uint slice = bound_slice(corner, 0u);
+    uint farthest, slice = bound_slice(corner, 0u, farthest);
     while (fits && slice != kNoSlice) {
         const uint cell = (slice * push.view.grid.tiles_y + tile.y) * push.view.grid.tiles_x + tile.x;
         const uint cell_cones = texelFetch(counts, int(2u * cell)).r;
@@ -99,7 +101,7 @@ void main() {
             cones += power ? 0u : 1u;
         }
         fits = fits && cones + powers <= push.capacity;
-        slice = slice < push.view.grid.slices - 1u ? bound_slice(corner, slice + 1u) : kNoSlice;
+        slice = slice < farthest ? bound_slice(corner, slice + 1u, farthest) : kNoSlice;
     }
     imageStore(block_counts, int(2u * block), uvec4(fits ? cones : kAllLights));
     imageStore(block_counts, int(2u * block + 1u), uvec4(fits ? powers : kAllLights));

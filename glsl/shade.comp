@@ -17,11 +17,10 @@ layout(constant_id = 3) const uint kEveryLight = 0u;  // ignore the lists, for c
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
-layout(binding = 2, rgba32f) readonly uniform image2D emission_image;
+layout(binding = 2, rgba32f) uniform image2D scene_image;  // emission in, luminance out
 layout(binding = 3) uniform samplerBuffer lights;
 layout(binding = 4) uniform usamplerBuffer block_counts;
 layout(binding = 5) uniform usamplerBuffer entries;
-layout(binding = 6, rgba32f) writeonly uniform image2D scene_image;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
 vec3 position[kRows], normal[kRows], toward_eye[kRows];
@@ -174,7 +173,7 @@ void main() {
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const uvec2 pixel = first + uvec2(0u, r);
         const vec3 reflected = (shiny ? sum[r] : sum[r] * diffuse[r]) + push.ambient * base[r] * push.lambert;
-        const vec3 emission = min(imageLoad(emission_image, ivec2(pixel)).rgb, vec3(push.emission_limit));
+        const vec3 emission = min(imageLoad(scene_image, ivec2(pixel)).rgb, vec3(push.emission_limit));
         const vec3 luminance = slice_bit[r] == 0u ? push.sky : reflected + emission;
         if (all(lessThan(pixel, push.size))) imageStore(scene_image, ivec2(pixel), vec4(luminance, 1.0));
     }

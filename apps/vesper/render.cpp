@@ -132,7 +132,7 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
 void run(RenderArguments& arguments) {
     const VkExtent2D extent = parse_size(arguments.size);
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
-    Outputs outputs{.display = false, .scene = false};
+    Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs) {
         if (!ends_with(output, ".png") && !ends_with(output, ".exr")) throw Error("-o " + output + ": a .png or .exr file is expected");
         file_of_frame(output, 0, arguments.frames);

@@ -9,7 +9,7 @@ Resource add_composite(FrameGraph& graph, const Kernels& kernels, const Composit
     // A binding that the variant does not read still has to be bound: the scene stands in.
     graph.dispatch("composite", kernel,
                    {load(in.scene), sample(in.curve), load(in.luminance_glare ? in.luminance_glare : in.scene), sample(in.ldr_glare ? in.ldr_glare : in.scene), store(image)},
-                   push, cover(view.extent.width, view.extent.height, kernel.group[0], kernel.group[1]));
+                   push, cover(view.extent.width, view.extent.height, kernel.group[0], kernel.group[1] * kernels.composite_rows));
     return image;
 }
 

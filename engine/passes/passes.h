@@ -60,7 +60,7 @@ struct ShadeSettings {
     bool all_lights = false;          ///< look at every light in every pixel, for comparison
 };
 
-/// Scene luminance, rgba32f, cd/m^2 RGB (alpha 1):
+/// Turns the emission of a G-buffer, in place, into scene luminance, rgba32f, cd/m^2 RGB (alpha 1):
 /// L = sum_k E_k (rho lambert + specular) + ambient rho lambert + emission, E_k = I_k(direction) cos / d^2, counted where
 /// I_k / d^2 >= threshold. rho = base colour (1 - metallic). Specular: GGX (Walter et al. 2007, a = roughness^2) with
 /// height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel; F0 is the base colour of a metal and

@@ -22,7 +22,6 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
                    shared::SelectPush{clusters.push, pixels, block_grid.x, blocks, kBlockCapacity},
                    cover(blocks, 1, kernels.select.group[0], 1));
 
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, view.extent));
     const shared::ShadePush push{.size = pixels,
                                  .grid = clusters.push.grid,
                                  .lights = clusters.push.lights,
@@ -37,9 +36,9 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
                                  .group_rows = group_rows,
                                  .bands = kernels.shade_bands};
     graph.dispatch("shade", settings.all_lights ? kernels.shade_every_light : kernels.shade,
-                   {load(g.reflectance), load(g.surface), load(g.emission), sample(clusters.lights), sample(counts), sample(entries), store(scene)},
+                   {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(counts), sample(entries)},
                    push, {group_grid.x, group_rows, 1});
-    return scene;
+    return g.emission;
 }
 
 }  // namespace vesper

@@ -22,12 +22,12 @@ std::vector<Kernel> make_bright(const Device& device) {
     return kernels;
 }
 
-std::vector<Kernel> make_composite(const Device& device) {
+std::vector<Kernel> make_composite(const Device& device, uint32_t rows) {
     std::vector<Kernel> kernels;
     for (uint32_t tone = 0; tone < kTones; ++tone)
         for (uint32_t luminance_glare : {0u, 1u})
             for (uint32_t ldr_glare : {0u, 1u})
-                kernels.emplace_back(device, "composite.comp", composite_comp, std::initializer_list{tone, luminance_glare, ldr_glare});
+                kernels.emplace_back(device, "composite.comp", composite_comp, std::initializer_list{tone, luminance_glare, ldr_glare, rows});
     return kernels;
 }
 
@@ -48,6 +48,7 @@ Kernels::Kernels(const Device& device)
       adapt(device, "adapt.comp", adapt_comp),
       bright(make_bright(device)),
       blur(device, "blur.comp", blur_comp),
-      composite(make_composite(device)) {}
+      composite_rows(device.is_cpu() ? 4 : 1),
+      composite(make_composite(device, composite_rows)) {}
 
 }  // namespace vesper

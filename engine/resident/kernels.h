@@ -19,6 +19,7 @@ struct Kernels {
     Kernel histogram, adapt;
     std::vector<Kernel> bright;     ///< by shared::kTone*
     Kernel blur;
+    uint32_t composite_rows;        ///< pixels of a column that one invocation of the composite does
     std::vector<Kernel> composite;  ///< see composite_index
 
     explicit Kernels(const Device& device);

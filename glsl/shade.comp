@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_vote : require
 
 // Photometric shading: L = sum_k E_k (rho lambert + specular) + ambient + emission in cd/m^2, without any windowing of
 // the inverse square. Every invocation shades kRows pixels of one column, so that a light is fetched once for all of them.
@@ -162,7 +163,9 @@ void main() {
         sum[r] = vec3(0.0);
     }
 
-    // Two loops, of which a CPU device skips the one that none of its lanes takes; it would not skip an if.
+    // Two loops, of which a CPU device skips the one that none of its lanes takes; it would not skip an if. Lanes that could
+    // take the cheap one go along with their neighbours rather than make them wait.
+    shiny = subgroupAny(shiny);
     const uvec2 block = min(first, push.size - 1u) / kBlockSize;
     const List list = list_of(block.y * push.blocks_x + block.x);
     const List none = List(0u, 0u, 0u, 0u, false);

@@ -35,8 +35,8 @@ TABLE = [
     # openings
     Material("window_frame", None, 1.0, (0.42, 0.41, 0.38), 1.0),
     Material("window_glass", "window_glass.jpg", roughness=0.08),
-    Material("window_lit_warm", "window_lit_warm.jpg", roughness=0.3),
-    Material("window_lit_cool", "window_lit_cool.jpg", roughness=0.3),
+    Material("window_lit_warm", "window_lit_warm.jpg"),
+    Material("window_lit_cool", "window_lit_cool.jpg"),
     Material("shop_window", "shop_window.jpg", roughness=0.1),
     Material("shop_green", "painted_wood.jpg", 1.0, (0.10, 0.22, 0.16), 1.0),
     Material("shop_red", "painted_wood.jpg", 1.0, (0.40, 0.08, 0.07), 1.0),
@@ -65,7 +65,7 @@ TABLE = [
     Material("lamp_glass", None, 1.0, (0.75, 0.72, 0.62), 0.3),
     Material("signal_red", None, 1.0, (0.50, 0.03, 0.03), 0.3),
     Material("signal_green", None, 1.0, (0.04, 0.45, 0.25), 0.3),
-    Material("signal_off", None, 1.0, (0.05, 0.04, 0.03), 0.3),
+    Material("signal_off", None, 1.0, (0.05, 0.04, 0.03), 1.0),
     # plants
     Material("bark", "bark.jpg", 1.0),
     Material("foliage", "foliage.png", 1.0, masked=True),
@@ -80,7 +80,7 @@ TABLE = [
     Material("paint_red", "car_panels.jpg", 1.0, (0.34, 0.035, 0.03), 0.12),
     Material("paint_beige", "car_panels.jpg", 1.0, (0.42, 0.37, 0.28), 0.12),
     Material("car_glass", None, 1.0, (0.035, 0.04, 0.042), 0.06),
-    Material("car_black", None, 1.0, (0.035, 0.035, 0.035), 0.8),
+    Material("car_black", None, 1.0, (0.035, 0.035, 0.035), 1.0),
     Material("wheel", "wheel.png"),
     Material("plates", "plates.png"),
     Material("headlamp_glass", None, 1.0, (0.60, 0.60, 0.58), 0.1),

@@ -92,8 +92,8 @@ Resource add_histogram(FrameGraph&, const Kernels&, const Pyramid&, uint32_t lev
 /// A display and the light that falls on it (Mantiuk, Daly and Kerofsky 2008): L(V) = (peak - black) V^gamma + black +
 /// reflection * ambient / pi.
 struct Display {
-    float peak = 200;        ///< cd/m^2, of code 1 in the dark
-    float black = 0.2f;      ///< cd/m^2, of code 0 in the dark
+    float peak = 100;        ///< cd/m^2, of code 1 in the dark
+    float black = 0.1f;      ///< cd/m^2, of code 0 in the dark
     float gamma = 2.2f;
     float ambient = 5;       ///< illuminance on the screen, lx
     float reflection = 0.01f;///< diffuse reflectance of the screen

@@ -16,10 +16,10 @@ def photometry():
         "lights": {"keep": False},
         "lamps": [
             # The lanterns' reflectors: mostly down and, tilted 6 degrees, towards the carriageway.
-            _spot("street lamp", "street_lamp_*/light", 2200, (48, 82), _SODIUM, aim=[-0.1, 0, -1]),
+            _spot("street lamp", "street_lamp_*/light", 3000, (48, 82), _SODIUM, aim=[-0.1, 0, -1]),
             # What their glass lets out above the reflector, on facades and trees.
-            _spot("street lamp glass", "street_lamp_*/light", 600, (50, 86), _SODIUM, aim=[0, 0, 1]),
-            _spot("arcade lantern", "arcade_lamp_*/light", 150, (45, 80), 2700),
+            _spot("street lamp glass", "street_lamp_*/light", 900, (50, 86), _SODIUM, aim=[0, 0, 1]),
+            _spot("arcade lantern", "arcade_lamp_*/light", 250, (45, 80), 2700),
             _spot("ego low beam", "car_ego/headlamp_*", 9000, (1.5, 17), _HALOGEN),
             _spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 10), _HALOGEN),
             # Parked cars show their parking lamps: UN Regulation 77 asks for at least 2 cd.
@@ -33,7 +33,7 @@ def photometry():
             {
                 "name": "lantern glass",
                 "materials": "lamp_glass",
-                "luminance_cd_m2": 5500,
+                "luminance_cd_m2": 8000,
                 "colour_temperature_K": _SODIUM,
             },
             {

@@ -60,7 +60,7 @@ class CarPlacer:
         self._equip(node, "car_ego", body, "paint_blue", False, trim_mesh(body, PLATE_VARIANTS, windscreen=False))
         cockpit = cockpit_mesh(body)
         self.document.node(cockpit.name, node, cockpit)
-        self.document.camera("driver", 36.87, node, translation=EYE, rotation=quaternion("x", -1.5))
+        self.document.camera("driver", 36.87, node, translation=EYE, rotation=quaternion("x", 0.5))
         return node
 
     def _mesh(self, make, *arguments):

@@ -24,10 +24,10 @@ def photometry():
             _spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 10), _HALOGEN),
             # Parked cars show their parking lamps: UN Regulation 77 asks for at least 2 cd.
             _spot("parking lamp", "car_parked_*/headlamp_*", 2, (10, 45), 3000),
-            _red("tail lamp", ["car_traffic_*/tail_*", "car_ego/tail_*"], 5, (10, 55)),
-            _red("rear parking lamp", "car_parked_*/tail_*", 2, (10, 45)),
-            _signal("red signal", "signal_*/red", _SIGNAL_RED),
-            _signal("green signal", "signal_*/green", _SIGNAL_GREEN),
+            _coloured("tail lamp", ["car_traffic_*/tail_*", "car_ego/tail_*"], 5, (10, 55), _TAIL_RED),
+            _coloured("rear parking lamp", "car_parked_*/tail_*", 2, (10, 45), _TAIL_RED),
+            _coloured("red signal", "signal_*/red", 100, (5, 40), _SIGNAL_RED),
+            _coloured("green signal", "signal_*/green", 100, (5, 40), _SIGNAL_GREEN),
         ],
         "emitters": [
             {
@@ -117,21 +117,10 @@ def _spot(name, nodes, candela, cones, kelvin, aim=(0, 0, -1)):
     }
 
 
-def _red(name, nodes, candela, cones):
+def _coloured(name, nodes, candela, cones, colour):
     lamp = _spot(name, nodes, candela, cones, None)
     del lamp["colour_temperature_K"]
-    return lamp | {"colour_rgb": _TAIL_RED}
-
-
-def _signal(name, nodes, colour):
-    return {
-        "name": name,
-        "nodes": nodes,
-        "type": "cosine_power",
-        "intensity_cd": 70,
-        "exponent": 6,
-        "colour_rgb": colour,
-    }
+    return lamp | {"colour_rgb": colour}
 
 
 def write_photometry(path):

@@ -18,7 +18,7 @@ def photometry():
             # The lanterns' reflectors: mostly down and, tilted 6 degrees, towards the carriageway.
             _spot("street lamp", "street_lamp_*/light", 3000, (48, 82), _SODIUM, aim=[-0.1, 0, -1]),
             # What their glass lets out above the reflector, on facades and trees.
-            _spot("street lamp glass", "street_lamp_*/light", 900, (50, 86), _SODIUM, aim=[0, 0, 1]),
+            _spot("street lamp glass", "street_lamp_*/light", 700, (72, 89), _SODIUM, aim=[0, 0, 1]),
             _spot("arcade lantern", "arcade_lamp_*/light", 250, (45, 80), 2700),
             _spot("ego low beam", "car_ego/headlamp_*", 9000, (1.5, 17), _HALOGEN),
             _spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 10), _HALOGEN),

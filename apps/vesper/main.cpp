@@ -1,5 +1,7 @@
 // The `vesper` program: convert a daytime database to photometry, render it at night. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -23,8 +25,11 @@ int main(int argc, char** argv) {
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        const int code = program.exit(error);
-        return code == 0 ? 0 : vesper::kBadInput;
+        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+        std::string message = error.what();
+        std::replace(message.begin(), message.end(), '\n', ' ');
+        std::fprintf(stderr, "vesper: %s (--help shows what is possible)\n", message.c_str());
+        return vesper::kBadInput;
     } catch (const vesper::Error& error) {
         std::fprintf(stderr, "vesper: %s\n", error.what());
         return vesper::kBadInput;

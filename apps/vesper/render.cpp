@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
+#include <filesystem>
 #include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "commands.h"
+#include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "progress.h"
 #include "renderer.h"
@@ -18,7 +19,7 @@ namespace vesper {
 namespace {
 
 struct RenderArguments {
-    std::string scene, camera, size = "1680x1050", device, lambert = "physical";
+    std::string scene, camera, size = "1680x1050", device, lambert = "physical", tone_operator = "ward", glare = "none";
     std::vector<std::string> outputs;
     std::string statistics_file;
     RenderSettings settings;
@@ -56,7 +57,7 @@ std::string file_of_frame(const std::string& pattern, unsigned index, unsigned f
     if (percent != std::string::npos) {
         const size_t d = pattern.find('d', percent);
         const std::string digits = d == std::string::npos ? "x" : pattern.substr(percent + 1, d - percent - 1);
-        if (digits.size() > 2 || !std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c); }))
+        if (digits.size() > 2 || (digits.size() == 2 && digits > "10") || !std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c); }))
             throw Error("-o " + pattern + ": only a number such as %04d may follow a %");
         std::snprintf(number, sizeof number, "%0*u", digits.empty() ? 1 : std::stoi(digits), index);
         return pattern.substr(0, percent) + number + pattern.substr(d + 1);
@@ -79,7 +80,7 @@ Header describe_frame(const RenderArguments& arguments, const Device& device, co
     return {{"vesper:version", VESPER_VERSION},
             {"vesper:scene", arguments.scene},
             {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
-            {"vesper:camera", arguments.camera.empty() ? "(first)" : arguments.camera},
+            {"vesper:camera", arguments.camera},
             {"vesper:worldToView", pose},
             {"vesper:tangents", number(double(view.tangent_low.x)) + " " + number(double(view.tangent_low.y)) + " " + number(double(view.tangent_high.x)) + " " + number(double(view.tangent_high.y))},
             {"vesper:seconds", number(seconds)},
@@ -104,7 +105,8 @@ void print_statistics(const RenderArguments& arguments, const Device& device, co
                 double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
     std::printf("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n", double(frame.curve.adaptation),
                 frame.foveal_level, frame.histogram.non_finite, frame.histogram.finite + frame.histogram.non_finite);
-    std::fputs(text_of(luminance_statistics(frame.scene)).c_str(), stdout);
+    const bool ldr = arguments.settings.tone_operator == Operator::Ldr;
+    std::fputs(text_of(luminance_statistics(frame.scene), ldr ? "LDR values, relative to white" : "luminance, cd/m^2").c_str(), stdout);
     double total = 0;
     std::printf("device time, ms\n");
     for (const Timing& timing : frame.timings) {
@@ -129,25 +131,47 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
     }
 }
 
+void check_folder(const std::string& option, const std::string& file) {
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) throw Error(option + " " + file + ": there is no folder " + folder.string());
+}
+
+// Everything that can be wrong with the arguments alone, and what follows from them.
+void check_arguments(RenderArguments& arguments) {
+    RenderSettings& settings = arguments.settings;
+    settings.tone_operator = kOperators.at(arguments.tone_operator);
+    settings.glare = kGlares.at(arguments.glare);
+    settings.paper_lambert = arguments.lambert == "paper";
+    if (arguments.foveal_level > 0) settings.foveal_level = uint32_t(arguments.foveal_level);
+    for (const std::string& output : arguments.outputs) {
+        const bool exr = ends_with(output, ".exr");
+        if (!exr && !ends_with(output, ".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
+        if (exr && settings.tone_operator == Operator::Ldr) throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
+        check_folder("-o", file_of_frame(output, 0, arguments.frames));
+    }
+    if (!arguments.statistics_file.empty()) check_folder("--stats-json", arguments.statistics_file);
+    if (arguments.outputs.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan)
+        throw Error("nothing to do: give -o, --stats, --stats-json or --plan");
+    if (settings.tone.linear_high > 0 && settings.tone.linear_high <= settings.tone.linear_low)
+        throw Error("--linear-max must be more than --linear-min");
+    if (settings.display.peak <= settings.display.black) throw Error("--display-peak must be more than --display-black");
+}
+
 void run(RenderArguments& arguments) {
     const VkExtent2D extent = parse_size(arguments.size);
+    check_arguments(arguments);
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
     Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
-    for (const std::string& output : arguments.outputs) {
-        if (!ends_with(output, ".png") && !ends_with(output, ".exr")) throw Error("-o " + output + ": a .png or .exr file is expected");
-        file_of_frame(output, 0, arguments.frames);
-        (ends_with(output, ".png") ? outputs.display : outputs.scene) = true;
-    }
-    if (arguments.outputs.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan) throw Error("nothing to do: give -o, --stats, --stats-json or --plan");
-    if (arguments.lambert != "physical" && arguments.lambert != "paper") throw Error("--lambert " + arguments.lambert + ": physical or paper");
-    arguments.settings.paper_lambert = arguments.lambert == "paper";
-    if (arguments.foveal_level > 0) arguments.settings.foveal_level = uint32_t(arguments.foveal_level);
+    for (const std::string& output : arguments.outputs) (ends_with(output, ".png") ? outputs.display : outputs.scene) = true;
 
-    const LoadedScene loaded = read_gltf(arguments.scene);
+    LoadedScene loaded = read_gltf(arguments.scene);
+    loaded.scene.name = arguments.scene;
     for (const std::string& note : loaded.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     const Scene& scene = loaded.scene;
     SceneFrame moment{world_transforms(scene, arguments.start)};
     camera_view(scene, moment, arguments.camera, extent);  // a wrong name is known before a device is opened
+    const std::vector<std::string> cameras = camera_names(scene);
+    if (arguments.camera.empty() && !cameras.empty()) arguments.camera = cameras.front();
     if (arguments.settings.tone_operator == Operator::Irawan)
         std::fprintf(stderr, "note: 'irawan' equals 'ward' until its temporal model is there\n");
 
@@ -168,13 +192,25 @@ void run(RenderArguments& arguments) {
         if (last) {
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
             if (!arguments.statistics_file.empty()) {
-                std::ofstream file(arguments.statistics_file);
-                file << json_of(luminance_statistics(frame.scene)) << "\n";
-                if (!file.flush()) throw Error(arguments.statistics_file + ": cannot be written");
+                const std::string json = json_of(luminance_statistics(frame.scene)) + "\n";
+                replace_file(arguments.statistics_file, std::vector<uint8_t>(json.begin(), json.end()));
             }
         }
         progress.step();
     }
+}
+
+// A number in a range; not-a-number is in none.
+CLI::Validator between(double low, double high) {
+    char range[64];
+    std::snprintf(range, sizeof range, "%g to %g", low, high);
+    const std::string text = range;
+    return {[=](const std::string& given) {
+                char* end = nullptr;
+                const double value = std::strtod(given.c_str(), &end);
+                return *end == 0 && value >= low && value <= high ? std::string() : given + " is not a number from " + text;
+            },
+            text};
 }
 
 }  // namespace
@@ -186,30 +222,28 @@ void add_render(CLI::App& program) {
     command->add_option("--output,-o", a->outputs, "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
     command->add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");
     command->add_option("--size,-s", a->size, "WIDTHxHEIGHT, px")->capture_default_str();
-    command->add_option("--operator", a->settings.tone_operator, "irawan, ward, reinhard, linear or ldr")
-        ->transform(CLI::CheckedTransformer(kOperators, CLI::ignore_case))->default_str("ward");
-    command->add_option("--glare", a->settings.glare, "none, or ldr: the paper's, on the tone-mapped image")
-        ->transform(CLI::CheckedTransformer(kGlares, CLI::ignore_case))->default_str("none");
+    command->add_option("--operator", a->tone_operator, "How luminance is shown")->check(CLI::IsMember({"irawan", "ward", "reinhard", "linear", "ldr"}))->capture_default_str();
+    command->add_option("--glare", a->glare, "ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr"}))->capture_default_str();
     command->add_option("--frames", a->frames, "How many frames; files are numbered")->check(CLI::Range(1u, 1000000u))->capture_default_str();
-    command->add_option("--dt", a->dt, "Time between frames, s")->check(CLI::Range(1e-6, 3600.0))->capture_default_str();
-    command->add_option("--start", a->start, "Time of the first frame, s")->check(CLI::Range(0.0, 1e6))->capture_default_str();
+    command->add_option("--dt", a->dt, "Time between frames, s")->check(between(1e-6, 3600.0))->capture_default_str();
+    command->add_option("--start", a->start, "Time of the first frame, s")->check(between(0.0, 1e6))->capture_default_str();
     command->add_flag("--stats", a->statistics, "Print luminances and milliseconds of the last frame");
     command->add_option("--stats-json", a->statistics_file, "Write the luminances of the last frame to a JSON file");
     command->add_flag("--plan", a->plan, "Print the plan of the frame: passes, barriers, memory");
     command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
-    command->add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")->capture_default_str();
-    command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance facing a lamp below which it counts as dark, lx")->check(CLI::Range(1e-9f, 1e3f))->capture_default_str();
+    command->add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")->check(CLI::IsMember({"physical", "paper"}))->capture_default_str();
+    command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance facing a lamp below which it counts as dark, lx")->check(between(1e-9, 1e3))->capture_default_str();
     command->add_option("--bins", a->settings.histogram.bins, "Bins of the histogram")->check(CLI::Range(1u, shared::kMaxBins))->capture_default_str();
     command->add_option("--foveal-level", a->foveal_level, "Pyramid level of the histogram (default: 1 degree per texel; the paper: 5)")->check(CLI::Range(1, 14));
-    command->add_option("--key", a->settings.tone.key, "Reinhard: what the log average is shown as, relative to white")->check(CLI::Range(1e-4f, 10.0f))->capture_default_str();
-    command->add_option("--white", a->settings.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)")->check(CLI::Range(0.0f, 1e9f));
-    command->add_option("--linear-min", a->settings.tone.linear_low, "linear: luminance shown as black, cd/m^2")->check(CLI::Range(0.0f, 1e9f))->capture_default_str();
-    command->add_option("--linear-max", a->settings.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)")->check(CLI::Range(0.0f, 1e9f));
-    command->add_option("--display-peak", a->settings.display.peak, "Display: luminance of white in the dark, cd/m^2")->check(CLI::Range(0.1f, 1e5f))->capture_default_str();
-    command->add_option("--display-black", a->settings.display.black, "Display: luminance of black in the dark, cd/m^2")->check(CLI::Range(1e-6f, 1e3f))->capture_default_str();
-    command->add_option("--display-gamma", a->settings.display.gamma, "Display: exponent")->check(CLI::Range(0.5f, 5.0f))->capture_default_str();
-    command->add_option("--display-ambient", a->settings.display.ambient, "Display: illuminance on the screen, lx")->check(CLI::Range(0.0f, 1e5f))->capture_default_str();
-    command->add_option("--display-reflection", a->settings.display.reflection, "Display: diffuse reflectance")->check(CLI::Range(0.0f, 1.0f))->capture_default_str();
+    command->add_option("--key", a->settings.tone.key, "Reinhard: what the log average is shown as, relative to white")->check(between(1e-4, 10.0))->capture_default_str();
+    command->add_option("--white", a->settings.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
+    command->add_option("--linear-min", a->settings.tone.linear_low, "linear: luminance shown as black, cd/m^2")->check(between(0.0, 1e9))->capture_default_str();
+    command->add_option("--linear-max", a->settings.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
+    command->add_option("--display-peak", a->settings.display.peak, "Display: luminance of white in the dark, cd/m^2")->check(between(0.1, 1e5))->capture_default_str();
+    command->add_option("--display-black", a->settings.display.black, "Display: luminance of black in the dark, cd/m^2")->check(between(1e-6, 1e3))->capture_default_str();
+    command->add_option("--display-gamma", a->settings.display.gamma, "Display: exponent")->check(between(0.5, 5.0))->capture_default_str();
+    command->add_option("--display-ambient", a->settings.display.ambient, "Display: illuminance on the screen, lx")->check(between(0.0, 1e5))->capture_default_str();
+    command->add_option("--display-reflection", a->settings.display.reflection, "Display: diffuse reflectance")->check(between(0.0, 1.0))->capture_default_str();
     command->add_flag("--all-lights", a->settings.all_lights, "Shade without clusters: the slow way to the same picture");
     command->footer("Examples:\n  vesper render night.gltf --camera driver --operator ward --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"

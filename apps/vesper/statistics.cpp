@@ -45,8 +45,8 @@ LuminanceStatistics luminance_statistics(std::span<const float> rgba) {
     return s;
 }
 
-std::string text_of(const LuminanceStatistics& s) {
-    std::string text = "luminance, cd/m^2\n  minimum   " + number(s.minimum) + "\n";
+std::string text_of(const LuminanceStatistics& s, const std::string& heading) {
+    std::string text = heading + "\n  minimum   " + number(s.minimum) + "\n";
     for (const auto& [percent, luminance] : s.percentiles) {
         std::string label = number(percent) + " %";
         label.resize(10, ' ');

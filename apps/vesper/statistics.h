@@ -19,8 +19,8 @@ struct LuminanceStatistics {
 /// Of RGBA pixels in cd/m^2 RGB.
 LuminanceStatistics luminance_statistics(std::span<const float> rgba);
 
-/// As a table for a terminal.
-std::string text_of(const LuminanceStatistics& statistics);
+/// As a table for a terminal, under a heading that says what the numbers are.
+std::string text_of(const LuminanceStatistics& statistics, const std::string& heading);
 /// As a JSON object.
 std::string json_of(const LuminanceStatistics& statistics);
 

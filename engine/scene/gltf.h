@@ -18,7 +18,7 @@ struct SceneLimits {
     uint64_t texels = 512ull << 20;  ///< of all images together
     uint32_t image_side = 16384;     ///< px
     uint32_t nodes = 1'000'000;
-    uint32_t lights = 60'000;
+    uint32_t lights = 32'000;              ///< what the clusters can take on every driver
 };
 
 struct LoadedScene {

@@ -1,0 +1,66 @@
+// The `vesper` program as people run it: arguments, exit codes, outputs. SPDX-License-Identifier: MIT
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Program : public testing::Test {
+protected:
+    fs::path folder = fs::temp_directory_path() / ("vesper-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    void SetUp() override {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        std::ofstream(folder / "empty.gltf") << R"({"asset":{"version":"2.0"}})";
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    std::string text_of(const fs::path& file) const {
+        std::ifstream in(file);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    /// Runs `vesper render empty.gltf <arguments>`; what it said is in `said`.
+    int render(const std::string& arguments) {
+        const std::string command = "cd " + folder.string() + " && " VESPER_PROGRAM " render empty.gltf --size 16x8 " + arguments + " >out.txt 2>err.txt";
+        const int status = std::system(command.c_str());
+        said = text_of(folder / "err.txt");
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    void expect_refused(const std::string& arguments) {
+        EXPECT_EQ(render(arguments), 2) << arguments;
+        EXPECT_TRUE(said.starts_with("vesper: ")) << arguments << ": " << said;
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << arguments << ": " << said;
+    }
+    std::string said;
+};
+
+TEST_F(Program, WritesBothKindsOfPictures) {
+    EXPECT_EQ(render("-o a.png -o a.exr --stats-json a.json"), 0) << said;
+    for (const char* file : {"a.png", "a.exr", "a.json"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
+    EXPECT_EQ(render("--frames 2 -o b%03d.png"), 0) << said;
+    EXPECT_TRUE(fs::exists(folder / "b000.png") && fs::exists(folder / "b001.png"));
+    EXPECT_EQ(render("--plan"), 0);
+    EXPECT_NE(text_of(folder / "out.txt").find("gbuffer"), std::string::npos);
+}
+
+TEST_F(Program, RefusesWhatCannotBeInOneLine) {
+    for (const char* arguments : {"", "-o a.tiff", "-o none/a.png", "-o a.png --stats-json none/a.json", "-o a.png --operator foo", "-o a.exr --operator ldr",
+                                  "-o a.png --threshold nan", "-o a.png --dt nan", "-o a.png --frames 0", "-o a.png --frames 2 -o b%99d.png",
+                                  "-o a.png --linear-min 5 --linear-max 1", "-o a.png --display-peak 1 --display-black 5", "-o a.png --camera nope",
+                                  "-o a.png --foveal-level 14", "-o a.png --nonsense", "-o a.png --size 0x5", "-o a.png --device nowhere"})
+        expect_refused(arguments);
+    EXPECT_FALSE(fs::exists(folder / "a.png"));
+    EXPECT_NE(render("-o a.png --camera nope"), 0);
+    EXPECT_NE(said.find("empty.gltf"), std::string::npos) << said;
+}
+
+}  // namespace

@@ -1,0 +1,66 @@
+// Lamps of a scene as the shaders get them. SPDX-License-Identifier: MIT
+#include "resident/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace vesper {
+namespace {
+
+constexpr float kDegree = 3.14159265f / 180;
+
+shared::Light shine(const Light& light) {
+    const SceneFrame frame{{glm::mat4(1)}};
+    const View view;
+    return light_list({{light, 0}}, frame, view).lights.at(0);
+}
+
+// KHR_lights_punctual: full intensity within the inner cone, none beyond the outer, the square of a ramp in the cosine
+// between. What floats allow: a cosine near one has 6e-8 of rounding, times the slope of the ramp, a few times.
+TEST(Lights, SpotsOfEveryWidthAreFullOnTheirAxis) {
+    for (const float outer : {1.0f, 2.0f, 5.0f, 30.0f, 80.0f, 90.0f})
+        for (const float share : {0.0f, 0.5f, 0.9f}) {
+            const float inner = outer * share;
+            const shared::Light lamp = shine({.name = {}, .kind = Light::Kind::Spot, .intensity = 100, .inner_cone = inner * kDegree, .outer_cone = outer * kDegree});
+            const float rounding = 1e-4f + 3e-7f * lamp.lobe_a;
+            const auto ramp = [&](float degrees) { return std::clamp(lamp.lobe_a * std::cos(degrees * kDegree) + lamp.lobe_b, 0.0f, 1.0f); };
+            EXPECT_NEAR(ramp(0), 1, rounding) << inner << " to " << outer;
+            EXPECT_NEAR(ramp(inner), 1, rounding) << inner << " to " << outer;
+            EXPECT_NEAR(ramp(outer), 0, rounding) << inner << " to " << outer;
+            const double middle = (inner + outer) / 2 * double(kDegree);
+            const double want = (std::cos(middle) - std::cos(double(outer * kDegree))) / (std::cos(double(inner * kDegree)) - std::cos(double(outer * kDegree)));
+            EXPECT_NEAR(ramp(float((inner + outer) / 2)), want, rounding) << inner << " to " << outer;
+        }
+}
+
+TEST(Lights, ASpotWhoseConesCoincideIsFullInside) {
+    const shared::Light lamp = shine({.name = {}, .kind = Light::Kind::Spot, .intensity = 100, .inner_cone = 20 * kDegree, .outer_cone = 20 * kDegree});
+    EXPECT_GE(lamp.lobe_a * std::cos(19.9f * kDegree) + lamp.lobe_b, 1);
+    EXPECT_LE(lamp.lobe_a * std::cos(20.1f * kDegree) + lamp.lobe_b, 0);
+}
+
+TEST(Lights, KindsFollowOneAnotherAndDarkLampsAreLeftOut) {
+    const SceneFrame frame{{glm::mat4(1)}};
+    const Light point{.name = {}, .kind = Light::Kind::Point, .intensity = 1}, power{.name = {}, .kind = Light::Kind::CosinePower, .intensity = 2},
+        moon{.name = {}, .kind = Light::Kind::Directional, .intensity = 3}, dark{.name = {}, .kind = Light::Kind::Point, .intensity = 0};
+    Scene scene;
+    scene.lights = {moon, power, dark, point};
+    for (uint32_t i = 0; i < 4; ++i) {
+        scene.nodes.emplace_back();
+        scene.nodes.back().light = i;
+    }
+    const SceneFrame four{std::vector<glm::mat4>(4, glm::mat4(1))};
+    const LightList list = light_list(placed_lights(scene), four, View());
+    ASSERT_EQ(list.lights.size(), 3u);
+    EXPECT_EQ(list.counts.cones, 1u);
+    EXPECT_EQ(list.counts.powers, 1u);
+    EXPECT_EQ(list.counts.directional, 1u);
+    EXPECT_EQ(list.lights[0].intensity, 1);
+    EXPECT_EQ(list.lights[1].intensity, 2);
+    EXPECT_EQ(list.lights[2].intensity, 3);
+}
+
+}  // namespace
+}  // namespace vesper

@@ -32,8 +32,7 @@ T read_one(const Executor& executor, Resource readback) {
 }  // namespace
 
 Renderer::Renderer(Device& device, const Scene& scene)
-    : device_(device),
-      kernels_(device),
+    : kernels_(device),
       resident_(device, scene),
       lights_(placed_lights(scene)),
       ambient_illuminance_(scene.ambient_illuminance),

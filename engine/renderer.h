@@ -87,7 +87,6 @@ private:
     Declared declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
                      const LightList& lights, float seconds, Outputs outputs) const;
 
-    Device& device_;
     Kernels kernels_;
     ResidentScene resident_;
     std::vector<PlacedLight> lights_;

@@ -63,13 +63,13 @@ bool lights_block(uint light, bool power) {
     const float lobe_b = texelFetch(lights, texel + 2).w;
     const vec3 centre = 0.5 * (position_low + position_high);
     const float radius = kSlack * 0.5 * distance(position_low, position_high);
-    const float nearest = kSlack * distance(a.xyz, clamp(a.xyz, position_low, position_high));
+    const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
     const float cosine = nearest_cosine(a.xyz, b.xyz, centre, radius);
     const float largest = a.w * (power ? largest_power(b.w, cosine) : largest_cone(b.w, lobe_b, cosine));
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);
     const float slack = 1e-5 * (abs(facing.x) + abs(facing.y) + abs(facing.z));
-    return facing.x + facing.y + facing.z > -slack && reaches(largest, nearest / (kSlack * kSlack), push.view.threshold);
+    return facing.x + facing.y + facing.z > -slack && reaches(largest, nearest, push.view.threshold);
 }
 
 void main() {

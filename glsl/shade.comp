@@ -29,7 +29,7 @@ uint slice_bit[kRows];        // 0: nothing is drawn
 bool shiny;                   // whether any of the pixels has a specular lobe
 vec3 sum[kRows];              // shiny: luminance, cd/m^2 RGB; otherwise illuminance, lx RGB
 
-// What the specular lobe of a pixel needs; only filled where there is one.
+// What the luminance coefficient of a pixel needs.
 vec3 diffuse[kRows], f0[kRows];  // luminance coefficient rho lambert, sr^-1; reflectance facing the surface
 float f90[kRows];                // and at grazing incidence
 float a2[kRows];                 // GGX alpha^2
@@ -144,7 +144,6 @@ void main() {
 
     shiny = false;
     vec3 base[kRows];
-    float metallic[kRows];
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const uvec2 pixel = first + uvec2(0u, r);
         const vec4 surface = imageLoad(surface_image, ivec2(pixel));
@@ -157,9 +156,8 @@ void main() {
         normal[r] = decode_normal(surface.xy);
         toward_eye[r] = normalize(-position[r]);
         base[r] = reflectance.rgb;
-        metallic[r] = reflectance.a;
         shiny = shiny || (drawn && (surface.w < 1.0 || reflectance.a > 0.0));
-        prepare_lobe(r, base[r], metallic[r], surface.w);
+        prepare_lobe(r, base[r], reflectance.a, surface.w);
         sum[r] = vec3(0.0);
     }
 

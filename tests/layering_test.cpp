@@ -23,12 +23,13 @@ const std::regex kInclude(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"([^"]+)")re");
 const std::map<std::string, std::set<std::string>> kMayInclude{
     {"base", {}},
     {"io", {"base"}},
-    {"scene", {"base", "io"}},
+    {"photometry", {"base", "io"}},
+    {"scene", {"base", "io", "photometry"}},
     {"gpu", {"base"}},
     {"graph", {"base", "gpu"}},
-    {"resident", {"base", "scene", "gpu", "glsl"}},
-    {"passes", {"base", "scene", "gpu", "graph", "resident", "glsl"}},
-    {"", {"base", "io", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
+    {"resident", {"base", "photometry", "scene", "gpu", "glsl"}},
+    {"passes", {"base", "photometry", "scene", "gpu", "graph", "resident", "glsl"}},
+    {"", {"base", "io", "photometry", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
 };
 
 std::string text_of(const fs::path& file) {

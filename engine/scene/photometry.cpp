@@ -196,6 +196,7 @@ double luminous_flux(const Light& light) {
         case Light::Kind::CosinePower:
             return 2 * kPi * intensity / (light.exponent + 1.0);
         case Light::Kind::Directional:
+        case Light::Kind::Measured:  // its flux is that of its distribution
             break;
     }
     return 0;

@@ -13,6 +13,8 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "photometry/distribution.h"
+
 namespace vesper {
 
 constexpr uint32_t kNone = ~0u;  ///< "no such element" wherever an index is kept
@@ -89,14 +91,16 @@ struct Mesh {
 
 /// A lamp's distribution of luminous intensity about its axis (local -Z).
 struct Light {
-    enum class Kind : uint8_t { Point, Spot, CosinePower, Directional };
+    enum class Kind : uint8_t { Point, Spot, CosinePower, Directional, Measured };
     std::string name;
     Kind kind = Kind::Point;
-    float intensity = 0;        ///< on the axis, cd; Directional: illuminance on a surface facing it, lx
+    float intensity = 0;        ///< on the axis, cd; Directional: illuminance on a surface facing it, lx; Measured: factor
+                                ///< on the candela of the distribution (flux scale, maintenance factor, dimming)
     glm::vec3 colour{1};        ///< linear Rec. 709 of luminance 1: (0.2126, 0.7152, 0.0722) . colour == 1
     float inner_cone = 0;       ///< Spot: half angle of full intensity, rad
     float outer_cone = 0.785f;  ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
     float exponent = 1;         ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
+    uint32_t distribution = kNone;  ///< Measured: index into Scene::distributions
 };
 
 struct Camera {
@@ -132,6 +136,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<Light> lights;
+    std::vector<Distribution> distributions;
     std::vector<Camera> cameras;
     std::vector<Node> nodes;        ///< parents before children
     std::vector<Channel> channels;  ///< of all animations, played together

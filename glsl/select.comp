@@ -1,16 +1,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 
 // Light selection, one block of pixels per invocation: of the lights listed for the froxels that the block's pixels lie
 // in, those that can light what is drawn there. A box around the positions is tighter than a froxel, and a box around the
-// normals tells which lights are behind every surface. What is left out gives nothing to any pixel of the block.
+// normals tells which lights are behind every surface. What is left out gives nothing to any pixel of the block. A few
+// slices of depth at a time share their boxes, so that a light listed in several of them is taken once.
 
 #include "normal.glsl"
 #include "reach.glsl"
 #include "shared/shade.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;  // the blocks of a tile, whose lists they share
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1) uniform samplerBuffer lights;
@@ -20,36 +22,44 @@ layout(binding = 4, r32ui) writeonly uniform uimageBuffer block_counts;
 layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
 layout(push_constant, scalar) uniform Push { SelectPush push; };
 
-const uint kNoSlice = 32u;
 const uint kMaxTurns = 7000u;  // of one invocation; a CPU device counts those of eight together
+const uint kTogether = 3u;     // slices that share a box
 
 vec3 position_low, position_high, normal_low, normal_high;
 
-// Finds the nearest slice at or beyond `from` that has pixels in the block, boxes around them, and the farthest slice of the
-// block. Returns kNoSlice when there is none.
-uint bound_slice(uvec2 corner, uint from, out uint farthest) {
+// The slice of a pixel as a bit; 0 where nothing is drawn.
+uint slice_bit(float depth) {
     const ClusterGrid grid = push.view.grid;
-    uint nearest = kNoSlice;
-    farthest = 0u;
+    const float at = clamp(log2(depth) * grid.slice_scale + grid.slice_bias, 0.0, float(grid.slices) - 1.0);
+    return depth > 0.0 ? 1u << uint(at) : 0u;
+}
+
+// Bits of all slices that the block has pixels in.
+uint occupied_slices(uvec2 corner) {
     const uvec2 end = min(corner + kBlockSize, push.size);
+    uint occupied = 0u;
+    for (uint y = corner.y; y < end.y; ++y)
+        for (uint x = corner.x; x < end.x; ++x) occupied |= slice_bit(imageLoad(surface_image, ivec2(x, y)).z);
+    return occupied;
+}
+
+// Boxes around what is drawn in some of the block's slices.
+void bound_slices(uvec2 corner, uint slices) {
+    const ClusterGrid grid = push.view.grid;
+    const uvec2 end = min(corner + kBlockSize, push.size);
+    position_low = vec3(1e30), position_high = vec3(-1e30), normal_low = vec3(2.0), normal_high = vec3(-2.0);
     for (uint y = corner.y; y < end.y; ++y) {
         for (uint x = corner.x; x < end.x; ++x) {
             const vec4 surface = imageLoad(surface_image, ivec2(x, y));
-            const float at = clamp(log2(surface.z) * grid.slice_scale + grid.slice_bias, 0.0, float(grid.slices) - 1.0);
-            const uint slice = surface.z > 0.0 ? uint(at) : kNoSlice;
-            const bool nearer = slice >= from && slice < nearest;
-            const bool here = slice >= from && slice <= nearest && slice != kNoSlice;
+            const bool here = (slice_bit(surface.z) & slices) != 0u;
             const vec3 position = vec3(grid.ray_scale * (vec2(x, y) + 0.5) + grid.ray_offset, -1.0) * surface.z;
             const vec3 normal = decode_normal(surface.xy);
-            nearest = nearer ? slice : nearest;
-            farthest = slice != kNoSlice ? max(farthest, slice) : farthest;
-            position_low = nearer ? position : here ? min(position_low, position) : position_low;
-            position_high = nearer ? position : here ? max(position_high, position) : position_high;
-            normal_low = nearer ? normal : here ? min(normal_low, normal) : normal_low;
-            normal_high = nearer ? normal : here ? max(normal_high, normal) : normal_high;
+            position_low = here ? min(position_low, position) : position_low;
+            position_high = here ? max(position_high, position) : position_high;
+            normal_low = here ? min(normal_low, normal) : normal_low;
+            normal_high = here ? max(normal_high, normal) : normal_high;
         }
     }
-    return nearest;
 }
 
 // The largest value of a * b over two intervals.
@@ -72,36 +82,69 @@ bool lights_block(uint light, bool power) {
     return facing.x + facing.y + facing.z > -slack && reaches(largest, nearest, push.view.threshold);
 }
 
+// The ascending lists of several froxels, read as one without repetitions.
+uint next_light[kTogether], list_at[kTogether], list_end[kTogether];
+
+uint read_list(uint k) { return list_at[k] < list_end[k] ? texelFetch(indices, int(list_at[k])).r : ~0u; }
+
+// Opens the lists of the first of some slices of a tile, and takes these slices out. Returns their bits; 0 when a list has
+// overflowed.
+uint open_lists(uvec2 tile, inout uint slices) {
+    const ClusterGrid grid = push.view.grid;
+    uint opened = 0u;
+    bool fits = true;
+    [[unroll]] for (uint k = 0u; k < kTogether; ++k) {
+        const bool any = slices != 0u;
+        const uint slice = any ? uint(findLSB(slices)) : 0u;
+        const uint cell = (slice * grid.tiles_y + tile.y) * grid.tiles_x + tile.x;
+        const uint cones = texelFetch(counts, int(2u * cell)).r;
+        const uint powers = texelFetch(counts, int(2u * cell + 1u)).r;
+        const bool overflowed = cones == kAllLights;
+        list_at[k] = cell * grid.capacity;
+        list_end[k] = list_at[k] + (any && !overflowed ? cones + powers : 0u);
+        next_light[k] = read_list(k);
+        fits = fits && !(any && overflowed);
+        opened |= any ? 1u << slice : 0u;
+        slices &= ~(any ? 1u << slice : 0u);
+    }
+    return fits ? opened : 0u;
+}
+
+uint take_light() {
+    uint light = next_light[0];
+    [[unroll]] for (uint k = 1u; k < kTogether; ++k) light = min(light, next_light[k]);
+    [[unroll]] for (uint k = 0u; k < kTogether; ++k) {
+        list_at[k] += next_light[k] == light ? 1u : 0u;
+        next_light[k] = next_light[k] == light ? read_list(k) : next_light[k];
+    }
+    return light;
+}
+
 void main() {
-    const uint block = gl_GlobalInvocationID.x;
-    if (block >= push.blocks) return;
-    const uvec2 corner = uvec2(block % push.blocks_x, block / push.blocks_x) * kBlockSize;
-    const uvec2 tile = corner / kTileSize;
+    const uvec2 corner = gl_GlobalInvocationID.xy * kBlockSize;
+    if (any(greaterThanEqual(corner, push.size))) return;
+    const uint block = gl_GlobalInvocationID.y * push.blocks_x + gl_GlobalInvocationID.x;
     const uint base = block * push.capacity;
     uint cones = 0u, powers = 0u, turns = 0u;
     bool fits = true;
-    uint farthest, slice = bound_slice(corner, 0u, farthest);
-    while (fits && slice != kNoSlice) {
-        const uint cell = (slice * push.view.grid.tiles_y + tile.y) * push.view.grid.tiles_x + tile.x;
-        const uint cell_cones = texelFetch(counts, int(2u * cell)).r;
+    uint left = occupied_slices(corner);
+    while (fits && left != 0u) {
+        const uint slices = open_lists(corner / kTileSize, left);
+        fits = slices != 0u;
+        bound_slices(corner, slices);
+        const uint first = uint(findLSB(slices)), last = uint(findMSB(slices));
         // Where a froxel overflowed, or the lists are very long together, the block looks at every light, too: lavapipe
         // silently ends the loops of an invocation after 65,535 turns in all.
-        uint cell_lights = cell_cones == kAllLights ? 0u : cell_cones + texelFetch(counts, int(2u * cell + 1u)).r;
-        turns += cell_lights;
-        fits = cell_cones != kAllLights && turns <= kMaxTurns;
-        cell_lights = fits ? cell_lights : 0u;
-        const uint list = cell * push.view.grid.capacity;
-        for (uint i = 0u; i < cell_lights; ++i) {
-            const uint light = texelFetch(indices, int(list + i)).r;
-            const bool power = i >= cell_cones;
+        for (uint light = fits ? take_light() : ~0u; light != ~0u && turns < kMaxTurns; light = take_light()) {
+            ++turns;
+            const bool power = light >= push.view.lights.cones;
             if (!lights_block(light, power)) continue;
             const uint at = power ? push.capacity - 1u - powers : cones;
-            if (cones + powers < push.capacity) imageStore(entries, int(base + at), uvec4(light | slice << kSliceShift));
+            if (cones + powers < push.capacity) imageStore(entries, int(base + at), uvec4(light | first << kFirstSliceShift | last << kLastSliceShift));
             powers += power ? 1u : 0u;
             cones += power ? 0u : 1u;
         }
-        fits = fits && cones + powers <= push.capacity;
-        slice = slice < farthest ? bound_slice(corner, slice + 1u, farthest) : kNoSlice;
+        fits = fits && cones + powers <= push.capacity && turns < kMaxTurns;
     }
     imageStore(block_counts, int(2u * block), uvec4(fits ? cones : kAllLights));
     imageStore(block_counts, int(2u * block + 1u), uvec4(fits ? powers : kAllLights));

@@ -101,8 +101,9 @@ List list_of(uint block) {
 
 void add_entry(List list, uint at, uint number, bool power, bool glossy) {
     const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
-    const uint light = list.all_of_them ? number : entry & ((1u << kSliceShift) - 1u);
-    add_lamp(fetch(light), list.all_of_them ? ~0u : 1u << (entry >> kSliceShift), power, glossy);
+    const uint light = list.all_of_them ? number : entry & ((1u << kFirstSliceShift) - 1u);
+    const uint slices = (2u << (entry >> kLastSliceShift)) - (1u << (entry >> kFirstSliceShift & 31u));
+    add_lamp(fetch(light), list.all_of_them ? ~0u : slices, power, glossy);
 }
 
 void add_lamps(List list, bool glossy) {

@@ -58,6 +58,7 @@ std::string missing(VkPhysicalDevice device) {
     VkPhysicalDeviceVulkan12Features f12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &f13};
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &f12};
     vkGetPhysicalDeviceFeatures2(device, &features);
+    if (!features.features.independentBlend) return "no independentBlend";
     if (!f13.dynamicRendering) return "no dynamicRendering";
     if (!f13.synchronization2) return "no synchronization2";
     if (!f13.maintenance4) return "no maintenance4";
@@ -245,7 +246,7 @@ void Device::open_device() {
                                          .scalarBlockLayout = VK_TRUE};
     const VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                                              .pNext = &f12,
-                                             .features = {.samplerAnisotropy = has_anisotropy_}};
+                                             .features = {.independentBlend = VK_TRUE, .samplerAnisotropy = has_anisotropy_}};
     const char* extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features,

@@ -19,8 +19,8 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
     const Resource entries = graph.transient("block entries", buffer_shape(blocks * kBlockCapacity * kWord, VK_FORMAT_R32_UINT));
     graph.dispatch("select", kernels.select,
                    {load(g.surface), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(counts), store(entries)},
-                   shared::SelectPush{clusters.push, pixels, block_grid.x, blocks, kBlockCapacity},
-                   cover(blocks, 1, kernels.select.group[0], 1));
+                   shared::SelectPush{clusters.push, pixels, block_grid.x, kBlockCapacity},
+                   cover(block_grid.x, block_grid.y, kernels.select.group[0], kernels.select.group[1]));
 
     const shared::ShadePush push{.size = pixels,
                                  .grid = clusters.push.grid,

@@ -93,7 +93,7 @@ void ResidentScene::make_surfaces(const Device&, const Scene& scene) {
         uint32_t variant = 0;
         if (m.base_colour_texture.image != kNone) variant |= kBaseTexture;
         if (m.metallic_roughness_texture.image != kNone) variant |= kMetallicRoughnessTexture;
-        if (m.emission_texture.image != kNone && m.emission != glm::vec3(0)) variant |= kEmissionTexture;
+        if (m.emission != glm::vec3(0)) variant |= m.emission_texture.image != kNone ? kEmits | kEmissionTexture : kEmits;
         if (m.alpha == Material::Alpha::Mask) variant |= kMask;
         surfaces_.push_back({m, variant,
                              {textures_.get(scene, m.base_colour_texture, Decode::Colour),
@@ -153,6 +153,8 @@ void ResidentScene::make_pipelines(const Device& device) {
                                                   .pColorAttachmentFormats = formats,
                                                   .depthAttachmentFormat = kDepthFormat};
     for (const uint32_t variant : variants) {
+        // Emission is cleared to 0; what emits is drawn after everything that could hide it.
+        blend[2].colorWriteMask = (variant & kEmits) ? 0xf : 0;
         const uint32_t constants[4] = {variant & kBaseTexture, variant & kMetallicRoughnessTexture, variant & kEmissionTexture,
                                        variant & kMask};
         const VkSpecializationMapEntry entries[4] = {{0, 0, 4}, {1, 4, 4}, {2, 8, 4}, {3, 12, 4}};

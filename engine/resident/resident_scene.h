@@ -32,8 +32,9 @@ public:
         uint32_t node;
         uint32_t first_part, part_count;
     };
-    /// Bits of a pipeline variant.
-    enum Variant : uint32_t { kBaseTexture = 1, kMetallicRoughnessTexture = 2, kEmissionTexture = 4, kMask = 8 };
+    /// Bits of a pipeline variant. Variants that emit have the largest numbers: they are drawn last, and only they write
+    /// emission.
+    enum Variant : uint32_t { kBaseTexture = 1, kMetallicRoughnessTexture = 2, kEmissionTexture = 4, kMask = 8, kEmits = 16 };
     struct Surface {
         Material material;
         uint32_t variant;

@@ -7,17 +7,17 @@ SHARED_BEGIN
 const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of blocks
 
 // A block of pixels has a list of its own: the lights of its froxels that can light what is drawn
-// in it. An entry is a light's index and, above kSliceShift, the slice whose pixels it is for.
-const uint kSliceShift = 26u;
+// in it. An entry is a light's index and, above it, the first and the last slice whose pixels it is for.
+const uint kFirstSliceShift = 22u;
+const uint kLastSliceShift = 27u;
 
 struct SelectPush {
     ClusterPush view;
     uvec2 size;      // px
     uint blocks_x;   // blocks in a row
-    uint blocks;     // in all
     uint capacity;   // entries of a block: cones from the front, cosine powers from the back
 };
-SHARED_SIZE(SelectPush, 84)
+SHARED_SIZE(SelectPush, 80)
 
 struct ShadePush {
     uvec2 size;             // px

@@ -81,8 +81,7 @@ ReflectionTable extended(ReflectionTable table) {
     for (size_t b = 0; b < columns; ++b)
         for (size_t t = 1; t < table.tan_gamma.size(); ++t)
             if (table.at(t, b) == 0)
-                table.r[t * columns + b] =
-                    table.at(t - 1, b) * cos3(table.tan_gamma[t]) / cos3(table.tan_gamma[t - 1]);
+                table.r[t * columns + b] = table.at(t - 1, b) * cos3(table.tan_gamma[t]) / cos3(table.tan_gamma[t - 1]);
     table.extended = true;
     return table;
 }

@@ -11,9 +11,9 @@
 namespace vesper {
 
 /// An r-table (CIE 144:2001): r = q cos^3(gamma), q = L / E_h, for an observer who looks down at 1 degree. gamma is the
-/// angle of incidence from the vertical; beta, in plan, is the turn from "observer to point" to "point to lamp": 0 where
-/// the lamp stands beyond the point (the specular side), 180 where it stands behind the observer.
-/// A cell of 0 is one the table does not cover. L = r I / H^2 with H the height of the lamp above the road.
+/// angle of incidence from the vertical; beta, in plan, is the turn from "observer to point" to "point to lamp": 0
+/// where the lamp stands beyond the point (the specular side), 180 where it stands behind the observer. A cell of 0 is
+/// one the table does not cover. L = r I / H^2 with H the height of the lamp above the road.
 struct ReflectionTable {
     std::string name;
     std::vector<double> tan_gamma;  ///< ascending from 0, at least 2

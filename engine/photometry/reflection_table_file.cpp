@@ -1,12 +1,12 @@
 // r-tables from text, and the standard ones that are built in. SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 #include <utility>
 
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "photometry/reflection_table.h"
+#include "photometry/table.h"
 
 namespace vesper {
 namespace {
@@ -19,13 +19,6 @@ constexpr std::pair<std::string_view, std::string_view> kStandard[] = {
 #include <road/tables.inc>
 };
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlank = " \t\r\"";
-    const size_t first = text.find_first_not_of(kBlank);
-    if (first == text.npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
 std::vector<std::string_view> fields_of(std::string_view line) {
     std::vector<std::string_view> fields;
     while (fields.size() <= kMaxFields) {
@@ -37,71 +30,43 @@ std::vector<std::string_view> fields_of(std::string_view line) {
     return fields;
 }
 
-class TableReader {
-public:
-    explicit TableReader(const std::string& name) : name_(name) {}
+double value_of(const LineReader& lines, std::string_view field) {
+    const auto value = number_of(field);
+    if (!value || !(*value >= 0 && *value <= 1e9)) lines.fail(quoted(field) + " is not a number from 0 to 1e9");
+    return *value;
+}
 
-    void line(std::string_view text) {
-        ++number_;
-        text = trimmed(text);
-        if (text.starts_with('#')) {
-            const std::string_view comment = trimmed(text.substr(1));
-            if (comment.starts_with("Q0 ")) table_.stated_q0 = value_of(trimmed(comment.substr(3)));
-        } else if (!text.empty()) {
-            row(text);
-        }
+void read_row(ReflectionTable& table, const LineReader& lines, std::string_view text) {
+    const auto fields = fields_of(text);
+    if (fields.size() > kMaxFields) lines.fail("has more than 512 values");
+    if (table.beta.empty()) {
+        for (size_t i = 1; i < fields.size(); ++i) table.beta.push_back(value_of(lines, fields[i]));
+        if (table.beta.empty()) lines.fail("is not a row of beta, separated by commas");
+        return;
     }
-
-    ReflectionTable take() {
-        table_.name = name_;
-        check_reflection_table(table_, name_);
-        return std::move(table_);
-    }
-
-private:
-    void row(std::string_view text) {
-        const auto fields = fields_of(text);
-        if (fields.size() > kMaxFields) fail("has more than 512 values");
-        if (table_.beta.empty()) {
-            for (size_t i = 1; i < fields.size(); ++i) table_.beta.push_back(value_of(fields[i]));
-            if (table_.beta.empty()) fail("is not a row of beta, separated by commas");
-            return;
-        }
-        if (fields.size() != table_.beta.size() + 1)
-            fail("has " + std::to_string(fields.size()) + " fields, " + std::to_string(table_.beta.size() + 1) +
-                 " are wanted");
-        if (table_.tan_gamma.size() == kMaxFields) fail("is one row too many: at most 512 tan gamma are read");
-        table_.tan_gamma.push_back(value_of(fields[0]));
-        for (size_t i = 1; i < fields.size(); ++i)
-            table_.r.push_back(fields[i].empty() ? 0 : value_of(fields[i]) * 1e-4);
-    }
-
-    double value_of(std::string_view field) const {
-        double value = 0;
-        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-        if (error != std::errc() || end != field.data() + field.size() || !(value >= 0 && value <= 1e9))
-            fail("'" + one_line(std::string(field), 40) + "' is not a number from 0 to 1e9");
-        return value;
-    }
-
-    [[noreturn]] void fail(const std::string& reason) const {
-        throw Error(name_ + ": line " + std::to_string(number_) + ": " + reason);
-    }
-
-    std::string name_;
-    size_t number_ = 0;
-    ReflectionTable table_;
-};
+    if (fields.size() != table.beta.size() + 1)
+        lines.fail("has " + std::to_string(fields.size()) + " fields, " + std::to_string(table.beta.size() + 1) +
+                   " are wanted");
+    if (table.tan_gamma.size() == kMaxFields) lines.fail("is one row too many: at most 512 tan gamma are read");
+    table.tan_gamma.push_back(value_of(lines, fields[0]));
+    for (size_t i = 1; i < fields.size(); ++i)
+        table.r.push_back(fields[i].empty() ? 0 : value_of(lines, fields[i]) * 1e-4);
+}
 
 ReflectionTable parse(std::string_view text, const std::string& name) {
-    TableReader reader(name);
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    while (!text.empty()) {
-        const size_t end = std::min(text.find('\n'), text.size());
-        reader.line(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
+    ReflectionTable table{.name = name};
+    LineReader lines({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, name);
+    while (const auto next = lines.next()) {
+        const std::string_view line = trimmed(*next);
+        if (line.starts_with('#')) {
+            const std::string_view comment = trimmed(line.substr(1));
+            if (comment.starts_with("Q0 ")) table.stated_q0 = value_of(lines, trimmed(comment.substr(3)));
+        } else if (!line.empty()) {
+            read_row(table, lines, line);
+        }
     }
-    return reader.take();
+    check_reflection_table(table, name);
+    return table;
 }
 
 }  // namespace

@@ -61,10 +61,10 @@ TEST(ReflectionTable, R3HasTheNumbersOfTheStandard) {
 
 TEST(ReflectionTable, IsBilinear) {
     const ReflectionTable table = parse("t,0,90,180\n0,10,10,10\n1,8,4,\n");
-    EXPECT_NEAR(reduced_luminance_coefficient(table, 0.5, 45), 8e-4, 1e-15);     // (10 + 6) / 2
-    EXPECT_NEAR(reduced_luminance_coefficient(table, 0.5, -45), 8e-4, 1e-15);    // the other side of the road
+    EXPECT_NEAR(reduced_luminance_coefficient(table, 0.5, 45), 8e-4, 1e-15);   // (10 + 6) / 2
+    EXPECT_NEAR(reduced_luminance_coefficient(table, 0.5, -45), 8e-4, 1e-15);  // the other side of the road
     EXPECT_NEAR(reduced_luminance_coefficient(table, 0.5, 315), 8e-4, 1e-15);
-    EXPECT_NEAR(reduced_luminance_coefficient(table, 1, 135), 2e-4, 1e-15);      // towards the empty field
+    EXPECT_NEAR(reduced_luminance_coefficient(table, 1, 135), 2e-4, 1e-15);  // towards the empty field
     EXPECT_EQ(reduced_luminance_coefficient(table, 1.0001, 0), 0);
     EXPECT_NEAR(reduced_luminance_coefficient(extended(table), 1.0001, 0), 8e-4, 1e-6);
 }
@@ -102,7 +102,8 @@ TEST(ReflectionTable, ExtensionLeavesCoveredCellsAndFallsSmoothly) {
 }
 
 TEST(ReflectionTable, ReadsWhatSpreadsheetsWrite) {
-    const ReflectionTable table = parse("\xef\xbb\xbf# made up\r\n# Q0 0.09\r\n\"tan\", 0, 180\r\n\r\n0, 300, 300\r\n2, 30,\r\n");
+    const ReflectionTable table =
+        parse("\xef\xbb\xbf# made up\r\n# Q0 0.09\r\n\"tan\", 0, 180\r\n\r\n0, 300, 300\r\n2, 30,\r\n");
     EXPECT_EQ(table.stated_q0, 0.09);
     EXPECT_EQ(table.name, "t.csv");
     EXPECT_EQ(table.beta, (std::vector<double>{0, 180}));

@@ -11,8 +11,7 @@ namespace vesper {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kEyeHeight = 1.5, kEyeDistance = 60;  // m
-constexpr double kGlareRange = 500;                    // m
+constexpr double kGlareRange = 500;  // m
 
 /// Intensity of a new luminaire towards a point, cd.
 double intensity_towards(const RoadLayout& road, const RoadLuminaire& lamp, glm::dvec3 point) {
@@ -30,12 +29,11 @@ double strip_illuminance(const RoadLayout& road, std::span<const RoadLuminaire> 
 
 void find_worst_glare(const RoadLayout& road, std::span<const RoadLuminaire> lamps, const RoadField& field,
                       RoadObserver& observer) {
-    double height = 0;
-    for (const RoadMount& mount : road_mounts(road)) height = std::max(height, mount.position.z);
-    const double first = -2.75 * (height - kEyeHeight);  // the luminaire at x = 0 comes out from behind the roof
+    const double first =
+        -2.75 * (road_height(road) - observer.eye.z);  // the luminaire at x = 0 comes out from behind the roof
     observer.veil = -1;
     for (size_t i = 0; i < field.x.size(); ++i) {
-        const glm::dvec3 eye(first + static_cast<double>(i) * field.step, observer.eye.y, kEyeHeight);
+        const glm::dvec3 eye(first + static_cast<double>(i) * field.step, observer.eye.y, observer.eye.z);
         const double veil = veiling_luminance(road, lamps, eye);
         if (veil <= observer.veil) continue;
         observer.veil = veil;
@@ -71,9 +69,12 @@ void summarise_illuminance(const RoadLayout& road, std::span<const RoadLuminaire
     }
     result.average_illuminance = sum / static_cast<double>(result.points.size());
     const double w = road.width, lane = w / road.lanes;
-    const auto mean = [&](double low, double high) { return strip_illuminance(road, lamps, result.field, low, high); };
-    result.edge_ratio_right = mean(-lane, 0) / mean(0, lane);
-    result.edge_ratio_left = mean(w, w + lane) / mean(w - lane, w);
+    const auto ratio = [&](double outside, double inside) {
+        const double within = strip_illuminance(road, lamps, result.field, inside, inside + lane);
+        return within > 0 ? strip_illuminance(road, lamps, result.field, outside, outside + lane) / within : 0;
+    };
+    result.edge_ratio_right = ratio(-lane, 0);
+    result.edge_ratio_left = ratio(w, w - lane);
     result.edge_ratio = std::min(result.edge_ratio_right, result.edge_ratio_left);
 }
 
@@ -133,18 +134,10 @@ RoadResult calculate_road(const RoadLayout& road) {
     check_road(road);
     RoadResult result;
     result.field = road_field(road);
-    double height = 0;
-    for (const RoadMount& mount : road_mounts(road)) height = std::max(height, mount.position.z);
+    result.observers = road_observers(road);
+    const double height = road_height(road);
     const auto lamps = road_luminaires(road, -5 * height, road.spacing + std::max(12 * height, kGlareRange));
 
-    const double lane = road.width / road.lanes;
-    for (int i = 0; i < road.lanes; ++i) {
-        RoadObserver observer;
-        observer.lane = i + 1;
-        const double y = (i + 0.5) * lane;
-        observer.eye = {-kEyeDistance, road.left_hand_traffic ? road.width - y : y, kEyeHeight};
-        result.observers.push_back(observer);
-    }
     for (const double y : result.field.y)
         for (const double x : result.field.x) {
             RoadPoint point{x, y, horizontal_illuminance(road, lamps, {x, y}), {}};

@@ -77,6 +77,8 @@ struct RoadField {
     double step = 0;  ///< D, m
 };
 RoadField road_field(const RoadLayout&);
+/// The greatest mounting height, m.
+double road_height(const RoadLayout&);
 
 /// Maintained horizontal illuminance, lx: luminaires within 5H (EN 13201-3, 7.2).
 double horizontal_illuminance(const RoadLayout&, std::span<const RoadLuminaire>, glm::dvec2 point);
@@ -107,6 +109,9 @@ struct RoadObserver {
     double veil = 0;                   ///< there, cd/m^2
     double threshold_increment = 0;    ///< there, %, with the initial average luminance
 };
+
+/// The observers in place, lane by lane, with nothing calculated.
+std::vector<RoadObserver> road_observers(const RoadLayout&);
 
 struct RoadResult {
     RoadField field;

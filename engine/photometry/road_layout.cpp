@@ -94,4 +94,22 @@ RoadField road_field(const RoadLayout& road) {
     return field;
 }
 
+double road_height(const RoadLayout& road) {
+    double height = 0;
+    for (const RoadMount& mount : road_mounts(road)) height = std::max(height, mount.position.z);
+    return height;
+}
+
+std::vector<RoadObserver> road_observers(const RoadLayout& road) {
+    std::vector<RoadObserver> observers;
+    for (int i = 0; i < road.lanes; ++i) {
+        const double y = (i + 0.5) * road.width / road.lanes;
+        RoadObserver observer;
+        observer.lane = i + 1;
+        observer.eye = {-60, road.left_hand_traffic ? road.width - y : y, 1.5};
+        observers.push_back(observer);
+    }
+    return observers;
+}
+
 }  // namespace vesper

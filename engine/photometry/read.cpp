@@ -5,6 +5,7 @@
 #include "io/atomic_file.h"
 #include "photometry/distribution.h"
 #include "photometry/eulumdat.h"
+#include "photometry/grid.h"
 #include "photometry/ies.h"
 #include "photometry/table.h"
 
@@ -34,6 +35,8 @@ Distribution read_distribution(const std::filesystem::path& file) {
     if (format != ".ies" && format != ".ldt" && format != ".csv" && format != ".exr")
         format = format_of(read_file(file, kMaxTableBytes));
     if (format == ".ies") return read_ies(file);
+    if (format == ".csv") return read_grid_csv(file);
+    if (format == ".exr") return read_grid_exr(file);
     return read_eulumdat(file);
 }
 

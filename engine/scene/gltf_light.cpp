@@ -85,6 +85,7 @@ void read_lights(GltfReader& reader) {
     if (lights.size() > reader.limits.lights)
         punctual->fail("more lights than the limit of " + std::to_string(reader.limits.lights));
     for (const JsonValue& light : lights) reader.scene.lights.push_back(read_light(reader, light));
+    reader.punctual_lights = static_cast<uint32_t>(lights.size());
 }
 
 void read_photometry_block(GltfReader& reader) {

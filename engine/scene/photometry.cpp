@@ -8,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "scene/colour.h"
 #include "scene/json_value.h"
+#include "scene/photometry_measured.h"
 
 namespace vesper {
 namespace {
@@ -74,24 +75,32 @@ void read_lobe(Light& light, const JsonValue& rule) {
         light.inner_cone = 0;
         light.outer_cone = static_cast<float>(std::min(edge, std::numbers::pi / 2));
     } else {
-        type.fail("is none of point, spot and cosine_power");
+        type.fail("is none of point, spot, cosine_power and distribution");
     }
 }
 
-LampRule read_lamp(const JsonValue& source) {
-    LampRule rule;
+/// Intensity and axis of a lamp that has a lobe.
+void read_shape(LampRule& rule, const JsonValue& source) {
     read_lobe(rule.light, source);
-    rule.nodes = read_patterns(source, "nodes");
-    rule.name = source.text_or("name", rule.nodes.front());
-    rule.light.name = rule.name;
     rule.light.intensity = static_cast<float>(source.at("intensity_cd").number(0, 1e9));
     if (!(rule.light.intensity > 0)) source.at("intensity_cd").fail("must be more than 0");
-    rule.light.colour = glm::vec3(read_colour(source, &rule.kelvin));
     if (const auto aim = source.find("aim")) {
         const glm::dvec3 axis = read_vector(*aim);
         if (!(glm::length(axis) > 1e-6)) aim->fail("must not be of length 0");
         rule.aim = glm::normalize(axis);
     }
+}
+
+LampRule read_lamp(const JsonValue& source, const std::filesystem::path& folder, Photometry& made) {
+    LampRule rule;
+    if (source.at("type").text() == "distribution")
+        read_measured(source, folder, made, rule);
+    else
+        read_shape(rule, source);
+    rule.nodes = read_patterns(source, "nodes");
+    rule.name = source.text_or("name", rule.nodes.front());
+    rule.light.name = rule.name;
+    rule.light.colour = glm::vec3(read_colour(source, &rule.kelvin));
     if (const auto offset = source.find("offset_m")) rule.offset = read_vector(*offset);
     return rule;
 }
@@ -176,7 +185,8 @@ Photometry read_photometry(const std::filesystem::path& file) {
         lights->allow_only({"keep"});
         made.keep_lights = lights->boolean_or("keep", false);
     }
-    for (const JsonValue& rule : root.elements_of("lamps")) made.lamps.push_back(read_lamp(rule));
+    for (const JsonValue& rule : root.elements_of("lamps"))
+        made.lamps.push_back(read_lamp(rule, file.parent_path(), made));
     for (const JsonValue& rule : root.elements_of("emitters")) made.emitters.push_back(read_emitter(rule));
     for (const JsonValue& rule : root.elements_of("surfaces")) made.surfaces.push_back(read_surface(rule));
     return made;

@@ -63,6 +63,8 @@ void read_nodes(GltfReader& reader);
 void read_animations(GltfReader& reader);
 /// The extras block of a converted file (docs/photometry.md).
 void read_photometry_block(GltfReader& reader);
+/// "reflection_tables" and "roads" of that block.
+void read_reflection_tables(GltfReader& reader, const JsonValue& block);
 
 /// All of the above in order, and the checks that need the whole scene.
 void read_all(GltfReader& reader);

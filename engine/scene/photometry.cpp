@@ -8,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "scene/colour.h"
 #include "scene/json_value.h"
+#include "scene/reflection_json.h"
 #include "scene/photometry_measured.h"
 
 namespace vesper {
@@ -116,14 +117,18 @@ EmitterRule read_emitter(const JsonValue& source) {
     return rule;
 }
 
-SurfaceRule read_surface(const JsonValue& source) {
-    source.allow_only({"name", "materials", "reflectance_scale", "roughness", "metallic"});
+SurfaceRule read_surface(const JsonValue& source, const std::filesystem::path& folder) {
+    source.allow_only({"name", "materials", "reflectance_scale", "roughness", "metallic", "reflection_table", "q0"});
     SurfaceRule rule;
     rule.materials = read_patterns(source, "materials");
     rule.name = source.text_or("name", rule.materials.front());
     rule.reflectance_scale = source.number_or("reflectance_scale", 1, 0, 100);
     if (const auto roughness = source.find("roughness")) rule.roughness = roughness->number(0, 1);
     if (const auto metallic = source.find("metallic")) rule.metallic = metallic->number(0, 1);
+    if (source.find("reflection_table"))
+        rule.reflection_table = read_named_table(source, folder);
+    else if (const auto q0 = source.find("q0"))
+        q0->fail("has a meaning only beside a reflection_table");
     return rule;
 }
 
@@ -188,7 +193,7 @@ Photometry read_photometry(const std::filesystem::path& file) {
     for (const JsonValue& rule : root.elements_of("lamps"))
         made.lamps.push_back(read_lamp(rule, file.parent_path(), made));
     for (const JsonValue& rule : root.elements_of("emitters")) made.emitters.push_back(read_emitter(rule));
-    for (const JsonValue& rule : root.elements_of("surfaces")) made.surfaces.push_back(read_surface(rule));
+    for (const JsonValue& rule : root.elements_of("surfaces")) made.surfaces.push_back(read_surface(rule, file.parent_path()));
     return made;
 }
 

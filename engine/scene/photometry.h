@@ -45,6 +45,7 @@ struct SurfaceRule {
     std::vector<std::string> materials;  ///< patterns
     double reflectance_scale = 1;
     std::optional<double> roughness, metallic;
+    std::optional<ReflectionTable> reflection_table;
 };
 
 /// A quantity with a colour of luminance 1.

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "scene/json_value.h"
+#include "scene/reflection_json.h"
 
 namespace vesper {
 namespace {
@@ -91,16 +92,9 @@ void read_luminaires(RoadLayout& road, const JsonValue& source, const std::files
 ReflectionTable read_surface(const JsonValue& source, const std::filesystem::path& folder,
                              const RoadOverrides& overrides) {
     source.allow_only({"reflection_table", "q0"});
-    const bool other = !overrides.reflection_table.empty();
-    const std::string& stated = source.at("reflection_table").text();
-    ReflectionTable table =
-        other ? find_reflection_table(overrides.reflection_table) : find_reflection_table(stated, folder);
-    std::optional<double> q0 = overrides.q0;
-    if (const auto own = source.find("q0")) {
-        const double value = own->number(0.001, 10);
-        if (!q0 && !other) q0 = value;
-    }
-    return q0 ? rescaled(table, *q0) : table;
+    ReflectionTable table = overrides.reflection_table.empty() ? read_named_table(source, folder)
+                                                               : find_reflection_table(overrides.reflection_table);
+    return overrides.q0 ? rescaled(table, *overrides.q0) : table;
 }
 
 }  // namespace

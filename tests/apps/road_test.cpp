@@ -45,7 +45,7 @@ TEST_F(Road, PrintsFiguresAndWritesPoints) {
          {"1.164   >= 1     ok", "0.544   >= 0.6   missed", "reached (EN 13201-2:2015, dry): M5", "observer of lane 2"})
         EXPECT_NE(out.find(part), std::string::npos) << part << out;
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 62);
-    EXPECT_NE(csv.find("\n1.5000,0.5833,22.3297,1.42164,1.13243\n"), std::string::npos) << csv.substr(0, 300);
+    EXPECT_NE(csv.find("\n10.5000,0.5833,12.2136,2.19201,1.91229\n"), std::string::npos) << csv.substr(0, 300);
     EXPECT_NE(json.find("\"class_reached\": \"M5\""), std::string::npos);
     ASSERT_EQ(run("--r-table R2 --class M4"), 0);
     EXPECT_NE(text_of("out.txt").find("1.139   >= 0.75  ok"), std::string::npos) << text_of("out.txt");

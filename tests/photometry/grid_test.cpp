@@ -1,6 +1,8 @@
 // Grids of intensity in CSV and OpenEXR. SPDX-License-Identifier: MIT
 #include "photometry/grid.h"
 
+#include <random>
+
 #include <ImfChannelList.h>
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -115,6 +117,28 @@ TEST(Grid, ReadsOpenExr) {
     ASSERT_NE(window, huge.npos);
     huge.replace(window + 11 + 6 + 4 + 8, 4, "\xff\xff\xff\x7f", 4);
     EXPECT_TRUE(has(complaint_of([&] { parse_grid_exr(bytes_of(huge), "huge.exr"); }), "horizontal angles"));
+}
+
+TEST(Grid, DamagedOpenExrGivesAnError) {
+    const TempFolder folder;
+    write_picture(folder / "a.exr", "B");
+    const std::string picture = read_text(folder / "a.exr");
+    const auto attempt = [](const std::string& bytes) {
+        try {
+            const Distribution d = parse_grid_exr(bytes_of(bytes), "x.exr");
+            EXPECT_TRUE(std::isfinite(luminous_flux(d)));
+        } catch (const Error& error) {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        }
+    };
+    for (size_t size = 0; size < picture.size(); ++size) attempt(picture.substr(0, size));
+    std::mt19937 random(3);
+    for (int round = 0; round < 3000; ++round) {
+        std::string changed = picture;
+        for (unsigned i = 0; i <= random() % 3; ++i)
+            changed[random() % changed.size()] = static_cast<char>(random() % 3 ? random() : 0xff);
+        attempt(changed);
+    }
 }
 
 TEST(Grid, FilesAreKnownByNameOrContents) {

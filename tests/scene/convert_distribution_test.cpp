@@ -27,7 +27,10 @@ protected:
         for (double g = 0; g <= 90; g += 10) lamp_.vertical.push_back(g);
         for (const double c : lamp_.horizontal)
             for (const double g : lamp_.vertical)
-                lamp_.candela.push_back(g == 60 && c == 30 ? 5000 : g < 90 ? 100 + c * (360 - c) / 1000 : 0);
+                lamp_.candela.push_back(g == 60 && c == 30 ? 5000
+                                        : g == 0           ? 100
+                                        : g < 90           ? 100 + c * (360 - c) / 1000
+                                                           : 0);
         folder_.write("lamp.ies", write_ies(lamp_));
         // Brightest at H = 10, V = -5.
         folder_.write("beam.csv", ",-20,0,10,20\n-10,1,100,200,1\n-5,1,500,30000,1\n0,1,100,200,1\n10,1,1,1,1\n");
@@ -39,7 +42,8 @@ protected:
     json beam_rule() const {
         return {{"name", "beam"}, {"nodes", "car_*"}, {"type", "distribution"}, {"file", "beam.csv"}};
     }
-    ConversionReport convert_with(const json& lamps, const std::string& output = "out.gltf", bool keep = false) {
+    ConversionReport convert_with(const std::vector<json>& lamps, const std::string& output = "out.gltf",
+                                  bool keep = false) {
         const json photometry = {{"version", 1}, {"lamps", lamps}, {"lights", {{"keep", keep}}}};
         return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()),
                        folder_ / output);

@@ -21,7 +21,7 @@ Distribution read_ies(const std::filesystem::path& file);
 Distribution parse_ies(std::span<const uint8_t> text, const std::string& name,
                        const std::optional<std::filesystem::path>& folder = std::nullopt);
 
-/// A distribution as LM-63-2019; parse_ies() gives it back to 9 digits.
+/// A distribution as LM-63-2019; parse_ies() gives angles back as they were and candela as floats.
 std::string write_ies(const Distribution& distribution);
 
 }  // namespace vesper

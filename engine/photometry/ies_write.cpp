@@ -1,5 +1,5 @@
 // Writing IES LM-63-2019 files. SPDX-License-Identifier: MIT
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -8,18 +8,21 @@
 namespace vesper {
 namespace {
 
-constexpr int kDigits = 9;          // a float comes back as it was
 constexpr size_t kLineWidth = 120;  // the standard allows 256
 
-std::string text_of(double value) {
-    char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, kDigits).ptr;
-    return {digits, end};
+/// The shortest decimal that comes back as it was; without an exponent where that is not long.
+template <class Number>
+std::string text_of(Number value) {
+    char digits[64];
+    const bool plain = value == 0 || (std::abs(value) >= Number(1e-4) && std::abs(value) < Number(1e15));
+    const auto form = plain ? std::chars_format::fixed : std::chars_format::scientific;
+    return {digits, std::to_chars(digits, digits + sizeof digits, value, form).ptr};
 }
 
-void append(std::string& file, const std::vector<double>& values) {
+template <class Number>
+void append(std::string& file, const std::vector<Number>& values) {
     size_t width = 0;
-    for (const double value : values) {
+    for (const Number value : values) {
         const std::string text = text_of(value);
         if (width > 0 && width + text.size() + 1 > kLineWidth) {
             file += "\r\n";
@@ -71,15 +74,15 @@ std::string write_ies(const Distribution& d) {
     }
     const int type = d.goniometry == Goniometry::CGamma ? 1 : d.goniometry == Goniometry::TypeB ? 2 : 3;
     const double sign = d.opening.round ? -1 : 1;
-    append(file, {1, d.lamp_flux > 0 ? d.lamp_flux : -1, 1, static_cast<double>(d.vertical.size()),
-                  static_cast<double>(horizontal.size()), static_cast<double>(type), 2, sign * d.opening.width,
-                  sign * d.opening.length, d.opening.height});
-    append(file, {1, 1.00001, 0});  // ballast factor, how the file was generated (not stated), watts
+    append<double>(file, {1, d.lamp_flux > 0 ? d.lamp_flux : -1, 1, static_cast<double>(d.vertical.size()),
+                          static_cast<double>(horizontal.size()), static_cast<double>(type), 2, sign * d.opening.width,
+                          sign * d.opening.length, d.opening.height});
+    append<double>(file, {1, 1.00001, 0});  // ballast factor, how the file was generated (not stated), watts
     append(file, d.vertical);
     append(file, horizontal);
     const auto planes = static_cast<ptrdiff_t>(d.vertical.size());
     for (auto plane = candela.begin(); plane != candela.end(); plane += planes)
-        append(file, std::vector<double>(plane, plane + planes));
+        append(file, std::vector<float>(plane, plane + planes));
     return file;
 }
 

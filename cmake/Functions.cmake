@@ -21,6 +21,20 @@ function(vesper_embed_shaders target)
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endfunction()
 
+# vesper_embed_texts(<target> <made> <file>...)
+#   Writes the include file <made> with one line {"name", text} for each file, name without folder and extension.
+function(vesper_embed_texts target made)
+    set(lines "")
+    foreach(file IN LISTS ARGN)
+        get_filename_component(name ${file} NAME_WE)
+        file(READ ${file} text)
+        string(APPEND lines "{\"${name}\", R\"text(${text})text\"},\n")
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    endforeach()
+    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${made} CONTENT "${lines}" @ONLY)
+    target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()
+
 # vesper_warnings(<target>): the project's warnings, never passed on to users.
 function(vesper_warnings target)
     target_compile_options(${target} PRIVATE

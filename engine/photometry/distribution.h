@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,5 +55,12 @@ double luminous_flux(const Distribution&);
 
 /// The largest tabulated intensity, cd.
 double largest_intensity(const Distribution&);
+
+/// Left and right exchanged (x to -x): H to -H, C to 180 - C. Turns a beam for right-hand traffic into one for left-hand.
+Distribution mirrored(const Distribution&);
+
+/// Reads a distribution from a file: .ies (LM-63), .ldt (EULUMDAT), .csv or .exr (a laboratory's grid, grid.h); any
+/// other name by its contents. Throws Error naming file, line and reason.
+Distribution read_distribution(const std::filesystem::path& file);
 
 }  // namespace vesper

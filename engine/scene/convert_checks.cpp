@@ -54,10 +54,14 @@ void check_reflectances(const Scene& scene, ConversionReport& report) {
 namespace {
 
 void check_lamps(Conversion& conversion) {
-    for (const LampRule& rule : conversion.photometry.lamps)
-        if (rule.light.intensity < kFaintestLamp || rule.light.intensity > kBrightestLamp)
-            conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": " + decimal(rule.light.intensity) +
+    for (const LampRule& rule : conversion.photometry.lamps) {
+        double candela = rule.light.intensity;
+        if (rule.light.kind == Light::Kind::Measured)
+            candela *= largest_intensity(conversion.photometry.measured[rule.light.distribution].distribution);
+        if (candela < kFaintestLamp || candela > kBrightestLamp)
+            conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": " + decimal(candela) +
                                                  " cd is beyond the lamps of a street (0.1 to 1e6 cd)");
+    }
 }
 
 void check_size(Conversion& conversion) {

@@ -1,16 +1,19 @@
-// Lamps on nodes: photometry rules to KHR_lights_punctual. SPDX-License-Identifier: MIT
+// Lamps on nodes: photometry rules to KHR_lights_punctual and EXT_lights_ies. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <numbers>
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "photometry/ies.h"
 #include "scene/convert_rules.h"
+#include "scene/photometry_measured.h"
+#include "scene/uri.h"
 
 namespace vesper {
 namespace {
 
 using nlohmann::json;
-constexpr const char* kLights = "KHR_lights_punctual";
+constexpr const char *kLights = "KHR_lights_punctual", *kMeasured = "EXT_lights_ies";
 
 std::string number_of(size_t count, const std::string& what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
@@ -19,14 +22,16 @@ std::string number_of(size_t count, const std::string& what) {
 void remove_extension(json& holder) {
     const auto extensions = holder.find("extensions");
     if (extensions == holder.end()) return;
-    if (extensions->is_object()) extensions->erase(kLights);
+    if (extensions->is_object())
+        for (const char* name : {kLights, kMeasured}) extensions->erase(name);
     if (extensions->empty()) holder.erase("extensions");
 }
 
 void remove_from_list(json& root, const char* list) {
     const auto names = root.find(list);
     if (names == root.end()) return;
-    names->erase(std::remove(names->begin(), names->end(), json(kLights)), names->end());
+    for (const char* name : {kLights, kMeasured})
+        names->erase(std::remove(names->begin(), names->end(), json(name)), names->end());
     if (names->empty()) root.erase(list);
 }
 
@@ -69,15 +74,6 @@ json light_of(const LampRule& rule) {
     return made;
 }
 
-/// The shortest turn from -Z to an axis.
-glm::dquat turn_to(glm::dvec3 axis) {
-    const glm::dvec3 from(0, 0, -1);
-    const double cosine = glm::dot(from, axis);
-    if (cosine < -1 + 1e-12) return {0, 0, 1, 0};  // half a turn about Y
-    const glm::dvec3 normal = glm::cross(from, axis);
-    return glm::normalize(glm::dquat(1 + cosine, normal.x, normal.y, normal.z));
-}
-
 /// How long the node's axes are in the world: offsets are given in metres, whatever scale lies above.
 glm::dvec3 axis_lengths(const Conversion& conversion, const std::vector<glm::mat4>& world, uint32_t node) {
     const uint32_t placed = conversion.original.node_of[node];
@@ -91,29 +87,93 @@ glm::dvec3 axis_lengths(const Conversion& conversion, const std::vector<glm::mat
     return lengths;
 }
 
-void add_lamp(Conversion& conversion, const LampRule& rule, size_t light, uint32_t node, glm::dvec3 scale) {
+/// The light of a rule, as a node refers to it.
+struct Reference {
+    const char* extension;
+    json use;
+};
+
+/// Puts the file of a measured lamp into the document, once for all rules that name it.
+size_t profile_of(Conversion& conversion, const LampRule& rule) {
+    const auto [known, is_new] = conversion.profiles.try_emplace(rule.light.distribution);
+    if (!is_new) return known->second;
     json& root = conversion.document.edit();
-    const json reference = {{"light", light}};
-    const bool plain = !rule.aim && rule.offset == glm::dvec3(0);
+    json& extension =
+        object_member(conversion.document, object_member(conversion.document, root, "extensions"), kMeasured);
+    if (!extension.contains("lights")) extension["lights"] = json::array();
+    if (!root.contains("bufferViews")) root["bufferViews"] = json::array();
+    use_extension(root, kMeasured);
+    const Distribution& distribution = conversion.photometry.measured[rule.light.distribution].distribution;
+    const std::string text = write_ies(distribution);
+    root["bufferViews"].push_back({{"buffer", root.contains("buffers") ? root["buffers"].size() : 0},
+                                   {"byteOffset", conversion.profile_bytes.size()},
+                                   {"byteLength", text.size()}});
+    conversion.profile_bytes.insert(conversion.profile_bytes.end(), text.begin(), text.end());
+    extension["lights"].push_back({{"name", distribution.name},
+                                   {"bufferView", root["bufferViews"].size() - 1},
+                                   {"mimeType", "application/x-ies-lm-63"}});
+    return known->second = extension["lights"].size() - 1;
+}
+
+void add_profile_buffer(Conversion& conversion) {
+    if (conversion.profile_bytes.empty()) return;
+    conversion.document.edit()["buffers"].push_back(
+        {{"byteLength", conversion.profile_bytes.size()},
+         {"uri", encode_data_uri("application/octet-stream", conversion.profile_bytes)}});
+}
+
+Reference reference_of(Conversion& conversion, const LampRule& rule) {
+    if (rule.light.kind == Light::Kind::Measured) {
+        // As for intensity: multiplier * Y(color) is the factor.
+        const glm::dvec3 colour(rule.light.colour);
+        const double brightest = std::max({colour.r, colour.g, colour.b});
+        return {kMeasured,
+                {{"light", profile_of(conversion, rule)},
+                 {"multiplier", rule.light.intensity * brightest},
+                 {"color", {colour.r / brightest, colour.g / brightest, colour.b / brightest}}}};
+    }
+    json& root = conversion.document.edit();
+    json& extension =
+        object_member(conversion.document, object_member(conversion.document, root, "extensions"), kLights);
+    if (!extension.contains("lights")) extension["lights"] = json::array();
+    const size_t light = extension["lights"].size();
+    extension["lights"].push_back(light_of(rule));
+    use_extension(root, kLights);
+    if (rule.light.kind == Light::Kind::CosinePower)
+        conversion.lobes.push_back({{"light", light}, {"type", "cosine_power"}, {"exponent", rule.light.exponent}});
+    return {kLights, {{"light", light}}};
+}
+
+void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& reference, uint32_t node,
+              glm::dvec3 scale) {
+    json& root = conversion.document.edit();
+    const bool plain = !rule.aim && !rule.turn && rule.offset == glm::dvec3(0);
     json& extensions = object_member(conversion.document, root["nodes"][node], "extensions");
-    if (plain && !extensions.contains(kLights)) {
-        extensions[kLights] = reference;
+    if (plain && !extensions.contains(kLights) && !extensions.contains(kMeasured)) {
+        extensions[reference.extension] = reference.use;
         return;
     }
     if (extensions.empty()) root["nodes"][node].erase("extensions");
-    json child = {{"name", rule.name}, {"extensions", {{kLights, reference}}}};
+    json child = {{"name", rule.name}, {"extensions", {{reference.extension, reference.use}}}};
     const glm::dvec3 offset = rule.offset / scale;
     if (offset != glm::dvec3(0)) child["translation"] = {offset.x, offset.y, offset.z};
-    if (rule.aim) {
-        const glm::dquat turn = turn_to(*rule.aim);
+    if (rule.aim || rule.turn) {
+        const glm::dquat turn = rule.turn ? *rule.turn : turn_to(*rule.aim);
         child["rotation"] = {turn.x, turn.y, turn.z, turn.w};
     }
     root["nodes"][node]["children"].push_back(root["nodes"].size());
     root["nodes"].push_back(std::move(child));
 }
 
-std::string describe(const LampRule& rule, size_t nodes) {
+std::string describe(const Conversion& conversion, const LampRule& rule, size_t nodes) {
     const Light& light = rule.light;
+    if (light.kind == Light::Kind::Measured) {
+        const MeasuredLamp& lamp = conversion.photometry.measured[light.distribution];
+        return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + in_quotes(lamp.file) +
+               (lamp.mirror ? " mirrored, " : ", ") + decimal(light.intensity * largest_intensity(lamp.distribution)) +
+               " cd at most, " + (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
+               decimal(light.intensity * luminous_flux(lamp.distribution)) + " lm each";
+    }
     const double degrees = 180 / std::numbers::pi;
     std::string lobe = "point";
     if (light.kind == Light::Kind::Spot)
@@ -173,19 +233,12 @@ void convert_lamps(Conversion& conversion) {
                                                  (rule.nodes.size() > 1 ? " or its other patterns" : ""));
             continue;
         }
-        json& root = conversion.document.edit();
-        json& extension =
-            object_member(conversion.document, object_member(conversion.document, root, "extensions"), kLights);
-        if (!extension.contains("lights")) extension["lights"] = json::array();
-        const size_t light = extension["lights"].size();
-        extension["lights"].push_back(light_of(rule));
-        use_extension(root, kLights);
-        if (rule.light.kind == Light::Kind::CosinePower)
-            conversion.lobes.push_back({{"light", light}, {"type", "cosine_power"}, {"exponent", rule.light.exponent}});
+        const Reference reference = reference_of(conversion, rule);
         for (const uint32_t node : matched[r])
-            add_lamp(conversion, rule, light, node, axis_lengths(conversion, world, node));
-        conversion.report.changes.push_back(describe(rule, matched[r].size()));
+            add_lamp(conversion, rule, reference, node, axis_lengths(conversion, world, node));
+        conversion.report.changes.push_back(describe(conversion, rule, matched[r].size()));
     }
+    add_profile_buffer(conversion);
 }
 
 }  // namespace vesper

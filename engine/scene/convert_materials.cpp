@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/convert_rules.h"
+#include "scene/reflection_json.h"
 
 namespace vesper {
 namespace {
@@ -132,6 +133,20 @@ void set_roughness(Conversion& conversion, const SurfaceRule& rule, json& materi
         material["extensions"][kSpecularGlossiness]["glossinessFactor"] = 1 - *rule.roughness;
 }
 
+/// The table's place in the extras block; equal tables are stored once.
+size_t table_index(Conversion& conversion, const ReflectionTable& table) {
+    json& tables = conversion.reflection_tables;
+    const json whole = json_of(table);
+    const auto same = std::find(tables.begin(), tables.end(), whole);
+    if (same != tables.end()) return static_cast<size_t>(same - tables.begin());
+    tables.push_back(whole);
+    return tables.size() - 1;
+}
+
+std::string described(const ReflectionTable& table) {
+    return ", reflection table " + table.name + (table.stated_q0 > 0 ? " of Q0 " + decimal(table.stated_q0) : "");
+}
+
 std::string count_of(size_t materials) {
     return std::to_string(materials) + (materials == 1 ? " material" : " materials");
 }
@@ -169,12 +184,16 @@ void convert_materials(Conversion& conversion) {
             json& material = conversion.document.edit()["materials"][m];
             scale_reflectance(conversion, rule, material, conversion.original.scene.materials[m]);
             set_roughness(conversion, rule, material, conversion.original.scene.materials[m]);
+            if (rule.reflection_table)
+                conversion.roads.push_back(
+                    {{"material", m}, {"table", table_index(conversion, *rule.reflection_table)}});
         }
         if (!surfaces[r].empty())
             conversion.report.changes.push_back(
                 "surface " + in_quotes(rule.name) + ": " + count_of(surfaces[r].size()) + ", reflectance times " +
                 decimal(rule.reflectance_scale) + (rule.roughness ? ", roughness " + decimal(*rule.roughness) : "") +
-                (rule.metallic ? ", metallic " + decimal(*rule.metallic) : ""));
+                (rule.metallic ? ", metallic " + decimal(*rule.metallic) : "") +
+                (rule.reflection_table ? described(*rule.reflection_table) : ""));
     }
 }
 

@@ -1,6 +1,7 @@
 // The steps of a conversion. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <set>
 
 #include "scene/convert.h"
@@ -16,6 +17,9 @@ struct Conversion {
     const Photometry& photometry;
     ConversionReport& report;
     nlohmann::json lobes = nlohmann::json::array();  ///< of the extras block
+    nlohmann::json reflection_tables = nlohmann::json::array(), roads = nlohmann::json::array();  ///< the same
+    std::map<uint32_t, size_t> profiles{};  ///< light profile of EXT_lights_ies for a measured lamp
+    std::vector<uint8_t> profile_bytes{};   ///< a new buffer
 };
 
 /// The object member of that name, made when missing. Throws Error when it is something else.

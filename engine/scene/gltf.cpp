@@ -56,6 +56,7 @@ void read_all(GltfReader& reader) {
     note_extensions(reader);
     read_materials(reader);
     read_lights(reader);
+    read_distributions(reader);
     read_photometry_block(reader);
     read_nodes(reader);
     read_animations(reader);

@@ -18,7 +18,8 @@ struct SceneLimits {
     uint64_t texels = 512ull << 20;  ///< of all images together
     uint32_t image_side = 16384;     ///< px
     uint32_t nodes = 1'000'000;
-    uint32_t lights = 32'000;              ///< what the clusters can take on every driver
+    uint32_t lights = 32'000;       ///< what the clusters can take on every driver
+    uint64_t candela = 16'000'000;  ///< intensities of all measured distributions together
 };
 
 struct LoadedScene {
@@ -26,9 +27,9 @@ struct LoadedScene {
     std::vector<std::string> notes;  ///< what was left out or read with a change, one line each
 };
 
-/// Reads a scene: meshes, materials, node tree, cameras, KHR_lights_punctual (cd), KHR_materials_emissive_strength
-/// (cd/m^2), animations of nodes, and the vesper extras block (docs/photometry.md) where there is one.
-/// Throws Error naming the file, the place in it (JSON pointer or byte) and the reason.
+/// Reads a scene: meshes, materials, node tree, cameras, KHR_lights_punctual (cd), EXT_lights_ies,
+/// KHR_materials_emissive_strength (cd/m^2), animations of nodes, and the vesper extras block (docs/photometry.md)
+/// where there is one. Throws Error naming the file, the place in it (JSON pointer or byte) and the reason.
 LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limits = {});
 
 }  // namespace vesper

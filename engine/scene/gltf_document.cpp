@@ -12,10 +12,15 @@
 namespace vesper {
 namespace {
 
-constexpr std::array<std::string_view, 7> kSupported = {
-    "KHR_lights_punctual",     "KHR_materials_emissive_strength",     "KHR_materials_unlit",
-    "KHR_texture_transform",   "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization",
+constexpr std::array<std::string_view, 8> kSupported = {
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",
+    "KHR_texture_transform",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_mesh_quantization",
     "EXT_mesh_gpu_instancing",
+    "EXT_lights_ies",
 };
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
@@ -147,6 +152,7 @@ std::span<const uint8_t> GltfDocument::buffer(uint32_t index) {
     const auto uri = buffer.find("uri");
     std::span<const uint8_t> bytes;
     if (uri) {
+        if (index >= buffers_.size()) buffers_.resize(list("buffers").size());  // the converter adds some
         if (!buffers_[index]) buffers_[index] = bytes_of_uri(*uri);
         bytes = *buffers_[index];
     } else {
@@ -168,14 +174,13 @@ std::span<const uint8_t> GltfDocument::view(uint32_t index) {
     return bytes.subspan(offset, length);
 }
 
-std::vector<uint8_t> GltfDocument::image(uint32_t index) {
-    const JsonValue image = list("images")[index];
-    if (const auto uri = image.find("uri")) return bytes_of_uri(*uri);
-    if (const auto number = image.find("bufferView")) {
+std::vector<uint8_t> GltfDocument::file_of(const JsonValue& holder) {
+    if (const auto uri = holder.find("uri")) return bytes_of_uri(*uri);
+    if (const auto number = holder.find("bufferView")) {
         const auto bytes = view(number->index(list("bufferViews").size(), "bufferViews"));
         return {bytes.begin(), bytes.end()};
     }
-    image.fail("has neither uri nor bufferView");
+    holder.fail("has neither uri nor bufferView");
 }
 
 nlohmann::json& GltfDocument::edit() {

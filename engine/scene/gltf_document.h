@@ -37,7 +37,9 @@ public:
     std::span<const uint8_t> buffer(uint32_t index);
     std::span<const uint8_t> view(uint32_t index);
     /// Bytes of an encoded picture, from buffer view, data URI or file.
-    std::vector<uint8_t> image(uint32_t index);
+    std::vector<uint8_t> image(uint32_t index) { return file_of(list("images")[index]); }
+    /// Bytes of a file that an object names by `uri` or `bufferView`.
+    std::vector<uint8_t> file_of(const JsonValue& holder);
 
     /// For the converter. Whatever was obtained above is invalid after a change.
     nlohmann::json& edit();

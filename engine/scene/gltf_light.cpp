@@ -85,6 +85,7 @@ void read_lights(GltfReader& reader) {
     if (lights.size() > reader.limits.lights)
         punctual->fail("more lights than the limit of " + std::to_string(reader.limits.lights));
     for (const JsonValue& light : lights) reader.scene.lights.push_back(read_light(reader, light));
+    reader.punctual_lights = static_cast<uint32_t>(lights.size());
 }
 
 void read_photometry_block(GltfReader& reader) {
@@ -95,7 +96,7 @@ void read_photometry_block(GltfReader& reader) {
     if (version.integer() != 1)
         version.fail("vesper extras of version " + std::to_string(version.integer()) +
                      ": this program reads version 1");
-    block->allow_only({"version", "transfer", "ambient", "sky", "lobes", "provenance"});
+    block->allow_only({"version", "transfer", "ambient", "sky", "lobes", "reflection_tables", "roads", "provenance"});
     if (const auto transfer = block->find("transfer")) {
         transfer->allow_only({"kind", "gamma"});
         const std::string& kind = transfer->at("kind").text();
@@ -108,6 +109,7 @@ void read_photometry_block(GltfReader& reader) {
     if (const auto sky = block->find("sky"))
         read_uniform(*sky, "luminance_cd_m2", reader.scene.sky_luminance, reader.scene.sky_colour);
     for (const JsonValue& lobe : block->elements_of("lobes")) read_lobe(reader, lobe);
+    read_reflection_tables(reader, *block);
 }
 
 }  // namespace vesper

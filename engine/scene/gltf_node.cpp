@@ -168,13 +168,21 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
     if (source.find("skin")) reader.notes.add("a node with a skin is shown at rest");
 
     const auto extensions = source.find("extensions");
+    Node second;  // a node has one light: a measured one beside another becomes a child's
     if (extensions) {
         if (const auto light = extensions->find("KHR_lights_punctual"))
-            node.light = light->at("light").index(reader.scene.lights.size(), "lights");
+            node.light = light->at("light").index(reader.punctual_lights, "lights");
+        if (const auto light = extensions->find("EXT_lights_ies"))
+            (node.light == kNone ? node : second).light = read_measured_light(reader, *light);
     }
     const bool has_mesh = node.mesh != kNone;
     const uint32_t made = add_node(reader, source, std::move(node));
     reader.node_of[index] = made;
+    if (second.light != kNone) {
+        second.name = reader.scene.nodes[made].name;
+        second.parent = made;
+        add_node(reader, source, std::move(second));
+    }
     if (extensions && has_mesh)
         if (const auto instancing = extensions->find("EXT_mesh_gpu_instancing"))
             read_instances(reader, *instancing, made);

@@ -42,6 +42,9 @@ struct GltfReader {
     std::vector<UvMapping> uv_mappings{};  ///< one per scene material
     std::vector<uint32_t> mesh_of{}, node_of{}, image_of{};
     uint32_t default_material = kNone;
+    uint32_t punctual_lights = 0;  ///< those of KHR_lights_punctual, the first of the scene's
+    /// Scene light of a distribution, with its multiplier and colour.
+    std::map<std::tuple<uint32_t, float, float, float, float>, uint32_t> measured_lights{};
     uint64_t vertices = 0, indices = 0, texels = 0, keys = 0;  ///< kept so far
     uint64_t decoded = 0;                                      ///< vertices read so far, also those not kept
 };
@@ -52,10 +55,16 @@ uint32_t read_mesh(GltfReader& reader, const JsonValue& reference);
 /// Reads a mesh that nothing refers to and forgets it.
 void check_mesh(GltfReader& reader, const JsonValue& mesh);
 void read_lights(GltfReader& reader);
+/// Distributions of EXT_lights_ies.
+void read_distributions(GltfReader& reader);
+/// The scene's light for a use of one by a node.
+uint32_t read_measured_light(GltfReader& reader, const JsonValue& use);
 void read_nodes(GltfReader& reader);
 void read_animations(GltfReader& reader);
 /// The extras block of a converted file (docs/photometry.md).
 void read_photometry_block(GltfReader& reader);
+/// "reflection_tables" and "roads" of that block.
+void read_reflection_tables(GltfReader& reader, const JsonValue& block);
 
 /// All of the above in order, and the checks that need the whole scene.
 void read_all(GltfReader& reader);

@@ -27,6 +27,19 @@ Parts collect(GltfDocument& document) {
     return parts;
 }
 
+/// Light profiles that lie in files beside the document come into it as data URIs.
+void embed_profiles(GltfDocument& document) {
+    std::vector<std::pair<size_t, std::string>> embedded;
+    const auto extensions = document.root().find("extensions");
+    const auto extension = extensions ? extensions->find("EXT_lights_ies") : std::nullopt;
+    if (!extension) return;
+    const auto profiles = extension->elements_of("lights");
+    for (size_t i = 0; i < profiles.size(); ++i)
+        if (profiles[i].find("uri"))
+            embedded.emplace_back(i, encode_data_uri("application/x-ies-lm-63", document.file_of(profiles[i])));
+    for (const auto& [i, uri] : embedded) document.edit()["extensions"]["EXT_lights_ies"]["lights"][i]["uri"] = uri;
+}
+
 std::string type_of(const json& image, std::span<const uint8_t> bytes) {
     const std::string known = media_type(bytes);
     if (!known.empty()) return known;
@@ -117,6 +130,7 @@ std::vector<uint8_t> encode_binary(json& root, const Parts& parts, const std::st
 }  // namespace
 
 std::vector<uint8_t> encode_gltf(GltfDocument& document, bool binary) {
+    embed_profiles(document);
     const Parts parts = collect(document);
     json& root = document.edit();
     return binary ? encode_binary(root, parts, document.name()) : encode_text(root, parts);

@@ -8,6 +8,8 @@
 #include "io/atomic_file.h"
 #include "scene/colour.h"
 #include "scene/json_value.h"
+#include "scene/reflection_json.h"
+#include "scene/photometry_measured.h"
 
 namespace vesper {
 namespace {
@@ -74,24 +76,32 @@ void read_lobe(Light& light, const JsonValue& rule) {
         light.inner_cone = 0;
         light.outer_cone = static_cast<float>(std::min(edge, std::numbers::pi / 2));
     } else {
-        type.fail("is none of point, spot and cosine_power");
+        type.fail("is none of point, spot, cosine_power and distribution");
     }
 }
 
-LampRule read_lamp(const JsonValue& source) {
-    LampRule rule;
+/// Intensity and axis of a lamp that has a lobe.
+void read_shape(LampRule& rule, const JsonValue& source) {
     read_lobe(rule.light, source);
-    rule.nodes = read_patterns(source, "nodes");
-    rule.name = source.text_or("name", rule.nodes.front());
-    rule.light.name = rule.name;
     rule.light.intensity = static_cast<float>(source.at("intensity_cd").number(0, 1e9));
     if (!(rule.light.intensity > 0)) source.at("intensity_cd").fail("must be more than 0");
-    rule.light.colour = glm::vec3(read_colour(source, &rule.kelvin));
     if (const auto aim = source.find("aim")) {
         const glm::dvec3 axis = read_vector(*aim);
         if (!(glm::length(axis) > 1e-6)) aim->fail("must not be of length 0");
         rule.aim = glm::normalize(axis);
     }
+}
+
+LampRule read_lamp(const JsonValue& source, const std::filesystem::path& folder, Photometry& made) {
+    LampRule rule;
+    if (source.at("type").text() == "distribution")
+        read_measured(source, folder, made, rule);
+    else
+        read_shape(rule, source);
+    rule.nodes = read_patterns(source, "nodes");
+    rule.name = source.text_or("name", rule.nodes.front());
+    rule.light.name = rule.name;
+    rule.light.colour = glm::vec3(read_colour(source, &rule.kelvin));
     if (const auto offset = source.find("offset_m")) rule.offset = read_vector(*offset);
     return rule;
 }
@@ -107,14 +117,18 @@ EmitterRule read_emitter(const JsonValue& source) {
     return rule;
 }
 
-SurfaceRule read_surface(const JsonValue& source) {
-    source.allow_only({"name", "materials", "reflectance_scale", "roughness", "metallic"});
+SurfaceRule read_surface(const JsonValue& source, const std::filesystem::path& folder) {
+    source.allow_only({"name", "materials", "reflectance_scale", "roughness", "metallic", "reflection_table", "q0"});
     SurfaceRule rule;
     rule.materials = read_patterns(source, "materials");
     rule.name = source.text_or("name", rule.materials.front());
     rule.reflectance_scale = source.number_or("reflectance_scale", 1, 0, 100);
     if (const auto roughness = source.find("roughness")) rule.roughness = roughness->number(0, 1);
     if (const auto metallic = source.find("metallic")) rule.metallic = metallic->number(0, 1);
+    if (source.find("reflection_table"))
+        rule.reflection_table = read_named_table(source, folder);
+    else if (const auto q0 = source.find("q0"))
+        q0->fail("has a meaning only beside a reflection_table");
     return rule;
 }
 
@@ -176,9 +190,10 @@ Photometry read_photometry(const std::filesystem::path& file) {
         lights->allow_only({"keep"});
         made.keep_lights = lights->boolean_or("keep", false);
     }
-    for (const JsonValue& rule : root.elements_of("lamps")) made.lamps.push_back(read_lamp(rule));
+    for (const JsonValue& rule : root.elements_of("lamps"))
+        made.lamps.push_back(read_lamp(rule, file.parent_path(), made));
     for (const JsonValue& rule : root.elements_of("emitters")) made.emitters.push_back(read_emitter(rule));
-    for (const JsonValue& rule : root.elements_of("surfaces")) made.surfaces.push_back(read_surface(rule));
+    for (const JsonValue& rule : root.elements_of("surfaces")) made.surfaces.push_back(read_surface(rule, file.parent_path()));
     return made;
 }
 

@@ -15,10 +15,19 @@ namespace vesper {
 struct LampRule {
     std::string name;
     std::vector<std::string> nodes;  ///< patterns
-    Light light;                     ///< intensity, lobe and colour
+    Light light;                     ///< intensity, lobe and colour; Measured: the factor, an index into measured
     double kelvin = 0;               ///< colour temperature, K; 0 where a colour was given
     std::optional<glm::dvec3> aim;   ///< axis of the lobe in the node's frame, unit length; -Z where missing
+    std::optional<glm::dquat> turn;  ///< Measured: from the luminaire's frame to the node's, where they differ
     glm::dvec3 offset{0};            ///< m, along the node's axes
+};
+
+/// A distribution that rules name.
+struct MeasuredLamp {
+    std::string file;  ///< as the rule has it
+    bool mirror = false;
+    size_t lamp_set = 0;
+    Distribution distribution{};
 };
 
 /// A rule that makes materials emit.
@@ -36,6 +45,7 @@ struct SurfaceRule {
     std::vector<std::string> materials;  ///< patterns
     double reflectance_scale = 1;
     std::optional<double> roughness, metallic;
+    std::optional<ReflectionTable> reflection_table;
 };
 
 /// A quantity with a colour of luminance 1.
@@ -50,6 +60,7 @@ struct Photometry {
     std::optional<ColouredQuantity> sky;      ///< luminance, cd/m^2
     bool keep_lights = false;
     std::vector<LampRule> lamps;
+    std::vector<MeasuredLamp> measured;  ///< each once, however many rules name it
     std::vector<EmitterRule> emitters;
     std::vector<SurfaceRule> surfaces;
 };
@@ -57,7 +68,7 @@ struct Photometry {
 /// Reads and checks a photometry file. Throws Error naming file, JSON pointer and reason.
 Photometry read_photometry(const std::filesystem::path& file);
 
-/// Luminous flux of a lamp, lm: its intensity integrated over all directions.
+/// Luminous flux of a lamp, lm: its intensity integrated over all directions. Not of Measured: see distribution.h.
 double luminous_flux(const Light& light);
 
 /// Whether a name matches a pattern of `*` (any characters) and `?` (one character).

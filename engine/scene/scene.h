@@ -14,6 +14,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "photometry/distribution.h"
+#include "photometry/reflection_table.h"
 
 namespace vesper {
 
@@ -66,6 +67,7 @@ struct Material {
     Alpha alpha = Alpha::Opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
+    uint32_t reflection_table = kNone;  ///< index into Scene::reflection_tables
 };
 
 struct Vertex {
@@ -137,6 +139,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Light> lights;
     std::vector<Distribution> distributions;
+    std::vector<ReflectionTable> reflection_tables;  ///< as published; extended() is for rendering
     std::vector<Camera> cameras;
     std::vector<Node> nodes;        ///< parents before children
     std::vector<Channel> channels;  ///< of all animations, played together

@@ -1,0 +1,64 @@
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+#include "commands.h"
+#include "io/atomic_file.h"
+#include "road_report.h"
+#include "scene/road_file.h"
+
+namespace vesper {
+namespace {
+
+struct RoadArguments {
+    std::string layout, csv, json, wanted;
+    RoadOverrides overrides;
+    bool grid = false;
+};
+
+void write_text(const std::string& file, const std::string& text) {
+    replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));
+}
+
+void run(const RoadArguments& arguments) {
+    const RoadFile file = read_road(arguments.layout, arguments.overrides);
+    const RoadResult result = calculate_road(file.layout);
+    const LightingClass* wanted = find_lighting_class(arguments.wanted.empty() ? file.wanted_class : arguments.wanted);
+    std::fputs(text_of(file.layout, result, wanted ? wanted : reached_class(result)).c_str(), stdout);
+    if (arguments.grid) std::fputs(grid_text_of(result).c_str(), stdout);
+    if (!arguments.csv.empty()) write_text(arguments.csv, csv_of(file.layout, result));
+    if (!arguments.json.empty()) write_text(arguments.json, json_of(file.layout, result, wanted));
+}
+
+}  // namespace
+
+void add_road(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("road", "Calculate road lighting: Lav, Uo, Ul, TI, EIR (EN 13201-3)");
+    const auto a = std::make_shared<RoadArguments>();
+    RoadOverrides& o = a->overrides;
+    std::vector<std::string> classes;
+    for (const LightingClass& c : lighting_classes()) classes.emplace_back(c.name);
+    command->add_option("layout", a->layout, "The road: a .json file (docs/road.md)")->required();
+    command->add_flag("--grid", a->grid, "Print illuminance and luminance of every point");
+    command->add_option("--csv", a->csv, "Write the points to a CSV file");
+    command->add_option("--json", a->json, "Write figures and points to a JSON file");
+    command->add_option("--class", a->wanted, "Lighting class to compare with (default: that of the file)")
+        ->check(CLI::IsMember(classes));
+    command->add_option("--luminaire", o.luminaire, "Another luminaire: .ies or .ldt");
+    command->add_option("--r-table", o.reflection_table, "Another surface: R1 to R4, C1, C2, W3, W4 or a .csv file");
+    command->add_option("--q0", o.q0, "Scale the surface to this mean luminance coefficient, 1/sr")
+        ->check(CLI::Range(0.001, 10.0));
+    command->add_option("--spacing", o.spacing, "m");
+    command->add_option("--height", o.height, "m");
+    command->add_option("--overhang", o.overhang, "m");
+    command->add_option("--tilt", o.tilt, "degrees; raises the street side");
+    command->add_option("--maintenance", o.maintenance_factor, "Maintenance factor");
+    command->footer(
+        "Examples:\n  vesper road data/road/worked-example.json\n"
+        "  vesper road data/road/worked-example.json --r-table R2 --spacing 36 --grid --csv points.csv\n");
+    command->callback([a] { run(*a); });
+}
+
+}  // namespace vesper

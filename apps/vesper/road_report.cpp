@@ -1,0 +1,158 @@
+#include "road_report.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+namespace vesper {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+    char text[512];
+    va_list arguments;
+    va_start(arguments, pattern);
+    std::vsnprintf(text, sizeof text, pattern, arguments);
+    va_end(arguments);
+    return text;
+}
+
+const char* name_of(Arrangement arrangement) {
+    switch (arrangement) {
+        case Arrangement::Right:
+            return "a row on the right";
+        case Arrangement::Left:
+            return "a row on the left";
+        case Arrangement::Opposite:
+            return "facing rows";
+        case Arrangement::Staggered:
+            return "staggered rows";
+        case Arrangement::Central:
+            return "back to back on the reservation";
+        case Arrangement::List:
+            return "as listed";
+    }
+    return "";
+}
+
+double q0_of(const ReflectionTable& table) {
+    return table.stated_q0 > 0 ? table.stated_q0 : average_luminance_coefficient(table);
+}
+
+std::string head_of(const RoadLayout& road, const RoadResult& result) {
+    std::string text = road.name + "\n";
+    text += format("  carriageway  %g m, %d lanes, surface %s with Q0 %.3g, S1 %.2f\n", road.width, road.lanes,
+                   road.surface.name.c_str(), q0_of(road.surface), specular_factor(road.surface));
+    text += format("  luminaires   %s, every %g m, %g m high, overhang %g m, tilt %g deg\n", name_of(road.arrangement),
+                   road.spacing, road_height(road), road.overhang, road.tilt);
+    text += format("               %s, %.0f lm, maintenance factor %g\n", road.distribution.name.c_str(),
+                   luminous_flux(road.distribution) * road.flux_factor, road.maintenance_factor);
+    text += format("  grid         %zu x %zu points, %.3g m apart\n", result.field.x.size(), result.field.y.size(),
+                   result.field.step);
+    return text;
+}
+
+struct Figure {
+    const char *name, *key, *unit;
+    int decimals;
+    double value;
+    double LightingClass::*limit;
+};
+
+std::vector<Figure> figures_of(const RoadResult& r) {
+    return {{"Lav", "average_luminance_cd_m2", "cd/m2", 3, r.average_luminance, &LightingClass::luminance},
+            {"Uo", "overall_uniformity", "", 3, r.overall_uniformity, &LightingClass::overall},
+            {"Ul", "lengthwise_uniformity", "", 3, r.lengthwise_uniformity, &LightingClass::lengthwise},
+            {"TI", "threshold_increment_percent", "%", 2, r.threshold_increment, &LightingClass::increment},
+            {"EIR", "edge_illuminance_ratio", "", 3, r.edge_ratio, &LightingClass::edge}};
+}
+
+bool holds(const Figure& figure, const LightingClass& wanted) {
+    const double limit = wanted.*figure.limit;
+    return figure.limit == &LightingClass::increment ? figure.value <= limit : figure.value >= limit;
+}
+
+}  // namespace
+
+std::string text_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted) {
+    std::string text = head_of(road, result) + "\n";
+    text += wanted ? format("                  value   %s asks\n", wanted->name) : "                  value\n";
+    for (const Figure& f : figures_of(result)) {
+        text += format("  %-4s %-6s %10.*f", f.name, f.unit, f.decimals, f.value);
+        if (wanted)
+            text += format("   %s %-5g %s", f.limit == &LightingClass::increment ? "<=" : ">=", wanted->*f.limit,
+                           holds(f, *wanted) ? "ok" : "missed");
+        text += "\n";
+    }
+    text += format("  Eav  lx     %10.2f\n  Emin lx     %10.2f   Emin / Eav %.3f\n", result.average_illuminance,
+                   result.minimum_illuminance, result.minimum_illuminance / result.average_illuminance);
+    text += format("  EIR  right %.3f, left %.3f\n\n", result.edge_ratio_right, result.edge_ratio_left);
+
+    text += "  lane  eye at y, m   Lav cd/m2      Uo      Ul    TI %   Lv cd/m2   worst from x, m\n";
+    for (const RoadObserver& o : result.observers)
+        text +=
+            format("  %4d  %11.2f  %10.3f  %6.3f  %6.3f  %6.2f  %9.4f  %16.1f\n", o.lane, o.eye.y, o.average_luminance,
+                   o.overall_uniformity, o.lengthwise_uniformity, o.threshold_increment, o.veil, o.glare_eye.x);
+    const LightingClass* reached = reached_class(result);
+    text += format("\nLighting class reached (EN 13201-2:2015, dry): %s\n", reached ? reached->name : "none");
+    return text;
+}
+
+std::string grid_text_of(const RoadResult& result) {
+    const size_t columns = result.field.x.size();
+    std::string text;
+    for (size_t table = 0; table <= result.observers.size(); ++table) {
+        text += table == 0
+                    ? "\nHorizontal illuminance, lx\n"
+                    : format("\nLuminance for the observer of lane %d, cd/m2\n", result.observers[table - 1].lane);
+        text += "   y \\ x";
+        for (const double x : result.field.x) text += format(" %7.2f", x);
+        for (size_t row = result.field.y.size(); row-- > 0;) {
+            text += format("\n %7.3f", result.field.y[row]);
+            for (size_t i = 0; i < columns; ++i) {
+                const RoadPoint& point = result.points[row * columns + i];
+                text += table == 0 ? format(" %7.2f", point.illuminance) : format(" %7.3f", point.luminance[table - 1]);
+            }
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+std::string csv_of(const RoadLayout& road, const RoadResult& result) {
+    std::string text = "# " + road.name + ": surface " + road.surface.name + ", x ahead and y to the left, m\n";
+    text += "x_m,y_m,E_h_lx";
+    for (const RoadObserver& o : result.observers) text += format(",L_lane%d_cd_m2", o.lane);
+    for (const RoadPoint& point : result.points) {
+        text += format("\n%.4f,%.4f,%.6g", point.x, point.y, point.illuminance);
+        for (const double luminance : point.luminance) text += format(",%.6g", luminance);
+    }
+    return text + "\n";
+}
+
+std::string json_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted) {
+    nlohmann::ordered_json json = {{"name", road.name}, {"surface", road.surface.name}, {"q0", q0_of(road.surface)}};
+    for (const Figure& figure : figures_of(result)) json[figure.key] = figure.value;
+    json["edge_illuminance_ratio_right"] = result.edge_ratio_right;
+    json["edge_illuminance_ratio_left"] = result.edge_ratio_left;
+    json["average_illuminance_lx"] = result.average_illuminance;
+    json["minimum_illuminance_lx"] = result.minimum_illuminance;
+    const LightingClass* reached = reached_class(result);
+    json["class_reached"] = reached ? nlohmann::ordered_json(reached->name) : nlohmann::ordered_json();
+    if (wanted) json["class_wanted"] = {{"name", wanted->name}, {"fulfilled", fulfils(result, *wanted)}};
+    for (const RoadObserver& o : result.observers)
+        json["observers"].push_back({{"lane", o.lane},
+                                     {"eye_m", {o.eye.x, o.eye.y, o.eye.z}},
+                                     {"average_luminance_cd_m2", o.average_luminance},
+                                     {"overall_uniformity", o.overall_uniformity},
+                                     {"lengthwise_uniformity", o.lengthwise_uniformity},
+                                     {"threshold_increment_percent", o.threshold_increment},
+                                     {"veiling_luminance_cd_m2", o.veil},
+                                     {"glare_eye_m", {o.glare_eye.x, o.glare_eye.y, o.glare_eye.z}}});
+    for (const RoadPoint& p : result.points)
+        json["points"].push_back(
+            {{"x_m", p.x}, {"y_m", p.y}, {"illuminance_lx", p.illuminance}, {"luminance_cd_m2", p.luminance}});
+    return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace vesper

@@ -1,0 +1,18 @@
+// What `vesper road` says of a road. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "photometry/road.h"
+
+namespace vesper {
+
+/// Layout, figures against the limits of a class (may be null) and figures of each lane, for a terminal.
+std::string text_of(const RoadLayout&, const RoadResult&, const LightingClass* wanted);
+/// Illuminance and the luminances of every observer as tables: x across, y down, the left edge on top.
+std::string grid_text_of(const RoadResult&);
+/// One line for each point of the grid.
+std::string csv_of(const RoadLayout&, const RoadResult&);
+std::string json_of(const RoadLayout&, const RoadResult&, const LightingClass* wanted);
+
+}  // namespace vesper

@@ -1,0 +1,216 @@
+// Grids of intensity in CSV files. SPDX-License-Identifier: MIT
+#include "photometry/grid.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "io/atomic_file.h"
+#include "photometry/table.h"
+
+namespace vesper {
+namespace {
+
+std::string lower(std::string_view text) {
+    std::string made(trimmed(text));
+    for (char& c : made) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return made;
+}
+
+/// The goniometry a word names: A, "type B", gamma\C; type A for other words, nothing for what is none.
+std::optional<Goniometry> goniometry_of(std::string_view cell) {
+    std::string word = lower(cell);
+    if (word.find("gamma") != word.npos) return Goniometry::CGamma;
+    if (word.starts_with("type")) word = lower(word.substr(4));
+    if (word == "c" || (word.starts_with("c") && !std::isalpha(static_cast<unsigned char>(word[1]))))
+        return Goniometry::CGamma;
+    if (word == "b") return Goniometry::TypeB;
+    if (number_of(word)) return std::nullopt;
+    return Goniometry::TypeA;
+}
+
+/// A CSV file as rows of cells, without comments and empty lines.
+class Rows {
+public:
+    explicit Rows(LineReader& lines) : lines_(lines) {}
+
+    /// The cells of the next row; none at the end of the file.
+    const std::vector<std::string_view>& next() {
+        cells_.clear();
+        while (const auto line = lines_.next()) {
+            std::string_view text = trimmed(*line);
+            if (text.starts_with('#')) read_comment(text.substr(1));
+            if (text.empty() || text.starts_with('#')) continue;
+            if (separator_ == 0)
+                separator_ = line->find(';') != line->npos ? ';' : line->find('\t') != line->npos ? '\t' : ',';
+            split(separator_ == '\t' ? *line : text);
+            break;
+        }
+        return cells_;
+    }
+    double number(size_t cell, const char* what) const {
+        const auto value = number_of(cells_[cell], separator_ != ',');
+        if (!value) lines_.fail(quoted(cells_[cell]) + " stands where " + what + " is expected");
+        return *value;
+    }
+    /// What a comment said.
+    std::optional<Goniometry> goniometry() const { return goniometry_; }
+
+private:
+    void read_comment(std::string_view text) {
+        const size_t colon = text.find(':');
+        if (colon == text.npos || lower(text.substr(0, colon)) != "goniometry") return;
+        const std::string word = lower(text.substr(colon + 1));
+        if (word != "a" && word != "b" && word != "c") lines_.fail("the goniometry is none of A, B and C");
+        goniometry_ = goniometry_of(word);
+    }
+    void split(std::string_view text) {
+        while (true) {
+            if (cells_.size() > kMaxAngles + 1) lines_.fail("more columns than are read");
+            const size_t end = text.find(separator_);
+            cells_.push_back(trimmed(text.substr(0, end)));
+            if (end == text.npos) break;
+            text.remove_prefix(end + 1);
+        }
+        if (cells_.size() > 1 && cells_.back().empty()) cells_.pop_back();  // a separator at the end
+    }
+
+    LineReader& lines_;
+    char separator_ = 0;
+    std::vector<std::string_view> cells_;
+    std::optional<Goniometry> goniometry_;
+};
+
+/// Where each part of the table is, for messages.
+struct Places {
+    size_t horizontal = 0, vertical = 0, candela = 0;
+};
+
+/// Turns angles that descend round, and their intensities with them.
+void turn_round(Distribution& table) {
+    const size_t columns = table.horizontal.size(), rows = table.vertical.size();
+    const bool h = columns > 1 && table.horizontal[0] > table.horizontal[1];
+    const bool v = rows > 1 && table.vertical[0] > table.vertical[1];
+    const auto width = static_cast<ptrdiff_t>(rows);
+    if (v) {
+        std::reverse(table.vertical.begin(), table.vertical.end());
+        for (auto plane = table.candela.begin(); plane != table.candela.end(); plane += width)
+            std::reverse(plane, plane + width);
+    }
+    if (!h) return;
+    std::reverse(table.horizontal.begin(), table.horizontal.end());
+    for (size_t i = 0; i < columns / 2; ++i) {
+        const auto left = table.candela.begin() + static_cast<ptrdiff_t>(i * rows);
+        std::swap_ranges(left, left + width, table.candela.end() - static_cast<ptrdiff_t>((i + 1) * rows));
+    }
+}
+
+/// One row of angles, then a row for each vertical angle.
+Places read_matrix(Distribution& made, Rows& rows, const std::vector<std::string_view>& header,
+                   const LineReader& lines) {
+    for (size_t i = 1; i < header.size(); ++i) made.horizontal.push_back(rows.number(i, "a horizontal angle"));
+    const Places places{lines.line(), lines.line() + 1, lines.line() + 1};
+    const size_t columns = made.horizontal.size();
+    std::vector<double> by_row;
+    while (true) {
+        const auto& cells = rows.next();
+        if (cells.empty()) break;
+        if (cells.size() != columns + 1)
+            lines.fail(std::to_string(cells.size() - 1) + " intensities under " + std::to_string(columns) +
+                       " horizontal angles");
+        made.vertical.push_back(rows.number(0, "a vertical angle"));
+        if (made.vertical.size() > kMaxAngles || made.vertical.size() * columns > kMaxCells)
+            lines.fail("more rows than are read");
+        for (size_t i = 1; i < cells.size(); ++i) by_row.push_back(rows.number(i, "an intensity in cd"));
+    }
+    made.candela.resize(by_row.size());
+    for (size_t v = 0; v < made.vertical.size(); ++v)
+        for (size_t h = 0; h < columns; ++h) made.candela[h * made.vertical.size() + v] = by_row[v * columns + h];
+    turn_round(made);
+    return places;
+}
+
+std::vector<double> distinct(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+}
+
+/// Rows of horizontal angle, vertical angle and intensity.
+Places read_list(Distribution& made, Rows& rows, const LineReader& lines) {
+    struct Sample {
+        double horizontal, vertical, candela;
+        size_t line;
+    };
+    const size_t first = lines.line() + 1;
+    std::vector<Sample> samples;
+    while (true) {
+        const auto& cells = rows.next();
+        if (cells.empty()) break;
+        if (cells.size() != 3) lines.fail("has " + std::to_string(cells.size()) + " cells: 3 are expected");
+        if (samples.size() == kMaxCells) lines.fail("more rows than are read");
+        samples.push_back({rows.number(0, "a horizontal angle"), rows.number(1, "a vertical angle"),
+                           rows.number(2, "an intensity in cd"), lines.line()});
+    }
+    for (const Sample& sample : samples) {
+        made.horizontal.push_back(sample.horizontal);
+        made.vertical.push_back(sample.vertical);
+    }
+    made.horizontal = distinct(std::move(made.horizontal));
+    made.vertical = distinct(std::move(made.vertical));
+    const size_t columns = made.horizontal.size(), height = made.vertical.size();
+    const std::string reason = objection_to_size(static_cast<double>(columns), static_cast<double>(height));
+    if (!reason.empty()) lines.fail_at(first, reason);
+    if (samples.size() < columns * height)
+        lines.fail_at(first, std::to_string(columns) + " horizontal and " + std::to_string(height) +
+                                 " vertical angles, but only " + std::to_string(samples.size()) +
+                                 " intensities: the grid has holes");
+    made.candela.assign(columns * height, NAN);
+    const auto index = [](const std::vector<double>& angles, double angle) {
+        return static_cast<size_t>(std::lower_bound(angles.begin(), angles.end(), angle) - angles.begin());
+    };
+    for (const Sample& sample : samples) {
+        double& cell =
+            made.candela[index(made.horizontal, sample.horizontal) * height + index(made.vertical, sample.vertical)];
+        if (!std::isnan(cell)) lines.fail_at(sample.line, "this pair of angles was there before");
+        cell = sample.candela;
+    }
+    return {first, first, first};
+}
+
+}  // namespace
+
+Distribution parse_grid_csv(std::span<const uint8_t> text, const std::string& name) {
+    LineReader lines(text, name);
+    Rows rows(lines);
+    Distribution made;
+    const std::vector<std::string_view> header = rows.next();
+    if (header.size() < 2) lines.fail("no row of horizontal angles");
+    const auto stated = goniometry_of(header[0]);
+    if (!stated) lines.fail("the corner cell holds a number: nothing, or A, B or C is expected");
+    made.goniometry = *stated;
+    const bool list = header.size() == 3 && !number_of(header[1]) && !number_of(header[2]);
+    const Places places = list ? read_list(made, rows, lines) : read_matrix(made, rows, header, lines);
+    if (rows.goniometry()) made.goniometry = *rows.goniometry();
+    finish_table(made, false, [&](TablePart part, const std::string& fault) {
+        lines.fail_at(part == TablePart::Horizontal ? places.horizontal
+                      : part == TablePart::Vertical ? places.vertical
+                                                    : places.candela,
+                      fault);
+    });
+    return made;
+}
+
+Distribution read_grid_csv(const std::filesystem::path& file) {
+    Distribution made = parse_grid_csv(read_file(file, kMaxTableBytes), file.string());
+    made.name = readable(file.stem().string());
+    return made;
+}
+
+Distribution read_grid_exr(const std::filesystem::path& file) {
+    Distribution made = parse_grid_exr(read_file(file, kMaxTableBytes), file.string());
+    made.name = readable(file.stem().string());
+    return made;
+}
+
+}  // namespace vesper

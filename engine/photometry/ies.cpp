@@ -1,0 +1,254 @@
+// Reading IES LM-63 files. Numbers are free-format after the TILT line: any mix of blanks, commas and line ends.
+// SPDX-License-Identifier: MIT
+#include "photometry/ies.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "photometry/table.h"
+
+namespace vesper {
+namespace {
+
+constexpr size_t kMaxHeaderLines = 10'000;
+
+/// Numbers from the lines of a file.
+class Numbers {
+public:
+    /// `decimal_comma`: a comma between two digits is a decimal point; it separates numbers otherwise.
+    Numbers(LineReader& lines, bool decimal_comma) : lines_(lines), decimal_comma_(decimal_comma) {}
+
+    double next(const char* what) {
+        const std::string_view token = next_token();
+        if (token.empty()) lines_.fail(std::string("the file ends where ") + what + " is expected");
+        const auto value = number_of(token, decimal_comma_);
+        if (!value) lines_.fail(quoted(token) + " stands where " + what + " is expected");
+        return *value;
+    }
+    double next(const char* what, double low, double high) {
+        const double value = next(what);
+        if (!(value >= low && value <= high)) lines_.fail(std::string(what) + " is out of range");
+        return value;
+    }
+    std::vector<double> list(double count, const char* what) {
+        std::vector<double> values;
+        for (double i = 0; i < count; ++i) values.push_back(next(what));
+        return values;
+    }
+    /// Whether yet another number follows; text after the last one is nobody's concern.
+    bool more() { return number_of(next_token(), decimal_comma_).has_value(); }
+    size_t line() const { return lines_.line(); }
+
+private:
+    std::string_view next_token() {
+        const std::string_view separators(decimal_comma_ ? " \t\v\f" : " \t\v\f,");
+        while (true) {
+            at_ = std::min(text_.find_first_not_of(separators, at_), text_.size());
+            if (at_ == text_.size()) {
+                const auto line = lines_.next();
+                if (!line) return {};
+                text_ = trimmed(*line);
+                at_ = 0;
+                continue;
+            }
+            const size_t end = std::min(text_.find_first_of(separators, at_), text_.size());
+            std::string_view token = text_.substr(at_, end - at_);
+            at_ = end;
+            while (token.starts_with(',')) token.remove_prefix(1);
+            while (token.ends_with(',')) token.remove_suffix(1);
+            if (!token.empty()) return token;
+        }
+    }
+
+    LineReader& lines_;
+    bool decimal_comma_;
+    std::string_view text_;
+    size_t at_ = 0;
+};
+
+struct Header {
+    bool ballast_lamp_factor = true;  ///< whether the field after the ballast factor multiplies
+    std::string tilt;                 ///< what follows "TILT="
+};
+
+/// What follows "TILT=", also written "TILT = ".
+std::optional<std::string_view> tilt_of(std::string_view line) {
+    constexpr std::string_view kWord = "TILT";
+    line = trimmed(line);
+    for (size_t i = 0; i < kWord.size(); ++i)
+        if (i >= line.size() || std::toupper(static_cast<unsigned char>(line[i])) != kWord[i]) return std::nullopt;
+    line = trimmed(line.substr(kWord.size()));
+    if (!line.starts_with('=')) return std::nullopt;
+    return trimmed(line.substr(1));
+}
+
+/// Up to LM-63-1995 there is a ballast-lamp photometric factor; files without a version line are of 1986.
+bool has_ballast_lamp_factor(std::string_view version) {
+    const size_t last = version.find_last_of("0123456789");
+    if (last == version.npos) return false;
+    const size_t before = version.find_last_not_of("0123456789", last);
+    const std::string_view year = version.substr(before + 1, last - before);
+    return year == "1995" || year == "95" || year == "1991" || year == "91" || year == "1986" || year == "86";
+}
+
+void read_keyword(Distribution& made, std::string_view line) {
+    const size_t end = line.find(']');
+    if (!line.starts_with('[') || end == line.npos) return;  // a free label of 1986
+    std::string key = readable(line.substr(1, end - 1)), text = readable(line.substr(end + 1));
+    for (char& c : key) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (key == "MORE" && !made.metadata.empty())
+        made.metadata.back().second += "\n" + text;
+    else
+        made.metadata.emplace_back(std::move(key), std::move(text));
+}
+
+Header read_header(LineReader& lines, Distribution& made) {
+    Header header;
+    std::string label;
+    for (size_t i = 0; i < kMaxHeaderLines; ++i) {
+        const auto line = lines.next();
+        if (!line) lines.fail("the file ends without a line TILT=: this is no IES file");
+        const std::string_view text = trimmed(*line);
+        if (const auto tilt = tilt_of(text)) {
+            header.tilt = std::string(*tilt);
+            for (const char* key : {"LUMCAT", "LUMINAIRE"})
+                for (const auto& [name, value] : made.metadata)
+                    if (name == key && !value.empty()) made.name = value.substr(0, value.find('\n'));
+            if (made.name.empty()) made.name = label;
+            return header;
+        }
+        if (i == 0 && text.starts_with("IES"))
+            header.ballast_lamp_factor = has_ballast_lamp_factor(text);
+        else if (label.empty() && !text.starts_with('['))
+            label = readable(text);
+        read_keyword(made, text);
+    }
+    lines.fail("no line TILT= in the first " + std::to_string(kMaxHeaderLines) + " lines: this is no IES file");
+}
+
+/// The factor a table of tilts has for the lamp as it was measured, at tilt 0.
+double read_tilt_table(Numbers& numbers, LineReader& lines) {
+    numbers.next("the lamp-to-luminaire geometry");
+    const double count = numbers.next("the number of tilt angles", 1, kMaxAngles);
+    if (count != std::floor(count)) lines.fail("the number of tilt angles is not whole");
+    const std::vector<double> angles = numbers.list(count, "a tilt angle");
+    const std::vector<double> factors = numbers.list(count, "a tilt factor");
+    for (size_t i = 1; i < angles.size(); ++i)
+        if (!(angles[i] > angles[i - 1])) lines.fail("the tilt angles do not ascend");
+    for (const double factor : factors)
+        if (!(factor >= 0 && factor <= 100)) lines.fail("a tilt factor is not in 0 to 100");
+    size_t high = 0;
+    while (high + 1 < angles.size() && angles[high] < 0) ++high;
+    if (high == 0 || angles[high] <= 0) return factors[high];
+    const double weight = -angles[high - 1] / (angles[high] - angles[high - 1]);
+    return factors[high - 1] + weight * (factors[high] - factors[high - 1]);
+}
+
+double read_tilt_file(const LineReader& lines, const std::string& file, const std::filesystem::path& folder) {
+    if (file.empty() || std::filesystem::path(file).filename() != std::filesystem::path(file))
+        lines.fail("TILT=" + file + " is neither NONE, nor INCLUDE, nor the name of a file beside this one");
+    try {
+        const std::vector<uint8_t> bytes = read_file(folder / file, kMaxTableBytes);
+        LineReader table(bytes, (folder / file).string());
+        Numbers numbers(table, false);
+        return read_tilt_table(numbers, table);
+    } catch (const Error& error) {
+        lines.fail("TILT=" + file + ": " + error.what());
+    }
+}
+
+std::string upper(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return text;
+}
+
+/// The luminous opening by the signs of LM-63: negative dimensions are diameters of something round.
+LuminousOpening opening_of(double width, double length, double height) {
+    LuminousOpening opening{std::abs(length), std::abs(width), std::abs(height), width < 0 || length < 0};
+    if (opening.round && opening.length == 0) opening.length = opening.width;  // 1995: one diameter will do
+    if (opening.round && opening.width == 0) opening.width = opening.length;
+    if (!opening.round && height < 0) {  // a lying cylinder: seen from below as long as it is, as wide as it is high
+        if (opening.width == 0 && opening.length > 0) opening.width = opening.height;
+        if (opening.length == 0 && opening.width > 0) opening.length = opening.height;
+    }
+    return opening;
+}
+
+void read_numbers(Distribution& made, LineReader lines, const Header& header, bool decimal_comma,
+                  const std::optional<std::filesystem::path>& folder) {
+    Numbers numbers(lines, decimal_comma);
+    double factor = 1;
+    if (upper(header.tilt) == "INCLUDE")
+        factor = read_tilt_table(numbers, lines);
+    else if (upper(header.tilt) != "NONE" && folder)
+        factor = read_tilt_file(lines, header.tilt, *folder);
+
+    const double lamps = numbers.next("the number of lamps");
+    const double lumens = numbers.next("the lumens per lamp");
+    factor *= numbers.next("the candela multiplier");
+    const double verticals = numbers.next("the number of vertical angles");
+    const double horizontals = numbers.next("the number of horizontal angles");
+    const std::string reason = objection_to_size(horizontals, verticals);
+    if (!reason.empty()) lines.fail(reason);
+    const double type = numbers.next("the photometric type"), units = numbers.next("the type of units");
+    if (type != 1 && type != 2 && type != 3) lines.fail("the photometric type is none of 1 (C), 2 (B) and 3 (A)");
+    if (units != 1 && units != 2) lines.fail("the type of units is neither 1 (feet) nor 2 (metres)");
+    made.goniometry = type == 1 ? Goniometry::CGamma : type == 2 ? Goniometry::TypeB : Goniometry::TypeA;
+    const double metres = units == 1 ? 0.3048 : 1;
+    const double width = numbers.next("the width of the opening"), length = numbers.next("the length of the opening");
+    made.opening = opening_of(width * metres, length * metres, numbers.next("the height of the opening") * metres);
+    factor *= numbers.next("the ballast factor");
+    const double second = numbers.next("the number after the ballast factor");
+    if (header.ballast_lamp_factor) factor *= second;
+    if (!(factor > 0 && factor < 1e9)) lines.fail("multiplier, ballast and tilt factors multiply to nothing useful");
+    numbers.next("the input watts");
+    made.lamp_flux = lumens > 0 ? lumens * std::max(1.0, lamps) : 0;  // -1: absolute photometry
+
+    size_t starts[3];
+    made.vertical = numbers.list(verticals, "a vertical angle");
+    starts[static_cast<size_t>(TablePart::Vertical)] = numbers.line();
+    made.horizontal = numbers.list(horizontals, "a horizontal angle");
+    starts[static_cast<size_t>(TablePart::Horizontal)] = numbers.line();
+    made.candela = numbers.list(verticals * horizontals, "an intensity");
+    starts[static_cast<size_t>(TablePart::Candela)] = numbers.line();
+    if (numbers.more())
+        lines.fail("more intensities than the " + std::to_string(made.vertical.size()) + " x " +
+                   std::to_string(made.horizontal.size()) + " stated");
+    for (double& candela : made.candela) candela *= factor;
+    finish_table(made, true, [&](TablePart part, const std::string& fault) {
+        lines.fail_at(starts[static_cast<size_t>(part)], fault);
+    });
+}
+
+}  // namespace
+
+Distribution parse_ies(std::span<const uint8_t> text, const std::string& name,
+                       const std::optional<std::filesystem::path>& folder) {
+    LineReader lines(text, name);
+    Distribution made;
+    const Header header = read_header(lines, made);
+    // Commas separate numbers, but some programs print them for decimal points. Where no point appears they are tried
+    // as such: a file that they separate then has too few numbers.
+    const std::string_view rest = lines.rest();
+    if (rest.find(',') != rest.npos && rest.find('.') == rest.npos) {
+        try {
+            Distribution decimal = made;
+            read_numbers(decimal, lines, header, true, folder);
+            return decimal;
+        } catch (const Error&) {
+        }
+    }
+    read_numbers(made, lines, header, false, folder);
+    return made;
+}
+
+Distribution read_ies(const std::filesystem::path& file) {
+    Distribution made = parse_ies(read_file(file, kMaxTableBytes), file.string(), file.parent_path());
+    if (made.name.empty()) made.name = readable(file.stem().string());
+    return made;
+}
+
+}  // namespace vesper

@@ -1,0 +1,89 @@
+// Writing IES LM-63-2019 files. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "photometry/ies.h"
+
+namespace vesper {
+namespace {
+
+constexpr size_t kLineWidth = 120;  // the standard allows 256
+
+/// The shortest decimal that comes back as it was; without an exponent where that is not long.
+template <class Number>
+std::string text_of(Number value) {
+    char digits[64];
+    const bool plain = value == 0 || (std::abs(value) >= Number(1e-4) && std::abs(value) < Number(1e15));
+    const auto form = plain ? std::chars_format::fixed : std::chars_format::scientific;
+    return {digits, std::to_chars(digits, digits + sizeof digits, value, form).ptr};
+}
+
+template <class Number>
+void append(std::string& file, const std::vector<Number>& values) {
+    size_t width = 0;
+    for (const Number value : values) {
+        const std::string text = text_of(value);
+        if (width > 0 && width + text.size() + 1 > kLineWidth) {
+            file += "\r\n";
+            width = 0;
+        }
+        if (width > 0) file += ' ';
+        file += text;
+        width += text.size() + 1;
+    }
+    file += "\r\n";
+}
+
+void append_keyword(std::string& file, std::string key, const std::string& text) {
+    size_t at = 0;
+    while (true) {
+        const size_t end = std::min(text.find('\n', at), text.size());
+        file += "[" + key + "] " + text.substr(at, end - at) + "\r\n";
+        if (end == text.size()) return;
+        at = end + 1;
+        key = "MORE";
+    }
+}
+
+bool is_keyword(const std::string& key) {
+    return !key.empty() && key.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == key.npos;
+}
+
+}  // namespace
+
+std::string write_ies(const Distribution& d) {
+    std::string file = "IES:LM-63-2019\r\n";
+    const auto has = [&](const char* key) {
+        for (const auto& [name, text] : d.metadata)
+            if (name == key) return true;
+        return false;
+    };
+    for (const char* key : {"TEST", "TESTLAB", "ISSUEDATE", "MANUFAC"})  // the standard demands them
+        if (!has(key)) append_keyword(file, key, "unknown");
+    if (!has("LUMINAIRE") && !d.name.empty()) append_keyword(file, "LUMINAIRE", d.name);
+    for (const auto& [key, text] : d.metadata)
+        if (is_keyword(key)) append_keyword(file, key, text);
+    file += "TILT=NONE\r\n";
+
+    std::vector<double> horizontal = d.horizontal, candela = d.candela;
+    // H from 0 would stand for both sides: a dark plane just left of it says that this is the whole range.
+    if (d.goniometry != Goniometry::CGamma && std::abs(horizontal.front()) < 1e-6) {
+        horizontal.insert(horizontal.begin(), -1e-3);
+        candela.insert(candela.begin(), d.vertical.size(), 0.0);
+    }
+    const int type = d.goniometry == Goniometry::CGamma ? 1 : d.goniometry == Goniometry::TypeB ? 2 : 3;
+    const double sign = d.opening.round ? -1 : 1;
+    append<double>(file, {1, d.lamp_flux > 0 ? d.lamp_flux : -1, 1, static_cast<double>(d.vertical.size()),
+                          static_cast<double>(horizontal.size()), static_cast<double>(type), 2, sign * d.opening.width,
+                          sign * d.opening.length, d.opening.height});
+    append<double>(file, {1, 1.00001, 0});  // ballast factor, how the file was generated (not stated), watts
+    append(file, d.vertical);
+    append(file, horizontal);
+    const auto planes = static_cast<ptrdiff_t>(d.vertical.size());
+    for (auto plane = candela.begin(); plane != candela.end(); plane += planes)
+        append(file, std::vector<float>(plane, plane + planes));
+    return file;
+}
+
+}  // namespace vesper

@@ -1,0 +1,43 @@
+// Which reader a file is for. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cctype>
+
+#include "io/atomic_file.h"
+#include "photometry/distribution.h"
+#include "photometry/eulumdat.h"
+#include "photometry/grid.h"
+#include "photometry/ies.h"
+#include "photometry/table.h"
+
+namespace vesper {
+namespace {
+
+/// A format by what a file begins with, as its usual extension.
+std::string format_of(std::span<const uint8_t> bytes) {
+    const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 1u << 16));
+    if (start.starts_with("\x76\x2f\x31\x01")) return ".exr";
+    if (start.starts_with("IES") || start.find("\nTILT=") != start.npos || start.find("\rTILT=") != start.npos)
+        return ".ies";
+    LineReader lines(bytes, "");
+    lines.next();
+    for (int i = 0; i < 5; ++i) {  // EULUMDAT: type, symmetry, planes, spacing, angles
+        const auto line = lines.next();
+        if (!line || !number_of(*line)) return ".csv";
+    }
+    return ".ldt";
+}
+
+}  // namespace
+
+Distribution read_distribution(const std::filesystem::path& file) {
+    std::string format = file.extension().string();
+    for (char& c : format) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (format != ".ies" && format != ".ldt" && format != ".csv" && format != ".exr")
+        format = format_of(read_file(file, kMaxTableBytes));
+    if (format == ".ies") return read_ies(file);
+    if (format == ".csv") return read_grid_csv(file);
+    if (format == ".exr") return read_grid_exr(file);
+    return read_eulumdat(file);
+}
+
+}  // namespace vesper

@@ -1,0 +1,63 @@
+// How a road surface reflects towards a driver: tables of reduced luminance coefficients. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vesper {
+
+/// An r-table (CIE 144:2001): r = q cos^3(gamma), q = L / E_h, for an observer who looks down at 1 degree. gamma is the
+/// angle of incidence from the vertical; beta, in plan, is the turn from "observer to point" to "point to lamp": 0
+/// where the lamp stands beyond the point (the specular side), 180 where it stands behind the observer. A cell of 0 is
+/// one the table does not cover. L = r I / H^2 with H the height of the lamp above the road.
+struct ReflectionTable {
+    std::string name;
+    std::vector<double> tan_gamma;  ///< ascending from 0, at least 2
+    std::vector<double> beta;       ///< deg, ascending from 0 to 180, at least 2
+    std::vector<double> r;          ///< sr^-1, beta.size() values for each tan_gamma
+    double stated_q0 = 0;           ///< the Q0 of the class, sr^-1; 0 where none is stated
+    bool extended = false;          ///< see extended()
+
+    double at(size_t t, size_t b) const { return r[t * beta.size() + b]; }
+    bool operator==(const ReflectionTable&) const = default;
+};
+
+/// r, sr^-1, bilinear in tan gamma and beta (either sign, any turn). 0 beyond the last tan gamma (see extended()).
+double reduced_luminance_coefficient(const ReflectionTable&, double tan_gamma, double beta_deg);
+/// q = r / cos^3(gamma) = L / E_h, sr^-1.
+double luminance_coefficient(const ReflectionTable&, double tan_gamma, double beta_deg);
+
+/// Q0: the mean of q over the solid angle of the lamps that matter, -4H < x < 12H, |y| < 3H (CIE 144:2001, 5.2), sr^-1.
+/// The integral of the bilinear r; it lies 1 to 3 % above the published values of the standard tables, because straight
+/// lines between the nodes lie above a lobe.
+double average_luminance_coefficient(const ReflectionTable&);
+/// S1 = r(tan gamma 2, beta 0) / r(0, 0), how specular the surface is (CIE 144:2001).
+double specular_factor(const ReflectionTable&);
+
+/// The same table for a lighter or darker surface: all of r times q0 / stated_q0 (average_luminance_coefficient() where
+/// none is stated), so that R3 of Q0 = 0.07 is R3 as published.
+ReflectionTable rescaled(ReflectionTable, double q0);
+
+/// For rendering, which must not show the edge of a table: every cell not covered takes q of the nearest covered tan
+/// gamma below it in its column, and beyond the last tan gamma q stays, so that r falls as cos^3(gamma). Where the four
+/// cells around a direction are covered nothing changes. CIE calculations take the table as it is.
+ReflectionTable extended(ReflectionTable);
+
+/// Throws Error (starting with `place`) unless the table is as described above, of at most 512 by 512 finite values.
+void check_reflection_table(const ReflectionTable&, const std::string& place);
+
+/// Parses comma-separated text: comments (#), a row of beta, then rows of tan gamma followed by r x 1e4; an empty field
+/// is 0. A comment "# Q0 0.07" states Q0. Throws Error naming file, line and reason.
+ReflectionTable parse_reflection_table(std::span<const uint8_t> text, const std::string& name);
+ReflectionTable read_reflection_table(const std::filesystem::path& file);
+
+/// Names of the tables built in: R1 to R4, C1, C2 (dry), W3, W4 (wet).
+std::vector<std::string> standard_reflection_tables();
+/// One of them by its name; otherwise the file of that name, relative to `folder`.
+ReflectionTable find_reflection_table(const std::string& name_or_file, const std::filesystem::path& folder = {});
+
+}  // namespace vesper

@@ -1,0 +1,60 @@
+// What the readers of distributions share: text, bounds, checks, symmetry. Not a public header.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "photometry/distribution.h"
+
+namespace vesper {
+
+constexpr uint64_t kMaxTableBytes = 64u << 20;
+constexpr size_t kMaxAngles = 4096;      ///< of either list, as the file has it
+constexpr size_t kMaxCells = 8'000'000;  ///< of the table with its symmetry expanded
+
+/// A text file line by line: CR, LF or CRLF, with or without a byte order mark.
+class LineReader {
+public:
+    LineReader(std::span<const uint8_t> bytes, std::string name);
+
+    /// The next line without its end; nothing when there is none.
+    std::optional<std::string_view> next();
+    /// Number of the line that next() gave last, from 1.
+    size_t line() const { return line_; }
+    /// Everything after that line.
+    std::string_view rest() const { return text_.substr(at_); }
+    [[noreturn]] void fail(const std::string& reason) const { fail_at(line_, reason); }
+    [[noreturn]] void fail_at(size_t line, const std::string& reason) const;
+
+private:
+    std::string name_;
+    std::string_view text_;
+    size_t at_ = 0, line_ = 0;
+};
+
+std::string_view trimmed(std::string_view text);
+/// Fit for a name: trimmed, control characters replaced; bytes that are no UTF-8 are taken for Latin-1.
+std::string readable(std::string_view text);
+/// A text in a message, quoted and short.
+std::string quoted(std::string_view text);
+/// A finite number; the whole text must be one. A decimal comma will do where `comma` is set.
+std::optional<double> number_of(std::string_view text, bool comma = true);
+
+enum class TablePart : uint8_t { Horizontal, Vertical, Candela };
+using TableFault = std::function<void(TablePart, const std::string& reason)>;  ///< must throw
+
+/// Why a table of so many angles is not read; empty if it is.
+std::string objection_to_size(double horizontal, double vertical);
+
+/// Makes a distribution of a table as a file holds it: checks angles and intensities, drops a last angle that is there
+/// twice, sets negative noise (down to -1 % of the largest intensity) to 0 and expands symmetry. C planes may be one; 0
+/// to 90, 180 or 360; 0 to less than 360; 90 to 270; -90 to 90. `halves`: H of types A and B from 0 stands for both
+/// sides.
+void finish_table(Distribution& table, bool halves, const TableFault& fault);
+
+}  // namespace vesper

@@ -1,0 +1,84 @@
+// Text files of distributions: lines, numbers, names. SPDX-License-Identifier: MIT
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "photometry/table.h"
+
+namespace vesper {
+namespace {
+
+/// Length of the UTF-8 character a text begins with; 0 when it begins with none.
+size_t utf8_length(std::string_view text) {
+    const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+    const size_t length = byte(0) < 0x80 ? 1 : byte(0) < 0xc2 ? 0 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : 4;
+    if (length == 0 || byte(0) > 0xf4 || length > text.size()) return 0;
+    for (size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xc0) != 0x80) return 0;
+    return length;
+}
+
+}  // namespace
+
+LineReader::LineReader(std::span<const uint8_t> bytes, std::string name)
+    : name_(std::move(name)), text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()) {
+    if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
+}
+
+std::optional<std::string_view> LineReader::next() {
+    ++line_;
+    if (at_ >= text_.size()) return std::nullopt;
+    const size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+    const std::string_view line = text_.substr(at_, end - at_);
+    at_ = end + (text_.substr(end).starts_with("\r\n") ? 2 : end < text_.size() ? 1 : 0);
+    return line;
+}
+
+void LineReader::fail_at(size_t line, const std::string& reason) const {
+    throw Error(one_line(name_ + ": line " + std::to_string(line) + ": " + reason, 600));
+}
+
+std::string_view trimmed(std::string_view text) {
+    const auto blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0' || c == '\x1a'; };
+    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+std::string readable(std::string_view text) {
+    text = trimmed(text).substr(0, 1000);
+    std::string made;
+    while (!text.empty()) {
+        const auto byte = static_cast<unsigned char>(text.front());
+        size_t length = utf8_length(text);
+        if (byte < 0x20 || byte == 0x7f) {
+            made += ' ';
+        } else if (length > 0) {
+            made += text.substr(0, length);
+        } else {
+            made += static_cast<char>(0xc0 | byte >> 6);
+            made += static_cast<char>(0x80 | (byte & 0x3f));
+        }
+        text.remove_prefix(std::max<size_t>(length, 1));
+    }
+    return made;
+}
+
+std::string quoted(std::string_view text) { return "'" + one_line(readable(text.substr(0, 40)), 40) + "'"; }
+
+std::optional<double> number_of(std::string_view text, bool comma) {
+    text = trimmed(text);
+    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+    if (text.starts_with('+')) text.remove_prefix(1);
+    char digits[64];
+    if (text.empty() || text.size() > sizeof digits) return std::nullopt;
+    for (size_t i = 0; i < text.size(); ++i) digits[i] = comma && text[i] == ',' ? '.' : text[i];
+    double value = 0;
+    const auto [end, error] = std::from_chars(digits, digits + text.size(), value);
+    if (error != std::errc() || end != digits + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+}  // namespace vesper

@@ -1,0 +1,69 @@
+// Measured lamps of a glTF file: EXT_lights_ies. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "photometry/ies.h"
+#include "scene/colour.h"
+#include "scene/gltf_reader.h"
+
+namespace vesper {
+namespace {
+
+Distribution read_profile(GltfReader& reader, const JsonValue& profile, uint64_t& bytes_read) {
+    const auto type = profile.find("mimeType");
+    if (type && type->text() != "application/x-ies-lm-63") type->fail("is not application/x-ies-lm-63");
+    const std::vector<uint8_t> bytes = reader.document.file_of(profile);
+    bytes_read += bytes.size();
+    if (bytes_read > reader.limits.file_bytes) profile.fail("the light profiles add up to more than the limit");
+    Distribution made = parse_ies(bytes, profile.place());
+    const std::string name = profile.text_or("name", "");
+    if (!name.empty()) made.name = name;
+    return made;
+}
+
+}  // namespace
+
+void read_distributions(GltfReader& reader) {
+    const auto extensions = reader.document.root().find("extensions");
+    const auto extension = extensions ? extensions->find("EXT_lights_ies") : std::nullopt;
+    if (!extension) return;
+    const auto profiles = extension->elements_of("lights");
+    if (profiles.size() > reader.limits.lights)
+        extension->fail("more lights than the limit of " + std::to_string(reader.limits.lights));
+    uint64_t bytes = 0, candela = 0;
+    for (const JsonValue& profile : profiles) {
+        reader.scene.distributions.push_back(read_profile(reader, profile, bytes));
+        candela += reader.scene.distributions.back().candela.size();
+        if (candela > reader.limits.candela)
+            profile.fail("more intensities than the limit of " + std::to_string(reader.limits.candela) +
+                         " for all light profiles together");
+    }
+}
+
+uint32_t read_measured_light(GltfReader& reader, const JsonValue& use) {
+    const uint32_t index = use.at("light").index(reader.scene.distributions.size(), "lights");
+    const double multiplier = use.number_or("multiplier", 1, 0);
+    glm::dvec3 colour(1);
+    if (const auto stated = use.find("color")) {
+        const auto c = stated->numbers<3>(0);
+        colour = glm::min(glm::dvec3(c[0], c[1], c[2]), glm::dvec3(1));  // the extension clamps
+    }
+    const auto key = std::tuple(index, static_cast<float>(multiplier), static_cast<float>(colour.r),
+                                static_cast<float>(colour.g), static_cast<float>(colour.b));
+    const auto [known, is_new] =
+        reader.measured_lights.try_emplace(key, static_cast<uint32_t>(reader.scene.lights.size()));
+    if (!is_new) return known->second;
+    Light light;
+    light.kind = Light::Kind::Measured;
+    light.distribution = index;
+    light.name = reader.scene.distributions[index].name;
+    const double y = luminance(colour);
+    light.intensity = static_cast<float>(multiplier * y);
+    if (y > 0) light.colour = glm::vec3(colour / y);
+    if (!std::isfinite(light.colour.r + light.colour.g + light.colour.b)) use.fail("the colour is too dark");
+    reader.scene.lights.push_back(std::move(light));
+    return known->second;
+}
+
+}  // namespace vesper

@@ -1,0 +1,50 @@
+// Reflection tables in JSON. SPDX-License-Identifier: MIT
+#include "scene/reflection_json.h"
+
+#include "base/error.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kMaxQ0 = 10;  // 1/sr
+
+std::vector<double> numbers_of(const JsonValue& list) {
+    std::vector<double> numbers;
+    for (const JsonValue& element : list.elements()) numbers.push_back(element.number(0));
+    return numbers;
+}
+
+}  // namespace
+
+ReflectionTable read_named_table(const JsonValue& holder, const std::filesystem::path& folder) {
+    const JsonValue name = holder.at("reflection_table");
+    const auto q0 = holder.find("q0");
+    const double wanted = q0 ? q0->number(0.001, kMaxQ0) : 0;
+    if (name.text().empty()) name.fail("must not be empty");
+    try {
+        const ReflectionTable table = find_reflection_table(name.text(), folder);
+        return q0 ? rescaled(table, wanted) : table;
+    } catch (const Error& error) {
+        name.fail(error.what());
+    }
+}
+
+nlohmann::json json_of(const ReflectionTable& table) {
+    nlohmann::json json = {
+        {"name", table.name}, {"tan_gamma", table.tan_gamma}, {"beta_deg", table.beta}, {"r", table.r}};
+    if (table.stated_q0 > 0) json["q0"] = table.stated_q0;
+    return json;
+}
+
+ReflectionTable read_whole_table(const JsonValue& source) {
+    source.allow_only({"name", "q0", "tan_gamma", "beta_deg", "r"});
+    ReflectionTable table{.name = source.text_or("name", "")};
+    table.stated_q0 = source.number_or("q0", 0, 0, 100);
+    table.tan_gamma = numbers_of(source.at("tan_gamma"));
+    table.beta = numbers_of(source.at("beta_deg"));
+    table.r = numbers_of(source.at("r"));
+    check_reflection_table(table, source.place());
+    return table;
+}
+
+}  // namespace vesper

@@ -1,0 +1,19 @@
+// Reflection tables in JSON: named in a photometry file or a road layout, in full in a converted scene.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "photometry/reflection_table.h"
+#include "scene/json_value.h"
+
+namespace vesper {
+
+/// The members "reflection_table" (a built-in name, or a file relative to `folder`) and "q0" (optional) of an object.
+ReflectionTable read_named_table(const JsonValue& holder, const std::filesystem::path& folder);
+
+/// All numbers of a table, and back.
+nlohmann::json json_of(const ReflectionTable& table);
+ReflectionTable read_whole_table(const JsonValue& source);
+
+}  // namespace vesper

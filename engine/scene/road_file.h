@@ -1,0 +1,29 @@
+// Road layouts from JSON (docs/road.md). SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "photometry/road.h"
+
+namespace vesper {
+
+/// What takes the place of what the file says. Names of files are as the caller sees them.
+struct RoadOverrides {
+    std::string luminaire;         ///< a photometric file
+    std::string reflection_table;  ///< a built-in name or a file; its own Q0 counts unless one is given here
+    std::optional<double> q0, spacing, height, overhang, tilt, maintenance_factor;
+};
+
+/// A layout and the class its file asks for.
+struct RoadFile {
+    RoadLayout layout;
+    std::string wanted_class;  ///< a name of lighting_classes(); may be empty
+};
+
+/// Reads and checks a layout with its luminaire and reflection table, both relative to the file's folder. Throws Error
+/// naming file, JSON pointer and reason.
+RoadFile read_road(const std::filesystem::path& file, const RoadOverrides& overrides = {});
+
+}  // namespace vesper

@@ -1,0 +1,87 @@
+// Building the scene of a road. SPDX-License-Identifier: MIT
+#include "scene/road_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/colour.h"
+
+namespace vesper {
+namespace {
+
+/// Columns: the world's directions of the road's axes.
+const glm::dmat3 kToWorld{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}};
+
+constexpr double kMargin = 80;  // m, of surface behind the observers
+
+Primitive carriageway(const RoadLayout& road, double first, double last) {
+    Primitive plane;
+    for (const glm::dvec2 corner :
+         {glm::dvec2(first, 0), glm::dvec2(last, 0), glm::dvec2(last, road.width), glm::dvec2(first, road.width)}) {
+        Vertex vertex;
+        vertex.position = glm::vec3(road_to_world({corner.x, corner.y, 0}));
+        vertex.uv = glm::vec2(corner);
+        plane.vertices.push_back(vertex);
+        plane.bounds.add(vertex.position);
+    }
+    plane.indices = {0, 1, 2, 0, 2, 3};
+    return plane;
+}
+
+void add_luminaires(Scene& scene, const RoadLayout& road, double first, double last) {
+    scene.distributions.push_back(road.distribution);
+    Light light{.name = road.distribution.name, .kind = Light::Kind::Measured};
+    light.intensity = static_cast<float>(road.flux_factor * road.maintenance_factor);
+    if (road.colour_temperature > 0) light.colour = glm::vec3(colour_of_temperature(road.colour_temperature));
+    light.distribution = 0;
+    scene.lights.push_back(light);
+    for (const RoadLuminaire& lamp : road_luminaires(road, first, last)) {
+        Node node{.name = "luminaire " + std::to_string(scene.nodes.size() + 1)};
+        node.translation = glm::vec3(road_to_world(lamp.position));
+        node.rotation = glm::quat(glm::normalize(glm::quat_cast(kToWorld * lamp.axes)));
+        node.light = 0;
+        scene.nodes.push_back(node);
+    }
+}
+
+void add_observers(Scene& scene, const RoadLayout& road) {
+    for (const RoadObserver& observer : road_observers(road)) {
+        const std::string name = "observer lane " + std::to_string(observer.lane);
+        Node node{.name = name};
+        node.translation = glm::vec3(road_to_world(observer.eye));
+        node.rotation = glm::angleAxis(static_cast<float>(-std::numbers::pi / 180), glm::vec3(1, 0, 0));
+        node.camera = static_cast<uint32_t>(scene.cameras.size());
+        scene.cameras.push_back({.name = name, .vertical_fov = 0.35f});
+        scene.nodes.push_back(node);
+    }
+}
+
+}  // namespace
+
+glm::dvec3 road_to_world(glm::dvec3 point) { return kToWorld * point; }
+
+Scene road_scene(const RoadLayout& road) {
+    check_road(road);
+    const double height = road_height(road), last = road.spacing + 12 * height, eye = road_observers(road)[0].eye.x;
+
+    Scene scene{.name = road.name};
+    scene.reflection_tables.push_back(road.surface);
+    Material material{.name = "road " + road.surface.name};
+    const double q0 = road.surface.stated_q0 > 0 ? road.surface.stated_q0 : average_luminance_coefficient(road.surface);
+    const auto reflectance = static_cast<float>(std::min(std::numbers::pi * q0, 1.0));
+    material.base_colour = {reflectance, reflectance, reflectance, 1};
+    material.reflection_table = 0;
+    scene.materials.push_back(material);
+    Mesh mesh{.name = "carriageway"};
+    mesh.primitives.push_back(carriageway(road, eye - kMargin, last));
+    scene.meshes.push_back(mesh);
+    Node surface{.name = "carriageway"};
+    surface.mesh = 0;
+    scene.nodes.push_back(surface);
+    add_luminaires(scene, road, eye - 5 * height, last);
+    add_observers(scene, road);
+    return scene;
+}
+
+}  // namespace vesper

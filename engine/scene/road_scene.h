@@ -1,0 +1,20 @@
+// The road of a lighting calculation as a scene to render. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "photometry/road.h"
+#include "scene/scene.h"
+
+namespace vesper {
+
+/// The road's frame (x ahead, y left, z up) in the world (y up): ahead is -Z, left is -X. A camera that is not turned
+/// looks along the road.
+glm::dvec3 road_to_world(glm::dvec3 point);
+
+/// The carriageway as a flat surface at Y = 0, from 80 m before the observers to 12H beyond the field, of one material
+/// with the reflection table (for renderers without tables a matt surface of reflectance pi Q0); every luminaire that
+/// counts for a point of the field, and those above the road from the observers on, as measured lamps of maintained
+/// intensity, one node each; a camera "observer lane N" for each observer, 1.5 m up, 60 m before the field, looking
+/// along the road and 1 degree down. Black sky, no ambient light.
+Scene road_scene(const RoadLayout& road);
+
+}  // namespace vesper

@@ -1,0 +1,81 @@
+// Making distributions and photometric files for tests. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "photometry/distribution.h"
+
+namespace vesper::test {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree = kPi / 180;
+
+inline std::span<const uint8_t> bytes_of(const std::string& text) {
+    return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
+}
+
+/// Angles from first to last.
+inline std::vector<double> steps(double first, double last, double step) {
+    std::vector<double> angles;
+    for (int i = 0; first + i * step <= last + 1e-9; ++i) angles.push_back(first + i * step);
+    return angles;
+}
+
+inline Distribution tabulate(Goniometry goniometry, std::vector<double> horizontal, std::vector<double> vertical,
+                             const std::function<double(double, double)>& candela) {
+    Distribution made;
+    made.name = "made";
+    made.goniometry = goniometry;
+    made.horizontal = std::move(horizontal);
+    made.vertical = std::move(vertical);
+    for (const double h : made.horizontal)
+        for (const double v : made.vertical) made.candela.push_back(candela(h, v));
+    return made;
+}
+
+/// The direction of C and gamma in the luminaire's frame.
+inline glm::dvec3 c_gamma(double c, double gamma) {
+    return {std::sin(gamma * kDegree) * std::cos(c * kDegree), std::sin(gamma * kDegree) * std::sin(c * kDegree),
+            -std::cos(gamma * kDegree)};
+}
+
+/// Right, up and forward of a headlamp, in the luminaire's frame.
+inline glm::dvec3 type_a(double h, double v) {
+    return {std::cos(v * kDegree) * std::sin(h * kDegree), std::sin(v * kDegree),
+            -std::cos(v * kDegree) * std::cos(h * kDegree)};
+}
+inline glm::dvec3 type_b(double h, double v) {
+    return {std::sin(h * kDegree), std::cos(h * kDegree) * std::sin(v * kDegree),
+            -std::cos(h * kDegree) * std::cos(v * kDegree)};
+}
+
+/// The message of the Error that a call throws; empty when it throws none.
+inline std::string complaint_of(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+inline testing::AssertionResult has(const std::string& text, const std::string& part) {
+    if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "'" << text << "' does not contain '" << part << "'";
+}
+
+inline std::string replaced(std::string text, const std::string& what, const std::string& with) {
+    const size_t at = text.find(what);
+    EXPECT_NE(at, text.npos) << what;
+    return at == text.npos ? text : text.replace(at, what.size(), with);
+}
+
+}  // namespace vesper::test

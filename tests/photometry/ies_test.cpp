@@ -1,0 +1,228 @@
+// IES files: what each version and symmetry means, the oddities files have, and that writing comes back.
+// SPDX-License-Identifier: MIT
+#include "photometry/ies.h"
+
+#include "photometry/distributions.h"
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+Distribution read(const std::string& text) { return parse_ies(bytes_of(text), "x.ies"); }
+std::string complaint(const std::string& text) {
+    return complaint_of([&] { read(text); });
+}
+
+/// A file of 3 gamma angles: 0, 45, 90.
+std::string file(const std::string& version, const std::string& horizontal_count, const std::string& horizontal,
+                 const std::string& candela, const std::string& ballast = "1 1 20",
+                 const std::string& lamps = "1 -1 1") {
+    return version + "\n[TEST] 1\n[MANUFAC] M\nTILT=NONE\n" + lamps + " 3 " + horizontal_count + " 1 2 0 0 0\n" +
+           ballast + "\n0 45 90\n" + horizontal + "\n" + candela + "\n";
+}
+
+const std::string kPlain = file("IESNA:LM-63-2002", "1", "0", "100 50 25");
+
+TEST(Ies, ReadsRotationalSymmetry) {
+    const Distribution d = read(kPlain);
+    EXPECT_EQ(d.goniometry, Goniometry::CGamma);
+    EXPECT_EQ(d.horizontal, std::vector<double>{0});
+    EXPECT_EQ(d.vertical, (std::vector<double>{0, 45, 90}));
+    EXPECT_EQ(d.candela, (std::vector<double>{100, 50, 25}));
+    EXPECT_EQ(d.lamp_flux, 0);
+    ASSERT_EQ(d.metadata.size(), 2u);
+    EXPECT_EQ(d.metadata[1], (std::pair<std::string, std::string>("MANUFAC", "M")));
+}
+
+TEST(Ies, MultipliesByWhatTheVersionSays) {
+    const auto first = [](const std::string& version, const std::string& ballast) {
+        return read(file(version, "1", "0", "100 50 25", ballast, "2 500 1.5")).candela[0];
+    };
+    for (const char* version : {"IESNA:LM-63-1995", "IESNA95", "IESNA91", "IESNA:LM-63-1991", "[TEST] no version"})
+        EXPECT_NEAR(first(version, "0.8 0.9 20"), 100 * 1.5 * 0.8 * 0.9, 1e-9) << version;
+    for (const char* version : {"IESNA:LM-63-2002", "IES:LM-63-2019"})
+        EXPECT_NEAR(first(version, "0.8 1.1 20"), 100 * 1.5 * 0.8, 1e-9) << version;
+    EXPECT_EQ(read(file("IESNA91", "1", "0", "1 1 1", "1 1 20", "2 500 1.5")).lamp_flux, 1000);
+}
+
+TEST(Ies, ExpandsSymmetry) {
+    const auto at = [](const Distribution& d, double c) { return intensity(d, c_gamma(c, 45)); };
+    // Values at gamma 45: the plane's angle.
+    const std::string three = "1 0 0\n1 45 0\n1 90 0";
+    const Distribution quadrant = read(file("IESNA:LM-63-2002", "3", "0 45 90", three));
+    EXPECT_EQ(quadrant.horizontal, (std::vector<double>{0, 45, 90, 135, 180, 225, 270, 315, 360}));
+    for (const auto& [c, wanted] : {std::pair(30.0, 30.0), {150.0, 30.0}, {210.0, 30.0}, {330.0, 30.0}, {90.0, 90.0}})
+        EXPECT_NEAR(at(quadrant, c), wanted, 1e-9) << c;
+    const Distribution half = read(file("IESNA:LM-63-2002", "3", "0 60 180", "1 0 0\n1 60 0\n1 180 0"));
+    EXPECT_EQ(half.horizontal, (std::vector<double>{0, 60, 180, 300, 360}));
+    for (const auto& [c, wanted] : {std::pair(30.0, 30.0), {330.0, 30.0}, {240.0, 120.0}})
+        EXPECT_NEAR(at(half, c), wanted, 1e-9) << c;
+    const Distribution across =
+        read(file("IESNA:LM-63-1995", "4", "90 120 180 270", "1 90 0\n1 120 0\n1 180 0\n1 270 0"));
+    EXPECT_EQ(across.horizontal, (std::vector<double>{0, 60, 90, 120, 180, 270, 360}));
+    for (const auto& [c, wanted] :
+         {std::pair(0.0, 180.0), {45.0, 135.0}, {315.0, 225.0}, {225.0, 225.0}, {100.0, 100.0}})
+        EXPECT_NEAR(at(across, c), wanted, 1e-9) << c;
+    const Distribution whole = read(file("IES:LM-63-2019", "3", "0 120 360", "1 10 0\n1 130 0\n1 10 0"));
+    EXPECT_NEAR(at(whole, 240), 70, 1e-9);
+    // Without the closing plane.
+    const Distribution open = read(file("IES:LM-63-2019", "3", "0 120 240", "1 10 0\n1 130 0\n1 250 0"));
+    EXPECT_EQ(open.horizontal.back(), 360);
+    EXPECT_NEAR(at(open, 300), 130, 1e-9);
+    EXPECT_TRUE(has(complaint(file("IES:LM-63-2019", "2", "0 100", "1 1 1 1 1 1")), "C planes from 0 to 100"));
+}
+
+TEST(Ies, ReadsTypesBAndA) {
+    const std::string mirrored_half =
+        replaced(file("IESNA:LM-63-2002", "2", "0 30", "1 2 3\n4 5 6"), "3 2 1 2 0", "3 2 3 2 0");
+    const Distribution a = read(replaced(mirrored_half, "0 45 90", "-10 0 90"));
+    EXPECT_EQ(a.goniometry, Goniometry::TypeA);
+    EXPECT_EQ(a.horizontal, (std::vector<double>{-30, 0, 30}));
+    EXPECT_EQ(a.candela, (std::vector<double>{4, 5, 6, 1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(a.vertical.front(), -10);
+    const Distribution b = read(replaced(replaced(mirrored_half, "3 2 3 2 0", "3 2 2 2 0"), "0 30", "-20 30"));
+    EXPECT_EQ(b.goniometry, Goniometry::TypeB);
+    EXPECT_EQ(b.horizontal, (std::vector<double>{-20, 30}));
+    EXPECT_TRUE(has(complaint(replaced(kPlain, "3 1 1 2 0", "3 1 3 2 0")), "one horizontal angle"));
+}
+
+TEST(Ies, TakesWhatFilesReallyHold) {
+    const auto same = [](const std::string& text) {
+        const Distribution d = read(text);
+        EXPECT_EQ(d.vertical, (std::vector<double>{0, 45, 90})) << text;
+        EXPECT_EQ(d.candela, (std::vector<double>{100, 50, 25})) << text;
+    };
+    std::string windows, mac;
+    for (const char c : kPlain)
+        windows += c == '\n' ? std::string("\r\n") : std::string(1, c), mac += c == '\n' ? '\r' : c;
+    same(windows);
+    same(mac);
+    same("\xef\xbb\xbf" + kPlain);
+    same(replaced(kPlain, "TILT=NONE", "tilt = none"));
+    same(replaced(kPlain, "0 45 90", "0,45,\n 90,"));
+    same(replaced(kPlain, "100 50 25", "100 50\n\n 25\nEND OF DATA 3\n\x1a"));
+    same(replaced(replaced(replaced(kPlain, "3 1 1 2", "4 1 1 2"), "0 45 90", "0 45 90 90"), "50 25", "50 25 25"));
+    same(replaced(kPlain, "1 -1 1 3", "1 -1 1.0e0 3.0"));
+    same(replaced(kPlain, "IESNA:LM-63-2002\n", ""));
+    same(replaced(kPlain, "IESNA:LM-63-2002\n[TEST] 1\n[MANUFAC] M\n", ""));
+    // Decimal commas.
+    EXPECT_EQ(read(replaced(kPlain, "100 50 25", "100,5 50 25,25")).candela, (std::vector<double>{100.5, 50, 25.25}));
+    // Noise below nothing; small negatives only.
+    EXPECT_EQ(read(replaced(kPlain, "50 25", "50 -0.2")).candela.back(), 0);
+    EXPECT_TRUE(has(complaint(replaced(kPlain, "50 25", "50 -20")), "x.ies: line 9: a negative intensity"));
+}
+
+TEST(Ies, TextBecomesUtf8) {
+    const Distribution d =
+        read(replaced(kPlain, "[MANUFAC] M", "[manufac] R\xe9verb\xe8re\n[MORE] SA\n[LUMINAIRE] réseau"));
+    EXPECT_EQ(d.metadata[1].first, "MANUFAC");
+    EXPECT_EQ(d.metadata[1].second, "Réverbère\nSA");
+    EXPECT_EQ(d.name, "réseau");
+}
+
+TEST(Ies, AppliesTiltForTheLampAsMeasured) {
+    const std::string table = "1\n3\n-30 10 20\n0.6 1.0 0.9\n";
+    EXPECT_NEAR(read(replaced(kPlain, "TILT=NONE\n", "TILT=INCLUDE\n" + table)).candela[0], 90, 1e-9);
+    EXPECT_NEAR(read(replaced(kPlain, "TILT=NONE\n", "TILT=INCLUDE\n1 2 0 45 1 0.5\n")).candela[0], 100, 1e-9);
+    EXPECT_TRUE(has(complaint(replaced(kPlain, "TILT=NONE\n", "TILT=INCLUDE\n1 2 45 0 1 0.5\n")), "do not ascend"));
+
+    const TempFolder folder;
+    const auto lamp = folder.write("lamp.ies", replaced(kPlain, "TILT=NONE", "TILT=lamp.tlt"));
+    EXPECT_TRUE(has(complaint_of([&] { read_ies(lamp); }), "line 4: TILT=lamp.tlt"));
+    folder.write("lamp.tlt", table);
+    EXPECT_NEAR(read_ies(lamp).candela[0], 90, 1e-9);
+    EXPECT_EQ(read_ies(lamp).name, "lamp");
+    const auto outside = folder.write("outside.ies", replaced(kPlain, "TILT=NONE", "TILT=../lamp.tlt"));
+    EXPECT_TRUE(has(complaint_of([&] { read_ies(outside); }), "neither NONE"));
+    EXPECT_NEAR(read(replaced(kPlain, "TILT=NONE", "TILT=lamp.tlt")).candela[0], 100, 1e-9);  // no folder to look in
+}
+
+TEST(Ies, ReadsTheLuminousOpening) {
+    const auto opening = [](const std::string& units, const std::string& size) {
+        return read(replaced(kPlain, "2 0 0 0\n", units + " " + size + "\n")).opening;
+    };
+    LuminousOpening o = opening("2", "0.3 1.2 0");
+    EXPECT_EQ(o.length, 1.2);
+    EXPECT_EQ(o.width, 0.3);
+    EXPECT_FALSE(o.round);
+    o = opening("1", "1 2 -0");
+    EXPECT_NEAR(o.length, 0.6096, 1e-12);
+    EXPECT_NEAR(o.width, 0.3048, 1e-12);
+    for (const char* circle : {"-0.2 -0.2 0", "-0.2 0 0"}) {
+        o = opening("2", circle);
+        EXPECT_TRUE(o.round);
+        EXPECT_NEAR(o.area(), kPi * 0.01, 1e-12) << circle;
+    }
+    o = opening("2", "0 1.2 -0.1");  // 1995: a tube along the length
+    EXPECT_NEAR(o.area(), 0.12, 1e-12);
+    EXPECT_EQ(opening("2", "0 0 0").area(), 0);
+}
+
+TEST(Ies, SaysWhereAndWhy) {
+    const struct {
+        const char *what, *with, *wanted;
+    } cases[] = {
+        {"TILT=NONE", "", "x.ies: line 10: the file ends without a line TILT="},
+        {"100 50 25", "100 50", "x.ies: line 10: the file ends where an intensity is expected"},
+        {"100 50 25", "100 fifty 25", "x.ies: line 9: 'fifty' stands where an intensity is expected"},
+        {"100 50 25", "100 50 25 12", "line 9: more intensities than the 3 x 1 stated"},
+        {"100 50 25", "100 1e999 25", "line 9: '1e999'"},
+        {"100 50 25", "100 nan 25", "line 9: 'nan'"},
+        {"0 45 90", "0 45 40", "line 7: gamma angles do not ascend: 40 follows 45"},
+        {"0 45 90", "0 45 190", "line 7: gamma angle 190 is not in 0 to 180"},
+        {"1 -1 1 3 1", "1 -1 1 3.5 1", "line 5: 3.5 vertical angles"},
+        {"1 -1 1 3 1", "1 -1 1 3 99999999", "line 5: 1e+08 horizontal angles"},
+        {"1 -1 1 3 1", "1 -1 1 1 1", "line 5: one vertical angle"},
+        {"1 -1 1 3 1", "1 -1 0 3 1", "line 6: multiplier"},
+        {"1 -1 1 3 1 1 2", "1 -1 1 3 1 4 2", "line 5: the photometric type"},
+        {"1 -1 1 3 1 1 2", "1 -1 1 3 1 1 3", "line 5: the type of units"},
+    };
+    for (const auto& c : cases) EXPECT_TRUE(has(complaint(replaced(kPlain, c.what, c.with)), c.wanted)) << c.with;
+    EXPECT_TRUE(has(complaint(""), "x.ies: line 1: the file ends"));
+    const std::string many(60'000, '\n');
+    EXPECT_TRUE(has(complaint(many + kPlain), "no line TILT= in the first"));
+}
+
+TEST(Ies, WritingComesBack) {
+    const auto candela = [](double h, double v) { return 1234.5678 / (1 + std::abs(h) + v * v / 3); };
+    std::vector<Distribution> all = {
+        tabulate(Goniometry::CGamma, {0}, {0, 22.5, 90.125}, candela),
+        tabulate(Goniometry::CGamma, {0, 90.5, 180, 270, 360}, {0, 90, 180},
+                 [&](double h, double v) { return candela(std::fmod(h, 360), v); }),
+        tabulate(Goniometry::TypeA, {-12.25, 0, 3, 20}, {-90, -0.57, 1e-3, 12}, candela),
+        tabulate(Goniometry::TypeB, {-12.25, 0, 3, 20}, {-90, 0, 12}, candela),
+    };
+    all[0].opening = {0.2, 0.2, 0.1, true};
+    all[0].lamp_flux = 850;
+    all[1].opening = {1.2, 0.3, 0, false};
+    all[1].metadata = {{"MANUFAC", "Réverbère\nSA"}, {"LUMINAIRE", "made"}};
+    for (const Distribution& d : all) {
+        const std::string text = write_ies(d);
+        const Distribution back = read(text);
+        EXPECT_EQ(back.goniometry, d.goniometry);
+        EXPECT_EQ(back.name, d.name);
+        EXPECT_EQ(back.lamp_flux, d.lamp_flux);
+        EXPECT_EQ(back.horizontal, d.horizontal);
+        EXPECT_EQ(back.vertical, d.vertical);
+        ASSERT_EQ(back.candela.size(), d.candela.size());
+        for (size_t i = 0; i < d.candela.size(); ++i)
+            EXPECT_EQ(static_cast<float>(back.candela[i]), static_cast<float>(d.candela[i]));
+        EXPECT_NEAR(back.opening.area(), d.opening.area(), 1e-12);
+        EXPECT_EQ(back.opening.height, d.opening.height);
+        EXPECT_EQ(write_ies(back), text);  // nothing drifts
+        for (size_t at = 0; at < text.size();) {
+            const size_t end = text.find("\r\n", at);
+            EXPECT_LE(end - at, 256u);
+            at = end + 2;
+        }
+    }
+    // A range that begins at H = 0 is not taken for a half.
+    const Distribution right = tabulate(Goniometry::TypeA, {0, 10}, {-5, 5}, [](double, double) { return 7.0; });
+    const Distribution back = read(write_ies(right));
+    EXPECT_EQ(intensity(back, type_a(5, 0)), 7);
+    EXPECT_EQ(intensity(back, type_a(-5, 0)), 0);
+    EXPECT_NEAR(luminous_flux(back), luminous_flux(right), 1e-3 * luminous_flux(right));
+}
+
+}  // namespace
+}  // namespace vesper::test

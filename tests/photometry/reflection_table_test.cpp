@@ -1,0 +1,156 @@
+// r-tables: the standard ones against what CIE 144:2001 publishes of them, interpolation, extension, damaged files.
+// SPDX-License-Identifier: MIT
+#include "photometry/reflection_table.h"
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+ReflectionTable parse(std::string_view text) {
+    return parse_reflection_table({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "t.csv");
+}
+
+/// q the same in all directions.
+ReflectionTable lambert(double q) {
+    ReflectionTable table{.name = "lambert", .beta = {0, 180}};
+    for (int i = 0; i <= 4000; ++i) {
+        const double t = i * 0.005;
+        table.tan_gamma.push_back(t);
+        for (int b = 0; b < 2; ++b) table.r.push_back(q * std::pow(1 + t * t, -1.5));
+    }
+    return table;
+}
+
+TEST(ReflectionTable, StandardTablesHaveTheirPublishedFactors) {
+    // Q0, S1 and S2 = Q0 / q(0) of CIE 144:2001.
+    const struct {
+        const char* name;
+        double q0, s1, s2;
+    } published[] = {{"R1", 0.10, 0.25, 1.53}, {"R2", 0.07, 0.58, 1.80}, {"R3", 0.07, 1.11, 2.38},
+                     {"R4", 0.08, 1.55, 3.03}, {"C1", 0.10, 0.24, 0},    {"C2", 0.07, 0.97, 0},
+                     {"W3", 0.20, 8.65, 0},    {"W4", 0.25, 10.84, 0}};
+    EXPECT_EQ(standard_reflection_tables().size(), std::size(published));
+    for (const auto& p : published) {
+        const ReflectionTable table = find_reflection_table(p.name);
+        EXPECT_EQ(table.tan_gamma.size(), 29u) << p.name;
+        EXPECT_EQ(table.beta.size(), 20u) << p.name;
+        EXPECT_EQ(table.stated_q0, p.q0) << p.name;
+        EXPECT_NEAR(average_luminance_coefficient(table) / p.q0, 1.015, 0.015) << p.name;
+        EXPECT_NEAR(specular_factor(table), p.s1, 0.006) << p.name;
+        if (p.s2 > 0) {
+            EXPECT_NEAR(table.stated_q0 / table.r.front(), p.s2, 0.006) << p.name;
+        }
+        EXPECT_EQ(rescaled(table, p.q0), table) << p.name;
+    }
+}
+
+TEST(ReflectionTable, R3HasTheNumbersOfTheStandard) {
+    const ReflectionTable r3 = find_reflection_table("R3");
+    EXPECT_DOUBLE_EQ(reduced_luminance_coefficient(r3, 0, 77), 294e-4);
+    EXPECT_DOUBLE_EQ(reduced_luminance_coefficient(r3, 2, 0), 326e-4);
+    EXPECT_DOUBLE_EQ(reduced_luminance_coefficient(r3, 2, 30), 71e-4);
+    EXPECT_DOUBLE_EQ(reduced_luminance_coefficient(r3, 12, 15), 1.8e-4);
+    EXPECT_DOUBLE_EQ(reduced_luminance_coefficient(r3, 5, 180), 7.1e-4);
+    EXPECT_DOUBLE_EQ(luminance_coefficient(r3, 2, 0), 326e-4 * std::pow(5, 1.5));
+}
+
+TEST(ReflectionTable, IsBilinear) {
+    const ReflectionTable table = parse("t,0,90,180\n0,10,10,10\n1,8,4,\n");
+    EXPECT_NEAR(reduced_luminance_coefficient(table, 0.5, 45), 8e-4, 1e-15);   // (10 + 6) / 2
+    EXPECT_NEAR(reduced_luminance_coefficient(table, 0.5, -45), 8e-4, 1e-15);  // the other side of the road
+    EXPECT_NEAR(reduced_luminance_coefficient(table, 0.5, 315), 8e-4, 1e-15);
+    EXPECT_NEAR(reduced_luminance_coefficient(table, 1, 135), 2e-4, 1e-15);  // towards the empty field
+    EXPECT_EQ(reduced_luminance_coefficient(table, 1.0001, 0), 0);
+    EXPECT_NEAR(reduced_luminance_coefficient(extended(table), 1.0001, 0), 8e-4, 1e-6);
+}
+
+TEST(ReflectionTable, AverageOfLambertIsItsCoefficient) {
+    EXPECT_NEAR(average_luminance_coefficient(lambert(0.05)), 0.05, 1e-5);
+    const ReflectionTable half = rescaled(lambert(0.05), 0.025);
+    EXPECT_NEAR(luminance_coefficient(half, 3, 10), 0.025, 1e-6);
+    EXPECT_EQ(half.stated_q0, 0.025);
+    EXPECT_THROW(rescaled(lambert(0.05), 0), Error);
+    EXPECT_THROW(rescaled(lambert(0.05), std::numeric_limits<double>::quiet_NaN()), Error);
+}
+
+TEST(ReflectionTable, ExtensionLeavesCoveredCellsAndFallsSmoothly) {
+    for (const std::string& name : standard_reflection_tables()) {
+        const ReflectionTable table = find_reflection_table(name), smooth = extended(table);
+        size_t filled = 0;
+        for (size_t i = 0; i < table.r.size(); ++i) {
+            if (table.r[i] == 0) ++filled;
+            EXPECT_EQ(table.r[i] == 0 ? 0 : smooth.r[i], table.r[i]);
+            EXPECT_GT(smooth.r[i], 0);
+        }
+        EXPECT_GT(filled, 100u) << name;
+        // Without steps: neighbouring directions differ by little, over the old edge and beyond the last row.
+        for (const double beta : {3.0, 17.0, 22.0, 33.0, 47.0, 90.0, 170.0})
+            for (double t = 5; t < 40; t += 0.01) {
+                const double here = reduced_luminance_coefficient(smooth, t, beta);
+                const double there = reduced_luminance_coefficient(smooth, t + 0.01, beta);
+                EXPECT_LE(std::abs(there - here), 0.03 * here) << name << " " << t << " " << beta;
+            }
+        EXPECT_LT(reduced_luminance_coefficient(smooth, 1000, 0), 1e-6);
+        // q stays beyond the table.
+        EXPECT_NEAR(luminance_coefficient(smooth, 30, 40), luminance_coefficient(smooth, 12, 40), 1e-9);
+    }
+}
+
+TEST(ReflectionTable, ReadsWhatSpreadsheetsWrite) {
+    const ReflectionTable table =
+        parse("\xef\xbb\xbf# made up\r\n# Q0 0.09\r\n\"tan\", 0, 180\r\n\r\n0, 300, 300\r\n2, 30,\r\n");
+    EXPECT_EQ(table.stated_q0, 0.09);
+    EXPECT_EQ(table.name, "t.csv");
+    EXPECT_EQ(table.beta, (std::vector<double>{0, 180}));
+    EXPECT_EQ(table.at(1, 1), 0);
+    const TempFolder folder;
+    folder.write("mine.csv", "t,0,180\n0,3,3\n1,2,1");
+    EXPECT_EQ(find_reflection_table("mine.csv", folder.path()).name, "mine");
+    EXPECT_EQ(find_reflection_table("mine.csv", folder.path()).at(1, 0), 2e-4);
+}
+
+TEST(ReflectionTable, RefusesWhatIsDamaged) {
+    const struct {
+        std::string text, reason;
+    } cases[] = {
+        {"", "t.csv: a reflection table has at least two"},
+        {"t,0,180\n0,3,3\n", "t.csv: a reflection table has at least two"},
+        {"t\n0,3,3\n", "line 1: is not a row of beta"},
+        {"t,0,180\n0,3,3\n1,2\n", "line 3: has 2 fields, 3 are wanted"},
+        {"t,0,180\n0,3,3\n1,2,2,2\n", "line 3: has 4 fields, 3 are wanted"},
+        {"t,0,180\n0,3,3\n1,2,x\n", "line 3: 'x' is not a number"},
+        {"t,0,180\n0,3,3\n1,2,nan\n", "line 3: 'nan' is not a number"},
+        {"t,0,180\n0,3,3\n1,2,-2\n", "line 3: '-2' is not a number"},
+        {"t,0,180\n0,3,3\n1,2,1e400\n", "line 3: '1e400' is not a number"},
+        {"t,0,180\n0,3,3\n,2,2\n", "line 3: '' is not a number"},
+        {"# Q0 x\n", "line 1: 'x' is not a number"},
+        {"t,0,180\n0,3,3\n1,2,1e9\n", "r must be from 0"},
+        {"t,0,90\n0,3,3\n1,2,2\n", "beta must ascend from 0 to 180"},
+        {"t,0,180\n0,3,3\n0,2,2\n", "tan gamma must ascend"},
+        {"t,0,180\n1,3,3\n2,2,2\n", "tan gamma must ascend"},
+        {"t,0,180\n0,0,3\n1,2,2\n", "r at tan gamma 0"},
+        {"t" + std::string(600, ',') + "\n", "line 1: has more than 512 values"},
+    };
+    for (const auto& c : cases) {
+        try {
+            parse(c.text);
+            ADD_FAILURE() << c.text << " was accepted";
+        } catch (const Error& error) {
+            EXPECT_TRUE(contains(error.what(), c.reason));
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        }
+    }
+    EXPECT_THROW(find_reflection_table("R5"), Error);
+    EXPECT_THROW(find_reflection_table("missing.csv"), Error);
+    std::string many = "t,0,180\n0,3,3\n";
+    for (int i = 1; i < 600; ++i) many += std::to_string(i) + ",2,2\n";
+    EXPECT_THROW(parse(many), Error);
+}
+
+}  // namespace
+}  // namespace vesper::test

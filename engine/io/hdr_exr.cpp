@@ -57,7 +57,8 @@ char* origin(void* memory, int64_t x, int64_t y, int64_t x_stride, int64_t y_str
 /// Reads blocks of whole rows of the data window with `read(first, last)`, which leaves them in `block` (3 floats per
 /// pixel), and copies what the display window shows. Memory for the picture is taken when the first block was good.
 template <typename Read>
-void read_rows(HdrImage& image, const Window& data, const Window& display, std::vector<float>& block, const Read& read) {
+void read_rows(HdrImage& image, const Window& data, const Window& display, std::vector<float>& block,
+               const Read& read) {
     constexpr int64_t kRows = 64;
     const int64_t x0 = std::max(data.x0, display.x0), x1 = std::min(data.x1, display.x1);
     const int64_t y0 = std::max(data.y0, display.y0), y1 = std::min(data.y1, display.y1);
@@ -77,7 +78,8 @@ void read_rows(HdrImage& image, const Window& data, const Window& display, std::
 }
 
 /// R, G and B as they are, or Y three times.
-void read_channels(HdrImage& image, Imf::MultiPartInputFile& file, const Window& data, const Window& display, bool grey) {
+void read_channels(HdrImage& image, Imf::MultiPartInputFile& file, const Window& data, const Window& display,
+                   bool grey) {
     Imf::InputPart part(file, 0);
     std::vector<float> block;
     read_rows(image, data, display, block, [&](int first, int last) {
@@ -138,15 +140,16 @@ Primaries primaries_of(const Imf::Header& exr) {
 
 std::string list_of(const Imf::ChannelList& channels) {
     std::string list;
-    for (auto it = channels.begin(); it != channels.end(); ++it) list += (list.empty() ? "" : ", ") + std::string(it.name());
+    for (auto it = channels.begin(); it != channels.end(); ++it)
+        list += (list.empty() ? "" : ", ") + std::string(it.name());
     return list;
 }
 
 }  // namespace
 
 HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& limits) {
-    // OpenEXR takes memory for tables and buffers while it opens a file; this setting of the whole library is its only way
-    // to refuse before that. The same value every time.
+    // OpenEXR takes memory for tables and buffers while it opens a file; this setting of the whole library is its only
+    // way to refuse before that. The same value every time.
     constexpr int kMaxSide = 1 << 18;
     Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
     Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);

@@ -19,8 +19,9 @@ glm::dmat3 to_xyz(const Primaries& p) {
     const glm::dmat3 directions(xyz(p.red), xyz(p.green), xyz(p.blue));
     const double volume = glm::determinant(directions);
     const glm::dvec3 amounts = glm::inverse(directions) * (xyz(p.white) / p.white.y);
-    const bool sound = std::abs(volume) > 1e-6 && p.white.y > 1e-6 && std::isfinite(amounts.x + amounts.y + amounts.z) &&
-                       amounts.x != 0 && amounts.y != 0 && amounts.z != 0;
+    const bool sound = std::abs(volume) > 1e-6 && p.white.y > 1e-6 &&
+                       std::isfinite(amounts.x + amounts.y + amounts.z) && amounts.x != 0 && amounts.y != 0 &&
+                       amounts.z != 0;
     if (!sound) throw Error("its primaries are no base of colours");
     return {directions[0] * amounts.x, directions[1] * amounts.y, directions[2] * amounts.z};
 }
@@ -69,7 +70,9 @@ HdrImage read(const std::filesystem::path& file, Kind wanted, const HdrLimits& l
     } catch (const std::exception& error) {
         throw Error(one_line(file.string()) + ": " + one_line(error.what()));
     }
-    const char* expected = wanted == Kind::Any ? "OpenEXR nor Radiance (.hdr)" : wanted == Kind::Exr ? "OpenEXR" : "Radiance (.hdr)";
+    const char* expected = wanted == Kind::Any   ? "OpenEXR nor Radiance (.hdr)"
+                           : wanted == Kind::Exr ? "OpenEXR"
+                                                 : "Radiance (.hdr)";
     const char* is = wanted == Kind::Any ? "is neither " : "is not ";
     throw Error(one_line(file.string()) + ": " + is + expected + (type.empty() ? "" : ", but " + type));
 }
@@ -77,7 +80,11 @@ HdrImage read(const std::filesystem::path& file, Kind wanted, const HdrLimits& l
 }  // namespace
 
 HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& limits) { return read(file, Kind::Exr, limits); }
-HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& limits) { return read(file, Kind::Radiance, limits); }
-HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& limits) { return read(file, Kind::Any, limits); }
+HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& limits) {
+    return read(file, Kind::Radiance, limits);
+}
+HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& limits) {
+    return read(file, Kind::Any, limits);
+}
 
 }  // namespace vesper

@@ -30,4 +30,12 @@ constexpr uint64_t kMaxFileBytes = uint64_t{1} << 32;
 HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits&);
 HdrImage decode_radiance(std::span<const uint8_t> bytes, const HdrLimits&);
 
+struct ExrPixels {
+    uint32_t width, height;
+    const float* values;     ///< R, G, B of the first pixel
+    size_t stride;           ///< from pixel to pixel
+    double white_luminance;  ///< cd/m^2 of (1, 1, 1); 0: unknown
+};
+void encode_exr(const std::filesystem::path& file, const ExrPixels&, const Header&);
+
 }  // namespace vesper::hdr

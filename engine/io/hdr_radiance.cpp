@@ -1,6 +1,6 @@
 // Radiance pictures, in. Format: G. Ward, "Real Pixels", Graphics Gems II (1991), and the Radiance manual's "File
-// Formats". stb_image was looked at: it gives black where a file ends early, and knows neither EXPOSURE, PRIMARIES, XYZE
-// nor the older run lengths. SPDX-License-Identifier: MIT
+// Formats". stb_image was looked at: it gives black where a file ends early, and knows neither EXPOSURE, PRIMARIES,
+// XYZE nor the older run lengths. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,7 +52,8 @@ std::optional<std::vector<double>> numbers(const std::string& text, size_t count
         if (!std::isfinite(value)) return std::nullopt;
         values.push_back(value);
     }
-    if (values.size() != count || std::string_view(at).find_first_not_of(" \t") != std::string_view::npos) return std::nullopt;
+    if (values.size() != count || std::string_view(at).find_first_not_of(" \t") != std::string_view::npos)
+        return std::nullopt;
     return values;
 }
 
@@ -96,8 +97,10 @@ Description read_description(Bytes& bytes) {
     }
     const std::string size = bytes.line();
     int height = 0, width = 0, end = 0;
-    if (std::sscanf(size.c_str(), "-Y %9d +X %9d%n", &height, &width, &end) != 2 || size.find_first_not_of(' ', static_cast<size_t>(end)) != std::string::npos)
-        throw Error("Radiance: '" + size + "' where -Y HEIGHT +X WIDTH is expected (other orders of pixels are not read)");
+    if (std::sscanf(size.c_str(), "-Y %9d +X %9d%n", &height, &width, &end) != 2 ||
+        size.find_first_not_of(' ', static_cast<size_t>(end)) != std::string::npos)
+        throw Error("Radiance: '" + size +
+                    "' where -Y HEIGHT +X WIDTH is expected (other orders of pixels are not read)");
     made.width = width;
     made.height = height;
     return made;
@@ -148,10 +151,13 @@ HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits)
     std::vector<Rgbe> row(width);
     float* out = image.rgb.data();
     for (size_t y = 0; y < height; ++y) {
-        const bool runs = width >= 8 && width < 32768 && bytes.peek(0) == 2 && bytes.peek(1) == 2 && bytes.peek(2) < 128;
+        const bool runs =
+            width >= 8 && width < 32768 && bytes.peek(0) == 2 && bytes.peek(1) == 2 && bytes.peek(2) < 128;
         if (runs) {
             const size_t marked = size_t{bytes.peek(2)} << 8 | bytes.peek(3);
-            if (marked != width) throw Error("Radiance: a row of " + std::to_string(marked) + " px in a picture of " + std::to_string(width));
+            if (marked != width)
+                throw Error("Radiance: a row of " + std::to_string(marked) + " px in a picture of " +
+                            std::to_string(width));
             for (int i = 0; i < 4; ++i) bytes.next();
             read_runs(bytes, row);
         } else {

@@ -29,23 +29,28 @@ Values ramp(int width, int height) {
     Values rgb;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            for (int c = 0; c < 3; ++c) rgb.push_back(static_cast<float>(std::lround(std::pow(10.0, 4.0 * x / width)) % 1900 / (1 + c) + y));
+            for (int c = 0; c < 3; ++c)
+                rgb.push_back(static_cast<float>(std::lround(std::pow(10.0, 4.0 * x / width)) % 1900 / (1 + c) + y));
     return rgb;
 }
 
 /// Frame buffer over interleaved values of one type, its first pixel at the data window's corner.
 template <typename T>
-Imf::FrameBuffer frame_of(std::vector<T>& values, Imf::PixelType type, const Imath::Box2i& window, const std::vector<std::string>& names) {
+Imf::FrameBuffer frame_of(std::vector<T>& values, Imf::PixelType type, const Imath::Box2i& window,
+                          const std::vector<std::string>& names) {
     Imf::FrameBuffer frame;
-    const auto step = static_cast<std::ptrdiff_t>(names.size() * sizeof(T)), row = step * (window.max.x - window.min.x + 1);
+    const auto step = static_cast<std::ptrdiff_t>(names.size() * sizeof(T)),
+               row = step * (window.max.x - window.min.x + 1);
     for (size_t c = 0; c < names.size(); ++c)
-        frame.insert(names[c], Imf::Slice(type, reinterpret_cast<char*>(values.data() + c) - step * window.min.x - row * window.min.y,
-                                          static_cast<size_t>(step), static_cast<size_t>(row)));
+        frame.insert(
+            names[c],
+            Imf::Slice(type, reinterpret_cast<char*>(values.data() + c) - step * window.min.x - row * window.min.y,
+                       static_cast<size_t>(step), static_cast<size_t>(row)));
     return frame;
 }
 
-void write(const fs::path& file, Imf::Header header, std::vector<float> values, const std::vector<std::string>& names = {"R", "G", "B"},
-           Imf::PixelType type = Imf::FLOAT) {
+void write(const fs::path& file, Imf::Header header, std::vector<float> values,
+           const std::vector<std::string>& names = {"R", "G", "B"}, Imf::PixelType type = Imf::FLOAT) {
     for (const std::string& name : names) header.channels().insert(name, Imf::Channel(type));
     const Imath::Box2i window = header.dataWindow();
     std::vector<half> halves(values.begin(), values.end());
@@ -62,7 +67,8 @@ void write(const fs::path& file, Imf::Header header, std::vector<float> values, 
     }
     Imf::TiledOutputFile out(file.c_str(), header);
     out.setFrameBuffer(frame);
-    for (int level = 0; level < out.numLevels(); ++level) out.writeTiles(0, out.numXTiles(level) - 1, 0, out.numYTiles(level) - 1, level);
+    for (int level = 0; level < out.numLevels(); ++level)
+        out.writeTiles(0, out.numXTiles(level) - 1, 0, out.numYTiles(level) - 1, level);
 }
 
 void expect_values(const HdrImage& image, const Values& wanted, double relative = 0) {
@@ -92,7 +98,10 @@ TEST(HdrExr, ReadsEveryCompressionAndType) {
             header.compression() = static_cast<Imf::Compression>(compression);
             write(folder / "x.exr", header, picture, {"R", "G", "B"}, type);
             const bool lossy = compression >= Imf::B44_COMPRESSION;
-            expect_values(read_exr(folder / "x.exr"), picture, lossy ? 0.15 : type == Imf::FLOAT && compression == Imf::PXR24_COMPRESSION ? 1e-4 : 0);
+            expect_values(read_exr(folder / "x.exr"), picture,
+                          lossy                                                         ? 0.15
+                          : type == Imf::FLOAT && compression == Imf::PXR24_COMPRESSION ? 1e-4
+                                                                                        : 0);
         }
 }
 
@@ -182,7 +191,9 @@ TEST(HdrExr, ReadsOurOwnWithHeaderAndUnit) {
     const HdrImage image = read_hdr_image(folder / "x.exr");
     expect_values(image, {1e-4f, 1, 1e8f, 65504, 70000, 0});
     EXPECT_EQ(image.white_luminance, 1.0);
-    EXPECT_NE(std::find(image.header.begin(), image.header.end(), std::pair<std::string, std::string>("vesper:camera", "driver")), image.header.end());
+    EXPECT_NE(std::find(image.header.begin(), image.header.end(),
+                        std::pair<std::string, std::string>("vesper:camera", "driver")),
+              image.header.end());
     write(folder / "y.exr", Imf::Header(1, 1), {1, 1, 1});
     EXPECT_EQ(read_hdr_image(folder / "y.exr").white_luminance, 0.0);
 }
@@ -199,7 +210,8 @@ TEST(HdrExr, RefusesDeepPicturesOtherFilesAndLargeOnes) {
         float value = 3, *pointer = &value;
         Imf::DeepFrameBuffer frame;
         frame.insertSampleCountSlice(Imf::Slice(Imf::UINT, reinterpret_cast<char*>(&count), 4, 4));
-        frame.insert("R", Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(&pointer), sizeof pointer, sizeof pointer, 4));
+        frame.insert("R",
+                     Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(&pointer), sizeof pointer, sizeof pointer, 4));
         out.setFrameBuffer(frame);
         out.writePixels(1);
     }
@@ -257,7 +269,9 @@ TEST(HdrExr, SurvivesCutAndChangedFiles) {
 const std::string kRgbe = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
 
 /// The value of a mantissa with an exponent byte.
-float rgbe(int mantissa, int exponent) { return static_cast<float>((mantissa + 0.5) * std::ldexp(1.0, exponent - 136)); }
+float rgbe(int mantissa, int exponent) {
+    return static_cast<float>((mantissa + 0.5) * std::ldexp(1.0, exponent - 136));
+}
 
 HdrImage radiance(const std::string& header, const std::string& pixels) {
     const TempFolder folder;
@@ -271,12 +285,20 @@ TEST(HdrRadiance, ReadsPlainPixelsAndBothKindsOfRuns) {
     // The older runs: a pixel, repeated twice; and 1 + 2 + 256 times.
     const Values grey3 = radiance(kRgbe, "\n-Y 1 +X 3\n" + std::string("\x80\x80\x80\x81\x01\x01\x01\x02", 8)).rgb;
     EXPECT_EQ(grey3, Values(9, rgbe(128, 129)));
-    const Values grey259 = radiance(kRgbe, "\n-Y 1 +X 259\n" + std::string("\x80\x80\x80\x81\x01\x01\x01\x02\x01\x01\x01\x01", 12)).rgb;
+    const Values grey259 =
+        radiance(kRgbe, "\n-Y 1 +X 259\n" + std::string("\x80\x80\x80\x81\x01\x01\x01\x02\x01\x01\x01\x01", 12)).rgb;
     EXPECT_EQ(grey259, Values(3 * 259, rgbe(128, 129)));
     // The newer runs, component by component: eight times 200; 1 ... 8; 4 of 9 then 4 of 10; exponent 130.
-    const std::string row("\x02\x02\x00\x08" "\x88\xc8" "\x08\x01\x02\x03\x04\x05\x06\x07\x08" "\x84\x09\x84\x0a" "\x88\x82", 4 + 2 + 9 + 4 + 2);
+    const std::string row(
+        "\x02\x02\x00\x08"
+        "\x88\xc8"
+        "\x08\x01\x02\x03\x04\x05\x06\x07\x08"
+        "\x84\x09\x84\x0a"
+        "\x88\x82",
+        4 + 2 + 9 + 4 + 2);
     Values wanted;
-    for (int x = 0; x < 8; ++x) wanted.insert(wanted.end(), {rgbe(200, 130), rgbe(x + 1, 130), rgbe(x < 4 ? 9 : 10, 130)});
+    for (int x = 0; x < 8; ++x)
+        wanted.insert(wanted.end(), {rgbe(200, 130), rgbe(x + 1, 130), rgbe(x < 4 ? 9 : 10, 130)});
     expect_values(radiance("#?RGBE\n", "\n-Y 1 +X 8\n" + row), wanted);
 }
 
@@ -289,12 +311,16 @@ TEST(HdrRadiance, UndoesExposureAndPrimaries) {
     const Values plain = {rgbe(128, 129), rgbe(64, 129), rgbe(32, 129)};
     expect_values(radiance(kRgbe + "PRIMARIES=0 0 0 0 0 0 0 0\n", one), plain);
     expect_values(radiance(kRgbe + "PRIMARIES=.64 .33 .3 .6 .15 .06 .3127 .3290\n", one), plain);
-    expect_values(radiance(kRgbe + "PRIMARIES=.64 .33 .15 .06 .3 .6 .3127 .3290\n", one), {plain[0], plain[2], plain[1]}, 1e-6);
+    expect_values(radiance(kRgbe + "PRIMARIES=.64 .33 .15 .06 .3 .6 .3127 .3290\n", one),
+                  {plain[0], plain[2], plain[1]}, 1e-6);
     // XYZ of a colour: x = X 3.2405 - Y 1.5371 - Z 0.4985 and so on (IEC 61966-2-1)
-    const double X = static_cast<double>(plain[0]), Y = static_cast<double>(plain[1]), Z = static_cast<double>(plain[2]);
+    const double X = static_cast<double>(plain[0]), Y = static_cast<double>(plain[1]),
+                 Z = static_cast<double>(plain[2]);
     expect_values(radiance("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n", one),
-                  {static_cast<float>(3.2405 * X - 1.5371 * Y - 0.4985 * Z), static_cast<float>(-0.9693 * X + 1.8760 * Y + 0.0416 * Z),
-                   static_cast<float>(0.0556 * X - 0.2040 * Y + 1.0572 * Z)}, 1e-3);
+                  {static_cast<float>(3.2405 * X - 1.5371 * Y - 0.4985 * Z),
+                   static_cast<float>(-0.9693 * X + 1.8760 * Y + 0.0416 * Z),
+                   static_cast<float>(0.0556 * X - 0.2040 * Y + 1.0572 * Z)},
+                  1e-3);
 }
 
 TEST(HdrRadiance, RefusesWithAReason) {
@@ -313,7 +339,8 @@ TEST(HdrRadiance, RefusesWithAReason) {
     EXPECT_TRUE(contains(reason(kRgbe + "PRIMARIES=1 2 3\n\n-Y 1 +X 1\nabcd"), "PRIMARIES"));
     EXPECT_TRUE(contains(reason(kRgbe + "PRIMARIES=.1 .1 .1 .1 .1 .1 .1 .1\n\n-Y 1 +X 1\nabcd"), "primaries"));
     EXPECT_TRUE(contains(reason("#?RADIANCE\nFORMAT=other\n\n-Y 1 +X 1\nabcd"), "FORMAT"));
-    EXPECT_TRUE(contains(reason(kRgbe + "\n-Y 1 +X 8\n" + std::string("\x02\x02\x00\x09\x88\xc8", 6)), "a row of 9 px"));
+    EXPECT_TRUE(
+        contains(reason(kRgbe + "\n-Y 1 +X 8\n" + std::string("\x02\x02\x00\x09\x88\xc8", 6)), "a row of 9 px"));
     EXPECT_TRUE(contains(reason(kRgbe + "\n-Y 1 +X 8\n" + std::string("\x02\x02\x00\x08\x89\xc8", 6)), "run"));
     EXPECT_TRUE(contains(reason(kRgbe + "\n-Y 1 +X 1\n" + std::string("\x01\x01\x01\x01", 4)), "run"));
 }
@@ -322,7 +349,13 @@ TEST(HdrRadiance, SurvivesCutAndChangedFiles) {
     const TempFolder folder;
     std::string pixels;
     for (int y = 0; y < 5; ++y)
-        pixels += std::string("\x02\x02\x00\x08" "\x88\xc8" "\x08\x01\x02\x03\x04\x05\x06\x07\x08" "\x84\x09\x84\x0a" "\x88\x82", 21);
+        pixels += std::string(
+            "\x02\x02\x00\x08"
+            "\x88\xc8"
+            "\x08\x01\x02\x03\x04\x05\x06\x07\x08"
+            "\x84\x09\x84\x0a"
+            "\x88\x82",
+            21);
     folder.write("x.hdr", kRgbe + "EXPOSURE=2\nPRIMARIES=.64 .33 .3 .6 .15 .06 .3127 .3290\n\n-Y 5 +X 8\n" + pixels);
     expect_survives(folder, folder / "x.hdr", true);
 }

@@ -30,12 +30,13 @@ std::vector<double> luminances(const HdrImage& image) {
     return found;
 }
 
-// The list states luminance of the numbers as stored in the data window. Left out: other primaries, windows that differ, a
-// lone G, and pictures with pixels that are not finite.
+// The list states luminance of the numbers as stored in the data window. Left out: other primaries, windows that
+// differ, a lone G, and pictures with pixels that are not finite.
 TEST(HdrShared, HaveTheStatedLuminances) {
     std::ifstream list(kHdr / "README.md");
     if (!list) GTEST_SKIP() << "the shared set is not here";
-    const std::regex numbers(R"(Y min\+ (\S+) p1 (\S+) med (\S+) p99 (\S+) max (\S+))"), window(R"(data (\S+) disp (\S+))");
+    const std::regex numbers(R"(Y min\+ (\S+) p1 (\S+) med (\S+) p99 (\S+) max (\S+))"),
+        window(R"(data (\S+) disp (\S+))");
     size_t compared = 0;
     for (std::string line; std::getline(list, line);) {
         std::smatch stated, windows;
@@ -71,8 +72,10 @@ double median_difference(const HdrImage& a, const HdrImage& b) {
     EXPECT_EQ(a.rgb.size(), b.rgb.size());
     std::vector<double> differences;
     for (size_t i = 0; i < std::min(a.rgb.size(), b.rgb.size()); ++i)
-        differences.push_back(std::abs(static_cast<double>(a.rgb[i] - b.rgb[i])) / std::max(1e-3, std::abs(static_cast<double>(b.rgb[i]))));
-    std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2), differences.end());
+        differences.push_back(std::abs(static_cast<double>(a.rgb[i] - b.rgb[i])) /
+                              std::max(1e-3, std::abs(static_cast<double>(b.rgb[i]))));
+    std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
+                     differences.end());
     return differences.empty() ? 1.0 : differences[differences.size() / 2];
 }
 
@@ -84,16 +87,23 @@ TEST(HdrShared, OnePictureInSeveralCodingsIsOnePicture) {
     EXPECT_LT(median_difference(read_hdr_image(colours / "Rec709_YC.exr"), plain), 0.02);
     EXPECT_LT(median_difference(read_hdr_image(colours / "XYZ_YC.exr"), plain), 0.02);
     const HdrImage zip = read_hdr_image(compressed / "comp_zip.exr");
-    for (const char* lossless : {"comp_piz.exr", "comp_rle.exr"}) EXPECT_EQ(read_hdr_image(compressed / lossless).rgb, zip.rgb) << lossless;
-    for (const char* lossy : {"comp_dwaa_v2.exr", "comp_dwab_v2.exr"}) EXPECT_LT(median_difference(read_hdr_image(compressed / lossy), zip), 0.03) << lossy;
-    EXPECT_LT(median_difference(read_hdr_image(kHdr / "polyhaven/dikhololo_night_1k.hdr"), read_hdr_image(kHdr / "polyhaven/dikhololo_night_1k.exr")), 4e-4);
+    for (const char* lossless : {"comp_piz.exr", "comp_rle.exr"})
+        EXPECT_EQ(read_hdr_image(compressed / lossless).rgb, zip.rgb) << lossless;
+    for (const char* lossy : {"comp_dwaa_v2.exr", "comp_dwab_v2.exr"})
+        EXPECT_LT(median_difference(read_hdr_image(compressed / lossy), zip), 0.03) << lossy;
+    EXPECT_LT(median_difference(read_hdr_image(kHdr / "polyhaven/dikhololo_night_1k.hdr"),
+                                read_hdr_image(kHdr / "polyhaven/dikhololo_night_1k.exr")),
+              4e-4);
 }
 
 TEST(HdrShared, WindowsAndLevelsAreThoseOfTheFile) {
     if (!is_here(kHdr)) GTEST_SKIP() << "the shared set is not here";
     const fs::path windows = kHdr / "openexr-images/DisplayWindow";
-    const HdrImage whole = read_hdr_image(windows / "t01.exr"), cropped = read_hdr_image(windows / "t05.exr"), inside = read_hdr_image(windows / "t08.exr");
-    const auto green = [](const HdrImage& image, size_t x, size_t y) { return image.rgb[3 * (y * image.width + x) + 1]; };
+    const HdrImage whole = read_hdr_image(windows / "t01.exr"), cropped = read_hdr_image(windows / "t05.exr"),
+                   inside = read_hdr_image(windows / "t08.exr");
+    const auto green = [](const HdrImage& image, size_t x, size_t y) {
+        return image.rgb[3 * (y * image.width + x) + 1];
+    };
     ASSERT_EQ(cropped.width, 340u);
     ASSERT_EQ(cropped.height, 260u);
     ASSERT_EQ(inside.width, 501u);

@@ -39,8 +39,8 @@ HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& = {})
 /// Reads either kind, told apart by content.
 HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& = {});
 
-/// Writes 32-bit RGB OpenEXR with the image's header texts, and whiteLuminance if it is known. The file is replaced only when
-/// complete. Throws Error.
+/// Writes 32-bit RGB OpenEXR with the image's header texts, and whiteLuminance if it is known. The file is replaced
+/// only when complete. Throws Error.
 void write_exr(const std::filesystem::path& file, const HdrImage&);
 
 }  // namespace vesper

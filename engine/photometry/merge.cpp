@@ -14,7 +14,8 @@ namespace {
 
 void check(std::span<const Exposure> exposures) {
     if (exposures.empty() || exposures.size() > kMaxExposures)
-        throw Error(std::to_string(exposures.size()) + " pictures: 1 to " + std::to_string(kMaxExposures) + " can be merged");
+        throw Error(std::to_string(exposures.size()) + " pictures: 1 to " + std::to_string(kMaxExposures) +
+                    " can be merged");
     const Image& first = exposures.front().image;
     for (const Exposure& exposure : exposures) {
         const Image& image = exposure.image;
@@ -29,7 +30,8 @@ void check(std::span<const Exposure> exposures) {
 
 /// One channel of one pixel, as it is put together.
 struct Estimate {
-    double sum = 0, weight = 0;  // of good codes: noise and what JPEG does to saturated places look like codes near the ends
+    double sum = 0,
+           weight = 0;  // of good codes: noise and what JPEG does to saturated places look like codes near the ends
     double closest = 0, closest_weight = -1, closest_exposure = 0;
     bool dark = false, bright = false;
 
@@ -56,7 +58,8 @@ struct Estimate {
 /// Of linear Rec. 709.
 template <typename T>
 double luminance(const T* rgb) {
-    return 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) + 0.0722 * static_cast<double>(rgb[2]);
+    return 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
+           0.0722 * static_cast<double>(rgb[2]);
 }
 
 }  // namespace
@@ -107,9 +110,9 @@ MergedImage merge_exposures(std::span<const Exposure> exposures, const Response&
 }
 
 std::vector<double> relative_exposures(std::span<const std::pair<std::string, CameraExposure>> pictures) {
-    const auto count = [&](std::optional<double> CameraExposure::* what) {
-        return static_cast<size_t>(std::count_if(pictures.begin(), pictures.end(),
-                                                 [&](const auto& picture) { return (picture.second.*what).has_value(); }));
+    const auto count = [&](std::optional<double> CameraExposure::*what) {
+        return static_cast<size_t>(std::count_if(
+            pictures.begin(), pictures.end(), [&](const auto& picture) { return (picture.second.*what).has_value(); }));
     };
     const bool f_numbers = count(&CameraExposure::f_number) > 0, speeds = count(&CameraExposure::iso) > 0;
     std::vector<double> made;

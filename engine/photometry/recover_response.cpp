@@ -1,5 +1,5 @@
-// The response out of exposures. P. Debevec and J. Malik, "Recovering High Dynamic Range Radiance Maps from Photographs",
-// SIGGRAPH 97, section 2. SPDX-License-Identifier: MIT
+// The response out of exposures. P. Debevec and J. Malik, "Recovering High Dynamic Range Radiance Maps from
+// Photographs", SIGGRAPH 97, section 2. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -20,9 +20,9 @@ struct Sample {
     std::vector<std::pair<uint8_t, double>> seen;  // code, ln of exposure
 };
 
-/// Chooses the pixels of one channel: along a sequence that fills the picture evenly (R2 of M. Roberts, 2018), those that
-/// show a code not yet seen often enough. Where the codes of neighbours jump, a pixel says more about sharpness and
-/// alignment than about the response: such places are only used if there is little else.
+/// Chooses the pixels of one channel: along a sequence that fills the picture evenly (R2 of M. Roberts, 2018), those
+/// that show a code not yet seen often enough. Where the codes of neighbours jump, a pixel says more about sharpness
+/// and alignment than about the response: such places are only used if there is little else.
 class Sampler {
 public:
     Sampler(std::span<const Exposure> exposures, size_t channel) : exposures_(exposures), channel_(channel) {
@@ -73,8 +73,8 @@ private:
     std::array<int, 256> seen_{};
 };
 
-/// Normal equations of eq. 3. Each irradiance appears in the rows of its own pixel only: for given g it is a weighted mean,
-/// so it is eliminated pixel by pixel and 256 unknowns remain, however many pixels there are.
+/// Normal equations of eq. 3. Each irradiance appears in the rows of its own pixel only: for given g it is a weighted
+/// mean, so it is eliminated pixel by pixel and 256 unknowns remain, however many pixels there are.
 struct Equations {
     Matrix a = Matrix::Zero(256, 256);
     Vector b = Vector::Zero(256);
@@ -145,8 +145,9 @@ double residual(const std::vector<Sample>& samples, const std::array<double, 256
 
 RecoveredResponse recover_response(std::span<const Exposure> exposures, double smoothness) {
     if (exposures.size() < 2) throw Error("a response needs at least two pictures");
-    const auto [least, most] = std::minmax_element(
-        exposures.begin(), exposures.end(), [](const Exposure& a, const Exposure& b) { return a.exposure < b.exposure; });
+    const auto [least, most] =
+        std::minmax_element(exposures.begin(), exposures.end(),
+                            [](const Exposure& a, const Exposure& b) { return a.exposure < b.exposure; });
     if (most->exposure < least->exposure * 1.05) throw Error("a response needs pictures of different exposure");
     RecoveredResponse made;
     for (size_t c = 0; c < 3; ++c) {

@@ -78,7 +78,8 @@ Response read_response(const std::filesystem::path& file) {
             code != static_cast<double>(z))
             fail("line " + std::to_string(z + 2) + ": expected " + std::to_string(z) + " and three numbers");
         for (size_t c = 0; c < 3; ++c) {
-            if (std::abs(g[c]) > 50) fail("line " + std::to_string(z + 2) + ": no exposure is that far from the middle");
+            if (std::abs(g[c]) > 50)
+                fail("line " + std::to_string(z + 2) + ": no exposure is that far from the middle");
             response.ln_exposure[c][z] = g[c];
         }
     }

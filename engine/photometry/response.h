@@ -42,9 +42,9 @@ struct RecoveredResponse {
 };
 
 /// Recovers the response from at least two pictures of equal size and different exposure: minimizes (eq. 3)
-/// sum w(Z)^2 (g(Z) - ln E - ln t)^2 + lambda^2 sum w(z)^2 g''(z)^2 over g and the irradiances E of pixels spread over the
-/// picture and over all codes. Without random numbers. `smoothness` is lambda, where each code has data of weight one.
-/// Throws Error if the pictures do not determine it.
+/// sum w(Z)^2 (g(Z) - ln E - ln t)^2 + lambda^2 sum w(z)^2 g''(z)^2 over g and the irradiances E of pixels spread over
+/// the picture and over all codes. Without random numbers. `smoothness` is lambda, where each code has data of weight
+/// one. Throws Error if the pictures do not determine it.
 RecoveredResponse recover_response(std::span<const Exposure>, double smoothness = 20);
 
 /// How many codes from 1 to 254 stand for less light than the code below.

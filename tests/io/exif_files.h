@@ -12,10 +12,12 @@
 namespace vesper::test {
 
 /// The payload of an APP1 marker: a TIFF structure of ExposureTime, FNumber and ISOSpeedRatings (Exif 2.32, 4.6).
-inline std::vector<uint8_t> exif_of(uint32_t seconds_over, uint32_t seconds_under, uint32_t f_over, uint32_t f_under, uint16_t iso, bool big_endian = false) {
+inline std::vector<uint8_t> exif_of(uint32_t seconds_over, uint32_t seconds_under, uint32_t f_over, uint32_t f_under,
+                                    uint16_t iso, bool big_endian = false) {
     std::vector<uint8_t> bytes;
     const auto put = [&](uint32_t value, int size) {
-        for (int i = 0; i < size; ++i) bytes.push_back(static_cast<uint8_t>(value >> 8 * (big_endian ? size - 1 - i : i)));
+        for (int i = 0; i < size; ++i)
+            bytes.push_back(static_cast<uint8_t>(value >> 8 * (big_endian ? size - 1 - i : i)));
     };
     const auto entry = [&](uint32_t tag, uint32_t type, uint32_t value, int size) {
         put(tag, 2), put(type, 2), put(1, 4), put(value, size), put(0, 4 - size);
@@ -23,14 +25,15 @@ inline std::vector<uint8_t> exif_of(uint32_t seconds_over, uint32_t seconds_unde
     put(big_endian ? 0x4d4d : 0x4949, 2), put(42, 2), put(8, 4);
     put(1, 2), entry(0x8769, 4, 26, 4), put(0, 4);  // IFD0 at 8: where the Exif IFD is
     put(3, 2), entry(0x829a, 5, 68, 4), entry(0x829d, 5, 76, 4), entry(0x8827, 3, iso, 2), put(0, 4);  // at 26
-    put(seconds_over, 4), put(seconds_under, 4), put(f_over, 4), put(f_under, 4);  // at 68 and 76
+    put(seconds_over, 4), put(seconds_under, 4), put(f_over, 4), put(f_under, 4);                      // at 68 and 76
     const std::string start("Exif\0\0", 6);
     bytes.insert(bytes.begin(), start.begin(), start.end());
     return bytes;
 }
 
 /// RGBA codes as a JPEG of best quality, with an APP1 marker if there is a payload for one.
-inline std::vector<uint8_t> jpeg_with(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba, const std::vector<uint8_t>& app1 = {}) {
+inline std::vector<uint8_t> jpeg_with(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba,
+                                      const std::vector<uint8_t>& app1 = {}) {
     jpeg_error_mgr errors;
     jpeg_compress_struct jpeg{};
     jpeg.err = jpeg_std_error(&errors);

@@ -21,7 +21,8 @@ TEST(Response, IsRecoveredWithinFivePercent) {
     for (const auto& c : cases) {
         const RecoveredResponse recovered = recover_response(bracket(scene, c.camera, 0.005, c.ratio, c.count));
         for (size_t channel = 0; channel < 3; ++channel) {
-            EXPECT_LT(response_error(recovered.response, c.camera, channel, 16, 239), 0.05) << c.name << ", channel " << channel;
+            EXPECT_LT(response_error(recovered.response, c.camera, channel, 16, 239), 0.05)
+                << c.name << ", channel " << channel;
             EXPECT_EQ(recovered.response.ln_exposure[channel][128], 0.0);
             EXPECT_EQ(recovered.falls[channel], 0) << c.name;
             EXPECT_GT(recovered.pixels[channel], 1000u) << c.name;

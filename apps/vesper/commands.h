@@ -12,5 +12,6 @@ constexpr int kBadInput = 2;  ///< exit code for a file, device or argument that
 void add_render(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_road(CLI::App& program);
+void add_merge(CLI::App& program);
 
 }  // namespace vesper

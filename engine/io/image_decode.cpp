@@ -192,7 +192,7 @@ std::string media_type(std::span<const uint8_t> bytes) {
     if (starts(0, "GIF8"sv)) return "image/gif";
     if (starts(0, "BM"sv)) return "image/bmp";
     if (starts(0, "II*\0"sv) || starts(0, "MM\0*"sv)) return "image/tiff";
-    if (starts(0, "#?RADIANCE"sv)) return "image/vnd.radiance";
+    if (starts(0, "#?RADIANCE"sv) || starts(0, "#?RGBE"sv)) return "image/vnd.radiance";
     if (starts(0, "\x76\x2f\x31\x01"sv)) return "image/x-exr";
     return "";
 }

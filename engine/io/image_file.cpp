@@ -16,12 +16,13 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/hdr_parts.h"
 
 namespace vesper {
 namespace {
 
-void check_size(const std::filesystem::path& file, uint32_t width, uint32_t height, size_t values) {
-    if (width == 0 || height == 0 || static_cast<uint64_t>(width) * height * 4 != values)
+void check_size(const std::filesystem::path& file, uint32_t width, uint32_t height, size_t channels, size_t values) {
+    if (width == 0 || height == 0 || static_cast<uint64_t>(width) * height * channels != values)
         throw Error(one_line(file.string()) + ": a picture of " + std::to_string(width) + " x " +
                     std::to_string(height) + " px does not have " + std::to_string(values) + " values");
 }
@@ -93,38 +94,52 @@ private:
 }  // namespace
 
 void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba) {
-    check_size(file, width, height, rgba.size());
+    check_size(file, width, height, 4, rgba.size());
     PngJob job;
     job.row.resize(static_cast<size_t>(width) * 3);
     if (!encode_png(job, width, height, rgba.data())) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
     replace_file(file, job.file);
 }
 
-void write_exr(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const float> rgba,
-               const Header& header) {
-    check_size(file, width, height, rgba.size());
+namespace hdr {
+
+void encode_exr(const std::filesystem::path& file, const ExrPixels& picture, const Header& header) {
     MemoryStream stream(file.string());
     try {
-        Imf::Header exr(static_cast<int>(width), static_cast<int>(height));
+        Imf::Header exr(static_cast<int>(picture.width), static_cast<int>(picture.height));
         exr.compression() = Imf::ZIP_COMPRESSION;
         Imf::addChromaticities(exr, Imf::Chromaticities());  // Rec. 709
-        Imf::addWhiteLuminance(exr, 1.0f);
+        if (picture.white_luminance > 0) Imf::addWhiteLuminance(exr, static_cast<float>(picture.white_luminance));
         for (const auto& [name, text] : header) exr.insert(name, Imf::StringAttribute(text));
         Imf::FrameBuffer pixels;
         const char* names[] = {"R", "G", "B"};
         for (size_t c = 0; c < 3; ++c) {
             exr.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
             // The slice is only read from, but OpenEXR has one type for both directions.
-            char* base = reinterpret_cast<char*>(const_cast<float*>(rgba.data() + c));
-            pixels.insert(names[c], Imf::Slice(Imf::FLOAT, base, 4 * sizeof(float), 4 * sizeof(float) * width));
+            char* base = reinterpret_cast<char*>(const_cast<float*>(picture.values + c));
+            const size_t step = picture.stride * sizeof(float);
+            pixels.insert(names[c], Imf::Slice(Imf::FLOAT, base, step, step * picture.width));
         }
         Imf::OutputFile out(stream, exr);
         out.setFrameBuffer(pixels);
-        out.writePixels(static_cast<int>(height));
+        out.writePixels(static_cast<int>(picture.height));
     } catch (const std::exception& error) {
         throw Error(one_line(file.string() + ": OpenEXR: " + error.what()));
     }
     replace_file(file, stream.bytes());
+}
+
+}  // namespace hdr
+
+void write_exr(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const float> rgba,
+               const Header& header) {
+    check_size(file, width, height, 4, rgba.size());
+    hdr::encode_exr(file, {width, height, rgba.data(), 4, 1.0}, header);
+}
+
+void write_exr(const std::filesystem::path& file, const HdrImage& image) {
+    check_size(file, image.width, image.height, 3, image.rgb.size());
+    hdr::encode_exr(file, {image.width, image.height, image.rgb.data(), 3, image.white_luminance}, image.header);
 }
 
 }  // namespace vesper

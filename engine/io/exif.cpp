@@ -1,0 +1,43 @@
+// Exif through libexif. SPDX-License-Identifier: MIT
+#include "io/exif.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <libexif/exif-data.h>
+
+#include "io/image_file.h"
+
+namespace vesper {
+namespace {
+
+std::optional<double> number(ExifData& data, ExifTag tag) {
+    const ExifEntry* entry = exif_content_get_entry(data.ifd[EXIF_IFD_EXIF], tag);
+    if (!entry || !entry->data || entry->components < 1) return std::nullopt;
+    const ExifByteOrder order = exif_data_get_byte_order(&data);
+    double value = 0;
+    if (entry->format == EXIF_FORMAT_RATIONAL && entry->size >= 8) {
+        const ExifRational ratio = exif_get_rational(entry->data, order);
+        value = static_cast<double>(ratio.numerator) / static_cast<double>(ratio.denominator);
+    } else if (entry->format == EXIF_FORMAT_SHORT && entry->size >= 2) {
+        value = exif_get_short(entry->data, order);
+    } else if (entry->format == EXIF_FORMAT_LONG && entry->size >= 4) {
+        value = static_cast<double>(exif_get_long(entry->data, order));
+    }
+    if (!(value > 0) || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+CameraExposure read_exif(std::span<const uint8_t> bytes) {
+    if (media_type(bytes) != "image/jpeg" || bytes.size() > std::numeric_limits<unsigned>::max()) return {};
+    const std::unique_ptr<ExifData, void (*)(ExifData*)> data(
+        exif_data_new_from_data(bytes.data(), static_cast<unsigned>(bytes.size())), exif_data_unref);
+    if (!data) return {};
+    return {number(*data, EXIF_TAG_EXPOSURE_TIME), number(*data, EXIF_TAG_FNUMBER),
+            number(*data, EXIF_TAG_ISO_SPEED_RATINGS)};
+}
+
+}  // namespace vesper

@@ -1,0 +1,90 @@
+// HDR pictures: which reader, sizes, primaries. SPDX-License-Identifier: MIT
+#include "io/hdr_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "io/hdr_parts.h"
+
+namespace vesper {
+namespace hdr {
+namespace {
+
+/// Columns are X, Y, Z of the primaries. Nothing is divided by a primary's y, which is 0 for X and Z.
+glm::dmat3 to_xyz(const Primaries& p) {
+    const auto xyz = [](glm::dvec2 c) { return glm::dvec3(c, 1 - c.x - c.y); };
+    const glm::dmat3 directions(xyz(p.red), xyz(p.green), xyz(p.blue));
+    const double volume = glm::determinant(directions);
+    const glm::dvec3 amounts = glm::inverse(directions) * (xyz(p.white) / p.white.y);
+    const bool sound = std::abs(volume) > 1e-6 && p.white.y > 1e-6 &&
+                       std::isfinite(amounts.x + amounts.y + amounts.z) && amounts.x != 0 && amounts.y != 0 &&
+                       amounts.z != 0;
+    if (!sound) throw Error("its primaries are no base of colours");
+    return {directions[0] * amounts.x, directions[1] * amounts.y, directions[2] * amounts.z};
+}
+
+}  // namespace
+
+glm::dmat3 to_rec709(const Primaries& primaries) { return glm::inverse(to_xyz(kRec709)) * to_xyz(primaries); }
+
+void transform(HdrImage& image, const glm::dmat3& matrix) {
+    double off = 0;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) off = std::max(off, std::abs(matrix[c][r] - (c == r)));
+    if (off < 1e-5) return;  // attributes are 32-bit floats
+    for (size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
+        float* p = image.rgb.data() + i;
+        const glm::dvec3 colour = matrix * glm::dvec3(p[0], p[1], p[2]);
+        for (int c = 0; c < 3; ++c) p[c] = static_cast<float>(colour[c]);
+    }
+}
+
+void check_size(const char* what, int64_t width, int64_t height, const HdrLimits& limits) {
+    const char* why = nullptr;
+    if (width < 1 || height < 1)
+        why = " has no pixels";
+    else if (width > limits.max_side || height > limits.max_side)
+        why = " is larger than the limit for one side";
+    else if (static_cast<uint64_t>(width) * static_cast<uint64_t>(height) > limits.max_pixels)
+        why = " has more pixels than the limit";
+    if (why) throw Error(what + (" of " + std::to_string(width)) + " x " + std::to_string(height) + " px" + why);
+}
+
+}  // namespace hdr
+
+namespace {
+
+enum class Kind { Any, Exr, Radiance };
+
+HdrImage read(const std::filesystem::path& file, Kind wanted, const HdrLimits& limits) {
+    const std::vector<uint8_t> bytes = read_file(file, hdr::kMaxFileBytes);
+    const std::string type = media_type(bytes);
+    try {
+        if (type == "image/x-exr" && wanted != Kind::Radiance) return hdr::decode_exr(bytes, file.string(), limits);
+        if (type == "image/vnd.radiance" && wanted != Kind::Exr) return hdr::decode_radiance(bytes, limits);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error(one_line(file.string()) + ": " + one_line(error.what()));
+    }
+    const char* expected = wanted == Kind::Any   ? "OpenEXR nor Radiance (.hdr)"
+                           : wanted == Kind::Exr ? "OpenEXR"
+                                                 : "Radiance (.hdr)";
+    const char* is = wanted == Kind::Any ? "is neither " : "is not ";
+    throw Error(one_line(file.string()) + ": " + is + expected + (type.empty() ? "" : ", but " + type));
+}
+
+}  // namespace
+
+HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& limits) { return read(file, Kind::Exr, limits); }
+HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& limits) {
+    return read(file, Kind::Radiance, limits);
+}
+HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& limits) {
+    return read(file, Kind::Any, limits);
+}
+
+}  // namespace vesper

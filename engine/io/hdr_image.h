@@ -1,0 +1,46 @@
+// Pictures of high dynamic range: OpenEXR and Radiance in, OpenEXR out. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "io/image_file.h"
+
+namespace vesper {
+
+/// A picture in linear Rec. 709 colour. Values are those of the file: it may hold NaN, infinities and negative numbers
+/// (colours outside the gamut, ringing of a filter); who computes with them has to clean them.
+struct HdrImage {
+    uint32_t width = 0, height = 0;
+    std::vector<float> rgb;  ///< rows from the top, 3 values per pixel
+    double white_luminance =
+        0;          ///< cd/m^2 of (1, 1, 1) if the file says (OpenEXR's whiteLuminance; ours say 1); else 0
+    Header header;  ///< texts and numbers of the file's header, in its order
+};
+
+/// What a picture may cost.
+struct HdrLimits {
+    uint32_t max_side = 32768;
+    uint64_t max_pixels = uint64_t{1} << 28;  ///< of 12 bytes each
+};
+
+/// Reads an OpenEXR picture of any compression, in scan lines or tiles (the largest level), of half, float or integer
+/// values; channels R, G, B (missing ones are 0), or Y (grey), or Y, RY, BY (in half precision). Of several parts or
+/// views the first is read; deep pictures are refused. The result covers the display window and is 0 outside of the
+/// data window. Other primaries (attribute chromaticities) become Rec. 709 of the same tristimulus values: no
+/// adaptation to white. Alpha is ignored. Throws Error with file and reason.
+HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& = {});
+
+/// Reads a Radiance picture (RGBE or XYZE, run-length coded or not, rows from the top: -Y +X). EXPOSURE is divided out,
+/// so that pictures of one series agree; PRIMARIES become Rec. 709. A mantissa m stands for m + 1/2, as in Radiance.
+HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& = {});
+
+/// Reads either kind, told apart by content.
+HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& = {});
+
+/// Writes 32-bit RGB OpenEXR with the image's header texts, and whiteLuminance if it is known. The file is replaced
+/// only when complete. Throws Error.
+void write_exr(const std::filesystem::path& file, const HdrImage&);
+
+}  // namespace vesper

@@ -1,0 +1,176 @@
+// Radiance pictures, in. Format: G. Ward, "Real Pixels", Graphics Gems II (1991), and the Radiance manual's "File
+// Formats". stb_image was looked at: it gives black where a file ends early, and knows neither EXPOSURE, PRIMARIES,
+// XYZE nor the older run lengths. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+
+#include "base/error.h"
+#include "io/hdr_parts.h"
+
+namespace vesper::hdr {
+namespace {
+
+using Rgbe = std::array<uint8_t, 4>;
+
+class Bytes {
+public:
+    explicit Bytes(std::span<const uint8_t> bytes) : rest_(bytes) {}
+    uint8_t next() {
+        if (rest_.empty()) throw Error("Radiance: is cut off");
+        const uint8_t byte = rest_.front();
+        rest_ = rest_.subspan(1);
+        return byte;
+    }
+    uint8_t peek(size_t ahead) const { return ahead < rest_.size() ? rest_[ahead] : 0; }
+    std::string line() {
+        std::string text;
+        for (uint8_t byte = next(); byte != '\n'; byte = next()) {
+            if (text.size() >= 4096) throw Error("Radiance: a line of the header has no end");
+            text += static_cast<char>(byte);
+        }
+        if (!text.empty() && text.back() == '\r') text.pop_back();
+        return text;
+    }
+    size_t left() const { return rest_.size(); }
+
+private:
+    std::span<const uint8_t> rest_;
+};
+
+/// Exactly `count` finite numbers.
+std::optional<std::vector<double>> numbers(const std::string& text, size_t count) {
+    std::vector<double> values;
+    const char* at = text.c_str();
+    for (char* end = nullptr; values.size() <= count; at = end) {
+        const double value = std::strtod(at, &end);
+        if (end == at) break;
+        if (!std::isfinite(value)) return std::nullopt;
+        values.push_back(value);
+    }
+    if (values.size() != count || std::string_view(at).find_first_not_of(" \t") != std::string_view::npos)
+        return std::nullopt;
+    return values;
+}
+
+struct Description {
+    Header header;
+    double exposure = 1;
+    Primaries primaries = kRec709;
+    bool xyz = false;
+    int64_t width = 0, height = 0;
+};
+
+void read_variable(Description& made, const std::string& name, const std::string& value) {
+    if (name == "FORMAT") {
+        made.xyz = value == "32-bit_rle_xyze";
+        if (!made.xyz && value != "32-bit_rle_rgbe") throw Error("Radiance: FORMAT=" + value + " is not known");
+    } else if (name == "EXPOSURE") {  // cumulative: each program that scaled the picture added a line
+        const auto factor = numbers(value, 1);
+        if (!factor || !(factor->front() > 0)) throw Error("Radiance: EXPOSURE=" + value + " is not a positive number");
+        made.exposure *= factor->front();
+    } else if (name == "COLORCORR") {
+        throw Error("Radiance: COLORCORR is not supported");
+    } else if (name == "PRIMARIES") {
+        const auto p = numbers(value, 8);
+        if (!p) throw Error("Radiance: PRIMARIES=" + value + " are not eight numbers");
+        // Some programs write eight zeros for "I do not know".
+        if (std::any_of(p->begin(), p->end(), [](double v) { return v != 0; }))
+            made.primaries = {{(*p)[0], (*p)[1]}, {(*p)[2], (*p)[3]}, {(*p)[4], (*p)[5]}, {(*p)[6], (*p)[7]}};
+    }
+}
+
+Description read_description(Bytes& bytes) {
+    Description made;
+    bytes.line();  // #?RADIANCE
+    for (std::string line = bytes.line(); !line.empty(); line = bytes.line()) {
+        const size_t equals = line.find('=');
+        // Commands that made the picture are indented, comments start with #.
+        if (equals == std::string::npos || equals == 0 || line[0] == ' ' || line[0] == '\t' || line[0] == '#') continue;
+        if (made.header.size() >= 1000) throw Error("Radiance: more than 1000 lines of header");
+        made.header.emplace_back(line.substr(0, equals), line.substr(equals + 1));
+        read_variable(made, made.header.back().first, made.header.back().second);
+    }
+    const std::string size = bytes.line();
+    int height = 0, width = 0, end = 0;
+    if (std::sscanf(size.c_str(), "-Y %9d +X %9d%n", &height, &width, &end) != 2 ||
+        size.find_first_not_of(' ', static_cast<size_t>(end)) != std::string::npos)
+        throw Error("Radiance: '" + size +
+                    "' where -Y HEIGHT +X WIDTH is expected (other orders of pixels are not read)");
+    made.width = width;
+    made.height = height;
+    return made;
+}
+
+/// One row in the newer coding: the four components one after the other, each in runs.
+void read_runs(Bytes& bytes, std::vector<Rgbe>& row) {
+    for (size_t c = 0; c < 4; ++c) {
+        for (size_t x = 0; x < row.size();) {
+            const size_t code = bytes.next(), count = code > 128 ? code - 128 : code;
+            if (count == 0 || count > row.size() - x) throw Error("Radiance: a run does not fit its row");
+            const uint8_t same = code > 128 ? bytes.next() : 0;
+            for (size_t i = 0; i < count; ++i) row[x++][c] = code > 128 ? same : bytes.next();
+        }
+    }
+}
+
+/// One row of plain pixels; (1, 1, 1, n) repeats the pixel before it n times, a second one in a row 256 n times.
+void read_plain(Bytes& bytes, std::vector<Rgbe>& row) {
+    unsigned shift = 0;
+    for (size_t x = 0; x < row.size();) {
+        Rgbe pixel;
+        for (uint8_t& byte : pixel) byte = bytes.next();
+        if (pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1) {
+            const size_t count = shift < 24 ? size_t{pixel[3]} << shift : row.size() + 1;
+            if (x == 0 || count > row.size() - x) throw Error("Radiance: a run does not fit its row");
+            std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(x), count, row[x - 1]);
+            x += count;
+            shift += 8;
+        } else {
+            row[x++] = pixel;
+            shift = 0;
+        }
+    }
+}
+
+}  // namespace
+
+HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits) {
+    Bytes bytes(file);
+    Description made = read_description(bytes);
+    check_size("Radiance: picture", made.width, made.height, limits);
+    const glm::dmat3 matrix = to_rec709(made.xyz ? kXyz : made.primaries);
+    const auto width = static_cast<size_t>(made.width), height = static_cast<size_t>(made.height);
+    if (bytes.left() / 4 < height) throw Error("Radiance: is cut off");  // a row takes four bytes at the very least
+    HdrImage image{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+    image.rgb.resize(width * height * 3);
+    std::vector<Rgbe> row(width);
+    float* out = image.rgb.data();
+    for (size_t y = 0; y < height; ++y) {
+        const bool runs =
+            width >= 8 && width < 32768 && bytes.peek(0) == 2 && bytes.peek(1) == 2 && bytes.peek(2) < 128;
+        if (runs) {
+            const size_t marked = size_t{bytes.peek(2)} << 8 | bytes.peek(3);
+            if (marked != width)
+                throw Error("Radiance: a row of " + std::to_string(marked) + " px in a picture of " +
+                            std::to_string(width));
+            for (int i = 0; i < 4; ++i) bytes.next();
+            read_runs(bytes, row);
+        } else {
+            read_plain(bytes, row);
+        }
+        for (const Rgbe& pixel : row) {
+            const double unit = pixel[3] ? std::ldexp(1.0, pixel[3] - 136) / made.exposure : 0;
+            for (size_t c = 0; c < 3; ++c) *out++ = static_cast<float>((pixel[c] + 0.5) * unit);
+        }
+    }
+    transform(image, matrix);
+    image.header = std::move(made.header);
+    return image;
+}
+
+}  // namespace vesper::hdr

@@ -1,0 +1,53 @@
+// One picture of high dynamic range out of several exposures. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/exif.h"
+#include "io/hdr_image.h"
+#include "photometry/response.h"
+
+namespace vesper {
+
+constexpr size_t kMaxExposures = 32;
+/// Codes that hold a pixel well; the others are left out where there is one of these.
+constexpr int kLowestGoodCode = 8, kHighestGoodCode = 247;
+
+/// time * ISO speed / f-number^2 of each picture, by name. Throws Error if one has no time, or if only some say
+/// f-number or ISO speed; what none says counts as equal.
+std::vector<double> relative_exposures(std::span<const std::pair<std::string, CameraExposure>>);
+
+struct MergedImage {
+    HdrImage image;             ///< relative, white_luminance 0; camera RGB taken for Rec. 709
+    std::vector<uint8_t> held;  ///< per pixel: 1 if each channel has a good code in some picture
+    uint64_t too_dark = 0;      ///< pixels of which a channel is below the good codes in every picture that shows it,
+    uint64_t too_bright = 0;    ///< above them,
+    uint64_t between = 0;       ///< or both: it falls between two exposures
+    double darkest = 0, brightest = 0;  ///< luminance of the other pixels, in the picture's unit
+};
+
+/// ln E = sum w(Z) (g(Z) - ln t) / sum w(Z) over the good codes, per channel (eq. 6). What no picture holds well gets
+/// the value of the picture that comes closest: among black ones the longest exposure, among white ones the shortest.
+/// Throws Error unless there are 1 to kMaxExposures pictures of equal size with exposures > 0.
+MergedImage merge_exposures(std::span<const Exposure>, const Response&);
+
+/// Sets the shifts, relative to the picture of middle exposure, from median threshold bitmaps of neighbours in exposure
+/// (G. Ward, "Fast, Robust Image Registration for Compositing High Dynamic Range Photographs from Handheld Exposures",
+/// Journal of Graphics Tools 8(2), 2003). Whole pixels; at least 2^(levels + 1) each way between neighbours
+/// where a picture is that large.
+void estimate_shifts(std::span<Exposure>, int levels = 6);
+
+struct Region {
+    int64_t x = 0, y = 0, width = 1, height = 1;  ///< px
+};
+
+/// Multiplies the picture so that the mean luminance of a region is `cd_m2`; returns the factor. From then on the
+/// picture is in cd/m^2. Throws Error if the region is not inside or has a pixel that no exposure holds well.
+double scale_to_luminance(MergedImage&, const Region&, double cd_m2);
+/// The same with a known factor.
+void scale(MergedImage&, double factor);
+
+}  // namespace vesper

@@ -1,0 +1,67 @@
+// JPEG files with Exif data, byte by byte. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <jpeglib.h>
+
+namespace vesper::test {
+
+/// The payload of an APP1 marker: a TIFF structure of ExposureTime, FNumber and ISOSpeedRatings (Exif 2.32, 4.6).
+inline std::vector<uint8_t> exif_of(uint32_t seconds_over, uint32_t seconds_under, uint32_t f_over, uint32_t f_under,
+                                    uint16_t iso, bool big_endian = false) {
+    std::vector<uint8_t> bytes;
+    const auto put = [&](uint32_t value, int size) {
+        for (int i = 0; i < size; ++i)
+            bytes.push_back(static_cast<uint8_t>(value >> 8 * (big_endian ? size - 1 - i : i)));
+    };
+    const auto entry = [&](uint32_t tag, uint32_t type, uint32_t value, int size) {
+        put(tag, 2), put(type, 2), put(1, 4), put(value, size), put(0, 4 - size);
+    };
+    put(big_endian ? 0x4d4d : 0x4949, 2), put(42, 2), put(8, 4);
+    put(1, 2), entry(0x8769, 4, 26, 4), put(0, 4);  // IFD0 at 8: where the Exif IFD is
+    put(3, 2), entry(0x829a, 5, 68, 4), entry(0x829d, 5, 76, 4), entry(0x8827, 3, iso, 2), put(0, 4);  // at 26
+    put(seconds_over, 4), put(seconds_under, 4), put(f_over, 4), put(f_under, 4);                      // at 68 and 76
+    const std::string start("Exif\0\0", 6);
+    bytes.insert(bytes.begin(), start.begin(), start.end());
+    return bytes;
+}
+
+/// RGBA codes as a JPEG of best quality, with an APP1 marker if there is a payload for one.
+inline std::vector<uint8_t> jpeg_with(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba,
+                                      const std::vector<uint8_t>& app1 = {}) {
+    jpeg_error_mgr errors;
+    jpeg_compress_struct jpeg{};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    unsigned char* memory = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&jpeg, &memory, &size);
+    jpeg.image_width = width;
+    jpeg.image_height = height;
+    jpeg.input_components = 3;
+    jpeg.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_quality(&jpeg, 100, TRUE);
+    jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = 1;
+    jpeg_start_compress(&jpeg, TRUE);
+    if (!app1.empty()) jpeg_write_marker(&jpeg, JPEG_APP0 + 1, app1.data(), static_cast<unsigned>(app1.size()));
+    std::vector<uint8_t> row(size_t{3} * width);
+    while (jpeg.next_scanline < height) {
+        for (size_t x = 0; x < width; ++x)
+            for (size_t c = 0; c < 3; ++c) row[3 * x + c] = rgba[4 * (size_t{jpeg.next_scanline} * width + x) + c];
+        JSAMPROW pointer = row.data();
+        jpeg_write_scanlines(&jpeg, &pointer, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    jpeg_destroy_compress(&jpeg);
+    std::vector<uint8_t> file(memory, memory + size);
+    free(memory);
+    return file;
+}
+
+}  // namespace vesper::test

@@ -1,0 +1,208 @@
+// Photographs of known scenes merged, against the scenes. SPDX-License-Identifier: MIT
+#include "photometry/merge.h"
+
+#include <filesystem>
+
+#include "photometry/brackets.h"
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+TEST(Merge, RecoversRadianceWithinFivePercent) {
+    const HdrImage scene = night(320, 240);
+    struct {
+        const char* name;
+        KnownCamera camera;
+        double ratio;
+        int count;
+    } cases[] = {{"gamma", gamma_camera(), 4, 8},
+                 {"sRGB", srgb_camera(), 4, 8},
+                 {"film", film_camera(), 4, 8},
+                 {"film, one stop", film_camera(), 2, 16}};
+    for (const auto& c : cases) {
+        const auto exposures = bracket(scene, c.camera, 0.005, c.ratio, c.count);
+        const MergedImage merged = merge_exposures(exposures, recover_response(exposures).response);
+        const RadianceError error = radiance_error(merged, scene, c.camera, exposures);
+        EXPECT_GT(error.values, scene.rgb.size() * 95 / 100) << c.name;
+        EXPECT_LT(error.worst, 0.05) << c.name;
+        EXPECT_LT(error.median, 0.01) << c.name;
+        EXPECT_GT(std::log10(merged.brightest / merged.darkest), 4.5) << c.name;
+    }
+    // Noise of one code is more than 5 % of a dark pixel, but not of most.
+    const auto noisy = bracket(scene, film_camera(1), 0.005, 2, 16);
+    const RadianceError error =
+        radiance_error(merge_exposures(noisy, recover_response(noisy).response), scene, film_camera(), noisy);
+    EXPECT_LT(error.p95, 0.05);
+    EXPECT_LT(error.median, 0.01);
+}
+
+TEST(Merge, RecoversASharedPicture) {
+    const std::filesystem::path file =
+        std::filesystem::path(VESPER_SHARED_DATA) / "hdr/polyhaven/dikhololo_night_1k.hdr";
+    std::error_code missing;
+    if (!std::filesystem::exists(file, missing)) GTEST_SKIP() << "the shared set is not here";
+    const HdrImage scene = read_hdr_image(file);
+    for (const KnownCamera& camera : {gamma_camera(), film_camera()}) {
+        const auto exposures = bracket(scene, camera, 0.01, 4, 10);
+        const RecoveredResponse recovered = recover_response(exposures);
+        for (size_t c = 0; c < 3; ++c) EXPECT_LT(response_error(recovered.response, camera, c, 16, 239), 0.05);
+        const RadianceError error =
+            radiance_error(merge_exposures(exposures, recovered.response), scene, camera, exposures);
+        EXPECT_GT(error.values, scene.rgb.size() * 9 / 10);
+        EXPECT_LT(error.worst, 0.05);
+    }
+}
+
+TEST(Merge, WithAKnownResponseIsEquationSix) {
+    // One pixel, three pictures, a linear sensor: ln E = sum w ln(Z / 128 / t) / sum w.
+    std::vector<Exposure> exposures(3);
+    const uint8_t codes[] = {20, 90, 250};
+    const double t[] = {0.25, 1, 4};
+    for (size_t i = 0; i < 3; ++i) exposures[i] = {Image{"", 1, 1, {codes[i], codes[i], codes[i], 255}}, t[i], {}};
+    const MergedImage merged = merge_exposures(exposures, gamma_response(1));
+    const double wanted = (20 * std::log(20 / 128.0 / 0.25) + 90 * std::log(90 / 128.0)) / 110;  // 250 is no good code
+    EXPECT_NEAR(merged.image.rgb[1], std::exp(wanted), 1e-6);
+    EXPECT_EQ(merged.held[0], 1);
+    EXPECT_EQ(merged.image.white_luminance, 0.0);
+}
+
+TEST(Merge, CountsWhatNoPictureHolds) {
+    // Columns: good; black in all; white in all; black, then white; barely held by code 8.
+    const auto picture = [](std::initializer_list<uint8_t> codes, double exposure) {
+        Exposure made;
+        made.exposure = exposure;
+        made.image.width = static_cast<uint32_t>(codes.size());
+        made.image.height = 1;
+        for (const uint8_t code : codes) made.image.rgba.insert(made.image.rgba.end(), {code, 100, 100, 255});
+        return made;
+    };
+    const std::vector<Exposure> exposures = {picture({50, 0, 255, 3, 7}, 1), picture({200, 0, 255, 255, 8}, 4)};
+    const MergedImage merged = merge_exposures(exposures, gamma_response(1));
+    EXPECT_EQ(merged.too_dark, 1u);
+    EXPECT_EQ(merged.too_bright, 1u);
+    EXPECT_EQ(merged.between, 1u);
+    EXPECT_EQ(merged.held, (std::vector<uint8_t>{1, 0, 0, 0, 1}));
+    const auto red = [&](size_t x) { return merged.image.rgb[3 * x]; };
+    EXPECT_NEAR(red(1), 0.5 / 128 / 4, 1e-7);  // the longest exposure
+    EXPECT_NEAR(red(2), 255.0 / 128, 1e-6);    // the shortest
+    EXPECT_NEAR(red(3), 3.0 / 128, 1e-6);      // the code nearest to the middle
+    EXPECT_NEAR(red(4), 8.0 / 128 / 4, 1e-7);
+}
+
+TEST(Merge, ScalesToAKnownLuminance) {
+    const HdrImage scene = night(64, 48);
+    const auto exposures = bracket(scene, srgb_camera(), 0.005, 4, 8);
+    MergedImage merged = merge_exposures(exposures, srgb_response());
+    const auto luminance_at = [&](const HdrImage& image, size_t x, size_t y) {
+        const float* p = image.rgb.data() + 3 * (y * image.width + x);
+        return 0.2126 * static_cast<double>(p[0]) + 0.7152 * static_cast<double>(p[1]) +
+               0.0722 * static_cast<double>(p[2]);
+    };
+    double mean = 0;
+    for (size_t y = 20; y < 24; ++y)
+        for (size_t x = 30; x < 35; ++x) mean += luminance_at(scene, x, y) / 20;
+    const double range = merged.brightest / merged.darkest;
+    scale_to_luminance(merged, {30, 20, 5, 4}, mean);
+    EXPECT_EQ(merged.image.white_luminance, 1.0);
+    EXPECT_NEAR(merged.brightest / merged.darkest, range, 1e-9 * range);
+    for (size_t x = 5; x < 60; x += 9)
+        EXPECT_NEAR(luminance_at(merged.image, x, 11) / luminance_at(scene, x, 11), 1, 0.05);
+    EXPECT_THROW(scale_to_luminance(merged, {60, 20, 5, 4}, 1), Error);
+    EXPECT_THROW(scale_to_luminance(merged, {-1, 20, 5, 4}, 1), Error);
+    EXPECT_THROW(scale_to_luminance(merged, {0, 0, INT64_MAX, 1}, 1), Error);
+    merged.held[20 * 64 + 31] = 0;
+    EXPECT_THROW(scale_to_luminance(merged, {30, 20, 5, 4}, 1), Error);
+    EXPECT_THROW(scale(merged, 0), Error);
+
+    const TempFolder folder;
+    write_exr(folder / "x.exr", merged.image);
+    const HdrImage read = read_exr(folder / "x.exr");
+    EXPECT_EQ(read.rgb, merged.image.rgb);
+    EXPECT_EQ(read.white_luminance, 1.0);
+    write_exr(folder / "x.exr", merge_exposures(exposures, srgb_response()).image);
+    EXPECT_EQ(read_exr(folder / "x.exr").white_luminance, 0.0);
+}
+
+TEST(Merge, RefusesPicturesThatDoNotFit) {
+    const HdrImage scene = night(16, 12);
+    const std::vector<Exposure> good = bracket(scene, gamma_camera(), 0.1, 4, 2);
+    std::vector<Exposure> bad = good;
+    bad[1].image.width = 12, bad[1].image.height = 16;
+    EXPECT_THROW(merge_exposures(bad, gamma_response(1)), Error);
+    bad = good;
+    bad[1].exposure = 0;
+    EXPECT_THROW(merge_exposures(bad, gamma_response(1)), Error);
+    EXPECT_THROW(merge_exposures({}, gamma_response(1)), Error);
+    EXPECT_THROW(merge_exposures(std::vector<Exposure>(33, good[0]), gamma_response(1)), Error);
+    EXPECT_NO_THROW(merge_exposures(std::vector<Exposure>(32, good[0]), gamma_response(1)));
+}
+
+TEST(Align, FindsKnownShifts) {
+    constexpr int kMargin = 40;
+    const HdrImage scene = night(400, 320);
+    const std::vector<glm::ivec2> shifts = {{3, -2}, {0, 0}, {-7, 5}, {1, 1}, {12, -9}, {0, 4}, {-20, 17}, {2, 2}};
+    Noise random;
+    std::vector<Exposure> exposures;
+    for (size_t i = 0; i < shifts.size(); ++i)
+        exposures.push_back(photograph(scene, gamma_camera(), 0.02 * std::pow(4, i), random, shifts[i], kMargin));
+    std::swap(exposures[1], exposures[6]);  // the order of files is not that of exposures
+    estimate_shifts(exposures);
+    std::swap(exposures[1], exposures[6]);
+    const glm::ivec2 reference = shifts[4];  // the middle exposure
+    for (size_t i = 0; i < shifts.size(); ++i) EXPECT_EQ(exposures[i].shift, shifts[i] - reference) << i;
+
+    // Aligned pictures merge as if they had never moved, away from the borders.
+    const auto inner_error = [&](const MergedImage& merged) {
+        double sum = 0;
+        int count = 0;
+        for (int y = 40; y < 200; ++y)
+            for (int x = 40; x < 280; ++x) {
+                if (!merged.held[static_cast<size_t>(y * 320 + x)]) continue;
+                ++count;
+                const float* p =
+                    scene.rgb.data() + 3 * ((y + kMargin - reference.y) * 400 + x + kMargin - reference.x) + 1;
+                sum +=
+                    std::abs(std::log(static_cast<double>(merged.image.rgb[3 * static_cast<size_t>(y * 320 + x) + 1]) *
+                                      std::pow(128 / 255.0, 2.2) / static_cast<double>(*p)));
+            }
+        EXPECT_GT(count, 30000);
+        return sum / count;
+    };
+    EXPECT_LT(inner_error(merge_exposures(exposures, gamma_response(2.2))), 0.01);
+    for (Exposure& exposure : exposures) exposure.shift = glm::ivec2(0);
+    EXPECT_GT(inner_error(merge_exposures(exposures, gamma_response(2.2))), 0.05);
+}
+
+TEST(Align, LeavesStillPicturesAlone) {
+    std::vector<Exposure> exposures = bracket(night(100, 75), film_camera(2), 0.005, 4, 8);
+    estimate_shifts(exposures);
+    for (const Exposure& exposure : exposures) EXPECT_EQ(exposure.shift, glm::ivec2(0));
+    std::vector<Exposure> tiny = {{Image{"", 1, 1, {5, 5, 5, 255}}, 1, {}},
+                                  {Image{"", 1, 1, {90, 90, 90, 255}}, 2, {}}};
+    estimate_shifts(tiny);
+    EXPECT_EQ(tiny[0].shift, glm::ivec2(0));
+    estimate_shifts({});
+}
+
+TEST(Align, UncoveredPixelsAreBlackOrOfTheReference) {
+    std::vector<Exposure> exposures = {{Image{"", 2, 1, {100, 100, 100, 255, 50, 50, 50, 255}}, 1, {}}};
+    exposures[0].shift = {1, 0};
+    const MergedImage merged = merge_exposures(exposures, gamma_response(1));
+    EXPECT_NEAR(merged.image.rgb[0], 50 / 128.0, 1e-6);
+    EXPECT_EQ(merged.image.rgb[3], 0);
+    EXPECT_EQ(merged.held, (std::vector<uint8_t>{1, 0}));
+}
+
+TEST(Merge, ExposuresFollowFromCameras) {
+    using Pictures = std::vector<std::pair<std::string, CameraExposure>>;
+    const std::vector<double> found = relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {0.2, 4.0, 400}}});
+    EXPECT_NEAR(found[1] / found[0], 2.0 * 4 / 4, 1e-12);
+    EXPECT_NEAR(relative_exposures(Pictures{{"a", {0.1, {}, {}}}, {"b", {0.4, {}, {}}}})[1], 0.4, 1e-12);
+    EXPECT_THROW(relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {{}, 4.0, 400}}}), Error);
+    EXPECT_THROW(relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {0.1, {}, 400}}}), Error);
+    EXPECT_THROW(relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {0.1, 2.0, {}}}}), Error);
+}
+
+}  // namespace
+}  // namespace vesper::test

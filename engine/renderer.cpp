@@ -35,6 +35,7 @@ Renderer::Renderer(Device& device, const Scene& scene)
     : kernels_(device),
       resident_(device, scene),
       lights_(placed_lights(scene)),
+      sources_(placed_sources(scene)),
       ambient_illuminance_(scene.ambient_illuminance),
       sky_luminance_(scene.sky_luminance),
       ambient_colour_(scene.ambient_colour),
@@ -42,7 +43,7 @@ Renderer::Renderer(Device& device, const Scene& scene)
       executor_(device) {}
 
 Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
-                                     const LightList& lights, float seconds, Outputs outputs) const {
+                                     const LightList& lights, const SourceList& sources, float seconds, Outputs outputs) const {
     const bool ldr = settings.tone_operator == Operator::Ldr;
     const uint32_t tone = tone_of(settings.tone_operator);
     ClusterSettings clustering = settings.clusters;
@@ -56,7 +57,8 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
 
     const GBuffer surfaces = add_gbuffer(graph, resident_, frame, view);
     const Clusters clusters = add_clusters(graph, kernels_, lights, view, clustering);
-    const Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
+    const Resource shaded = add_shading(graph, kernels_, surfaces, clusters, view, shading);
+    const Resource scene = add_sources(graph, kernels_, shaded, surfaces.surface, sources, view);
     const Pyramid luminance = add_pyramid(graph, kernels_, scene, view.extent);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
     const Resource histogram = add_histogram(graph, kernels_, luminance, level, view.extent, settings.histogram);
@@ -80,11 +82,13 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
 
 Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, Outputs outputs) {
     const auto start = std::chrono::steady_clock::now();
+    const bool ldr = settings.tone_operator == Operator::Ldr;
     LightList lights = light_list(lights_, frame, view);
-    if (settings.tone_operator == Operator::Ldr) set_to_one(lights, settings.ldr_reference_distance);
+    if (ldr) set_to_one(lights, settings.ldr_reference_distance);
+    const SourceList sources = source_list(sources_, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
 
     FrameGraph graph;
-    const Declared declared = declare(graph, settings, view, frame, lights, seconds, outputs);
+    const Declared declared = declare(graph, settings, view, frame, lights, sources, seconds, outputs);
     executor_.run(graph);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     plan_ = graph.describe(executor_.plan());
@@ -105,6 +109,7 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     result.clusters = read_one<shared::ClusterReport>(executor_, declared.clusters);
     result.foveal_level = declared.foveal_level;
     result.lights = uint32_t(lights.lights.size());
+    result.sources = uint32_t(sources.sources.size());
     result.far = declared.far;
     result.timings = executor_.timings();
     result.milliseconds = elapsed.count();

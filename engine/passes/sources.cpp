@@ -4,7 +4,8 @@
 
 namespace vesper {
 
-Resource add_sources(FrameGraph& graph, const Kernels& kernels, Resource scene, Resource surface, const SourceList& list, const View& view) {
+Resource add_sources(FrameGraph& graph, const Kernels& kernels, Resource scene, Resource surface, const SourceList& list,
+                     const View& view) {
     if (list.tiles.empty()) return scene;
     const auto tiles = uint32_t(list.tiles.size());
     const Resource sources = graph.upload("sources", list.sources, VK_FORMAT_R32G32B32A32_SFLOAT);

@@ -24,7 +24,9 @@ std::vector<Point> cut(const std::vector<Point>& polygon, Inside inside) {
 }
 
 std::vector<dvec3> corners(const Opening& o, double pixels) {
-    if (!o.round) return {o.centre - o.across - o.along, o.centre + o.across - o.along, o.centre + o.across + o.along, o.centre - o.across + o.along};
+    if (!o.round)
+        return {o.centre - o.across - o.along, o.centre + o.across - o.along,
+                o.centre + o.across + o.along, o.centre - o.across + o.along};
     // The polygon's edge strays from the ellipse by radius (pi / n)^2 / 4 either way.
     const int n = std::clamp(4 * int(std::ceil(0.25 * kPi * std::sqrt(pixels / 0.2))), 8, 128);
     const double scale = std::sqrt(2 * kPi / (n * std::sin(2 * kPi / n)));
@@ -48,7 +50,8 @@ double signed_area(const std::vector<dvec2>& polygon) {
 // The map of the image that widens an ellipse of half axes p, q to half axes of at least `smallest`.
 dmat2 widening_of(dvec2 p, dvec2 q, double smallest) {
     const double xx = p.x * p.x + q.x * q.x, xy = p.x * p.y + q.x * q.y, yy = p.y * p.y + q.y * q.y;
-    const double angle = 0.5 * std::atan2(2 * xy, xx - yy), mean = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
+    const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+    const double mean = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
     const dvec2 axis(std::cos(angle), std::sin(angle));
     const double longer = std::sqrt(mean + spread), shorter = std::abs(p.x * q.y - p.y * q.x) / longer;
     const double a = std::max(1.0, smallest / longer), b = std::max(1.0, smallest / shorter);
@@ -65,7 +68,8 @@ Outline project(const Opening& opening, const View& view, double smallest) {
     const bool before = depth > view.near;
     const dvec2 tangent = before ? dvec2(opening.centre) / depth : dvec2(0);
     const auto extent = [&](dvec3 axis) { return (dvec2(axis) + tangent * axis.z) / (depth * scale); };
-    const double pixels = before ? std::max(glm::length(extent(opening.across)), glm::length(extent(opening.along))) : 1e4;
+    const double radius = std::max(glm::length(extent(opening.across)), glm::length(extent(opening.along)));
+    const double pixels = before ? radius : 1e4;
 
     Outline outline;
     const std::vector<dvec3> seen = cut(corners(opening, pixels), [&](dvec3 v) { return -v.z - view.near; });

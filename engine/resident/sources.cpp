@@ -22,7 +22,7 @@ glm::dquat turn(dvec3 from, dvec3 to, dvec3 spare) {
     return glm::normalize(glm::dquat(1 + cosine, normal.x, normal.y, normal.z));
 }
 
-// The normal a flat opening is drawn with, so that the eye sees at least kGrazing of it. A point lamp always faces the eye.
+// The normal a flat opening is drawn with, so that the eye sees at least kGrazing of it. A point lamp faces the eye.
 dvec3 seen_normal(const Light& light, dvec3 normal, dvec3 up, dvec3 to_eye) {
     if (light.kind == Light::Kind::Point) return to_eye;
     const double cosine = glm::dot(normal, to_eye);
@@ -49,14 +49,16 @@ Seen look_at(const Light& light, const std::vector<Distribution>& distributions,
     const double reach = std::hypot(light.opening.length, light.opening.width) / 2;
     if (!(distance > 1e-6) || -centre.z + reach < view.near) return nothing;
     const dvec3 to_eye = -centre / distance;
-    const double candela = luminous_intensity(light, distributions, {glm::dot(right, to_eye), glm::dot(up, to_eye), glm::dot(back, to_eye)});
+    const dvec3 direction(glm::dot(right, to_eye), glm::dot(up, to_eye), glm::dot(back, to_eye));
+    const double candela = luminous_intensity(light, distributions, direction);
     if (!(candela > 0)) return nothing;
 
     const dvec3 normal = seen_normal(light, -back, up, to_eye);
     const glm::dquat turned = turn(-back, normal, up);
     // Axes of a sheared node are not at right angles; those of the opening are.
     const dvec3 across = turned * glm::normalize(right - glm::dot(right, back) * back), along = glm::cross(normal, across);
-    const Opening opening{centre, 0.5 * light.opening.length * across, 0.5 * light.opening.width * along, light.opening.round};
+    const LuminousOpening& o = light.opening;
+    const Opening opening{centre, 0.5 * o.length * across, 0.5 * o.width * along, o.round};
     Outline outline = project(opening, view, kSmallest);
     const double luminance = candela / (light.opening.area() * glm::dot(normal, to_eye) * outline.widening);
     return {std::move(outline), luminance, -centre.z * 0.999 - kHousing - reach - double(shared::kSourceEdge)};
@@ -83,8 +85,10 @@ Span span_at(const std::vector<dvec2>& polygon, double y) {
 template <class Touch>
 void for_each_tile(const std::vector<dvec2>& polygon, VkExtent2D image, Touch touch) {
     constexpr double kTile = shared::kSourceTile;
-    const auto [top, bottom] = std::minmax_element(polygon.begin(), polygon.end(), [](dvec2 a, dvec2 b) { return a.y < b.y; });
-    const uint32_t columns = (image.width + shared::kSourceTile - 1) / shared::kSourceTile, rows = (image.height + shared::kSourceTile - 1) / shared::kSourceTile;
+    const auto higher = [](dvec2 a, dvec2 b) { return a.y < b.y; };
+    const auto [top, bottom] = std::minmax_element(polygon.begin(), polygon.end(), higher);
+    const uint32_t columns = (image.width + shared::kSourceTile - 1) / shared::kSourceTile;
+    const uint32_t rows = (image.height + shared::kSourceTile - 1) / shared::kSourceTile;
     const uint32_t last_row = std::min(rows - 1, uint32_t(bottom->y / kTile));
     for (uint32_t row = uint32_t(top->y / kTile); row <= last_row; ++row) {
         const double y0 = row * kTile, y1 = y0 + kTile;
@@ -112,7 +116,8 @@ void add(SourceList& list, std::vector<Touched>& touched, const Seen& seen, glm:
     for (const dvec2& v : polygon) low = glm::min(low, v);
     const dvec2 origin = glm::floor(low);
     const auto source = uint32_t(list.sources.size());
-    list.sources.push_back({luminance, float(seen.hidden), glm::vec2(origin), float(list.outline.size()), float(polygon.size())});
+    list.sources.push_back(
+        {luminance, float(seen.hidden), glm::vec2(origin), float(list.outline.size()), float(polygon.size())});
     for (const dvec2& v : polygon) list.outline.emplace_back(v - origin);
     for_each_tile(polygon, image, [&](uint32_t column, uint32_t row, bool whole) {
         touched.push_back({uint64_t(row) << 32 | column, source | (whole ? shared::kCoversTile : 0)});
@@ -124,7 +129,8 @@ void add(SourceList& list, std::vector<Touched>& touched, const Seen& seen, glm:
 SourceSet placed_sources(const Scene& scene) {
     SourceSet set;
     for (const PlacedLight& placed : placed_lights(scene))
-        if (placed.light.kind != Light::Kind::Directional && placed.light.opening.area() > 0) set.lamps.push_back(placed);
+        if (placed.light.kind != Light::Kind::Directional && placed.light.opening.area() > 0)
+            set.lamps.push_back(placed);
     if (!set.lamps.empty()) set.distributions = scene.distributions;
     return set;
 }
@@ -136,7 +142,8 @@ SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View
         const Seen seen = look_at(light, set.distributions, view.world_to_view * frame.world[node], view);
         if (seen.outline.vertices.empty()) continue;
         const glm::vec3 c = light.colour;
-        const double scale = white ? *white / (std::max({c.r, c.g, c.b, 1e-6f}) * seen.outline.widening) : seen.luminance;
+        const double largest = std::max({c.r, c.g, c.b, 1e-6f});
+        const double scale = white ? *white / (largest * seen.outline.widening) : seen.luminance;
         const glm::vec3 luminance(scale * dvec3(c));
         if (std::isfinite(luminance.r + luminance.g + luminance.b)) add(list, touched, seen, luminance, view.extent);
     }

@@ -36,6 +36,7 @@ struct SourceList {
 
 /// The openings a view sees, with the luminance L = I(towards the eye) / projected area, I / d^2 being what arrives at
 /// the eye. `white` is what the largest component of each is instead: the LDR baseline.
-SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View& view, std::optional<float> white = {});
+SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View& view,
+                       std::optional<float> white = {});
 
 }  // namespace vesper

@@ -24,7 +24,8 @@ double axis_intensity(const Conversion& conversion, const LampRule& rule) {
     Light light = rule.light;
     if (light.kind != Light::Kind::Measured) return luminous_intensity(light, {}, {0, 0, -1});
     light.distribution = 0;
-    return luminous_intensity(light, {&conversion.photometry.measured[rule.light.distribution].distribution, 1}, {0, 0, -1});
+    const Distribution& distribution = conversion.photometry.measured[rule.light.distribution].distribution;
+    return luminous_intensity(light, {&distribution, 1}, {0, 0, -1});
 }
 
 std::vector<Placed> placed_lamps(const Conversion& conversion, const std::vector<glm::mat4>& world, size_t rule_index) {
@@ -71,7 +72,8 @@ private:
 };
 
 /// Adds the triangles of a primitive to the lamps they are nearest to.
-void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_sided, const std::vector<Placed*>& lamps) {
+void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_sided,
+              const std::vector<Placed*>& lamps) {
     const double side = glm::determinant(glm::dmat3(world)) < 0 ? -1 : 1;
     for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
         dvec3 p[3];
@@ -88,8 +90,8 @@ void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_s
 }
 
 std::string disagreement(const EmitterRule& emitter, const LampRule& lamp, double intensity, double area) {
-    return "emitter " + in_quotes(emitter.name) + ": " + decimal(emitter.luminance) + " cd/m^2 given, " + decimal(intensity) +
-           " cd of lamp " + in_quotes(lamp.name) + " over " + decimal(area) + " m^2 is " + decimal(intensity / area) +
+    return "emitter " + in_quotes(emitter.name) + ": " + decimal(emitter.luminance) + " cd/m^2 given, " +
+           decimal(intensity) + " cd of lamp " + in_quotes(lamp.name) + " over " + decimal(area) + " m^2 is " + decimal(intensity / area) +
            " cd/m^2 (" + deviation(intensity / area / emitter.luminance) + ")";
 }
 
@@ -106,11 +108,13 @@ void check_named(Conversion& conversion, const EmitterRule& emitter) {
 }
 
 /// One emitter against one lamp rule, by the meshes beside its lamps; one line for all nodes.
-void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining, size_t rule_index,
-                const std::vector<glm::mat4>& world) {
+void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining,
+                size_t rule_index, const std::vector<glm::mat4>& world) {
     const Scene& scene = conversion.original.scene;
     const LampRule& rule = conversion.photometry.lamps[rule_index];
-    const auto shines = [&](const Primitive& p) { return std::find(shining.begin(), shining.end(), p.material) != shining.end(); };
+    const auto shines = [&](const Primitive& p) {
+        return std::find(shining.begin(), shining.end(), p.material) != shining.end();
+    };
     std::vector<Placed> lamps = placed_lamps(conversion, world, rule_index);
     const Neighbours neighbours(scene, lamps);
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
@@ -134,8 +138,8 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
         if (off > worst) worst = off, its_area = area;
     }
     if (glazed > 0 && rule.light.opening.area() > 0)
-        conversion.report.warnings.push_back("emitter " + in_quotes(emitter.name) + ": lies where lamp " + in_quotes(rule.name) +
-                                             " shows its opening and would be seen twice: give it \"lamp\": \"" +
+        conversion.report.warnings.push_back("emitter " + in_quotes(emitter.name) + ": lies where lamp " +
+                                             in_quotes(rule.name) + " shows its opening and would be seen twice: give it \"lamp\": \"" +
                                              one_line(rule.name) + "\"");
     if (wrong > 0)
         conversion.report.warnings.push_back(disagreement(emitter, rule, intensity, its_area) +

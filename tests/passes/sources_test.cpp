@@ -112,7 +112,8 @@ TEST(Sources, AHeadlampKeepsItsLightAtAnyDistanceAndPosition) {
                 lamps.add(lamp_with_opening(9000, 0.18, 0.12, round), aimed(glm::vec3(position), {0.2f, 0, 1}));
                 const auto pixels = draw(rig, on_black(view, lamps.seen(view)));
 
-                const double d2 = glm::dot(position, position), cosine = glm::dot(glm::normalize(dvec3(glm::vec3(0.2f, 0, 1))), -position) / std::sqrt(d2);
+                const dvec3 axis = glm::normalize(dvec3(glm::vec3(0.2f, 0, 1)));
+                const double d2 = glm::dot(position, position), cosine = glm::dot(axis, -position) / std::sqrt(d2);
                 const double wanted = 9000 * cosine / d2, got = reference::illuminance(view, pixels);
                 worst = std::max(worst, std::abs(got / wanted - 1));
                 EXPECT_NEAR(got / wanted, 1, 1e-3);
@@ -166,7 +167,8 @@ TEST(Sources, ALampDisappearsSmoothly) {
     double last = 0;
     for (int step = 0; step <= 40; ++step) {
         Lamps lamps;
-        lamps.add(lamp_with_opening(9000, 0.2, 0.2, true), aimed({0, (2.0f - 0.1f * float(step)) * view.ray_scale().x * 800, -800}, {0, 0, 1}));
+        const float height = (2 - 0.1f * float(step)) * view.ray_scale().x * 800;
+        lamps.add(lamp_with_opening(9000, 0.2, 0.2, true), aimed({0, height, -800}, {0, 0, 1}));
         Inputs in = on_black(view, lamps.seen(view));
         for (uint32_t i = 0; i < in.depth.size(); ++i) in.depth[i] = i / 16 < 8 ? 0.0f : 100.0f;
         const double now = reference::illuminance(view, draw(rig, in)) * 800 * 800 / 9000;

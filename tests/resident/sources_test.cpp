@@ -34,7 +34,8 @@ double at_eye(const Light& light, const glm::mat4& world, std::vector<Distributi
     lamps.add(light, world);
     const SourceList list = lamps.seen(kView);
     if (list.sources.empty()) return 0;
-    return glm::dot(dvec3(list.sources[0].luminance), dvec3(0.2126, 0.7152, 0.0722)) * reference::solid_angle(kView, outline_of(list));
+    const double luminance = glm::dot(dvec3(list.sources[0].luminance), dvec3(0.2126, 0.7152, 0.0722));
+    return luminance * reference::solid_angle(kView, outline_of(list));
 }
 
 TEST(Source, LuminanceIsIntensityOverArea) {
@@ -65,7 +66,8 @@ TEST(Source, HoldsTheIlluminanceOfEveryKind) {
         light.inner_cone = 0.3f, light.outer_cone = 1.2f, light.distribution = 0, light.exponent = 2.5f;
         const float depth = 10 * std::pow(200.0f, unit(random));
         const glm::vec3 position(depth * 0.4f * (unit(random) - 0.5f), depth * 0.25f * (unit(random) - 0.5f), -depth);
-        const glm::mat4 world = glm::scale(aimed(position, {normal(random), normal(random), normal(random)}), glm::vec3(1 + 3 * unit(random)));
+        const glm::mat4 placed = aimed(position, {normal(random), normal(random), normal(random)});
+        const glm::mat4 world = glm::scale(placed, glm::vec3(1 + 3 * unit(random)));
         const dvec3 eye = -dvec3(position);
         const glm::dmat3 axes(glm::normalize(dvec3(world[0])), glm::normalize(dvec3(world[1])), glm::normalize(dvec3(world[2])));
         const std::vector<Distribution> distributions{beam};

@@ -12,11 +12,13 @@
 #include "resident/formats.h"
 #include "resident/kernels.h"
 #include "resident/lights.h"
+#include "resident/sources.h"
 #include "resident/view.h"
 #include "shared/cluster.h"
 #include "shared/composite.h"
 #include "shared/light.h"
 #include "shared/shade.h"
+#include "shared/source.h"
 #include "shared/tone.h"
 
 namespace vesper {
@@ -75,6 +77,11 @@ struct ShadeSettings {
 /// height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel; F0 is the base colour of a metal and
 /// 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert.
 Resource add_shading(FrameGraph&, const Kernels&, const GBuffer&, const Clusters&, const View&, const ShadeSettings&);
+
+/// Adds to the scene image, in place, the lamps of `list` seen directly: their luminance times the part of each pixel that
+/// their outline covers, exactly, where no `surface` (GBuffer::surface) lies before them. However small a lamp is, the sum
+/// over the image of luminance times solid angle is I / d^2. Without anything to see there is no pass.
+Resource add_sources(FrameGraph&, const Kernels&, Resource scene, Resource surface, const SourceList& list, const View&);
 
 /// Luminance at halving resolutions, see shared::PyramidPush. Level 0 is the scene image itself and is not stored.
 struct Pyramid {

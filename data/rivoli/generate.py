@@ -25,7 +25,7 @@ def generate(folder):
     """Write the whole database into ``folder`` and return the counts."""
     document, counts = build_scene()
     document.write(folder, NAME)
-    write_photometry(folder / f"{NAME}.photometry.json")
+    write_photometry(folder, NAME)
     counts["texels"] = write_textures(folder / "textures")
     counts["bytes"] = sum((folder / file).stat().st_size for file in _products(folder))
     return counts
@@ -43,7 +43,7 @@ def check():
 
 def _products(folder):
     """Generated files in ``folder``, relative and sorted."""
-    fixed = [f"{NAME}.gltf", f"{NAME}.bin", f"{NAME}.photometry.json"]
+    fixed = [f"{NAME}.gltf", f"{NAME}.bin", f"{NAME}.photometry.json", f"{NAME}.measured.photometry.json"]
     textures = sorted(f"textures/{path.name}" for path in (folder / "textures").glob("*"))
     return [file for file in fixed if (folder / file).exists()] + textures
 

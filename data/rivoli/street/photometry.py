@@ -8,6 +8,25 @@ _SIGNAL = {"width_m": 0.193, "round": True}  # of the area of the ten-sided lens
 _TAIL_RED, _SIGNAL_RED, _SIGNAL_GREEN = [1.0, 0.02, 0.01], [1.0, 0.05, 0.02], [0.05, 1.0, 0.55]
 
 
+def measured_photometry():
+    """The same night with measured distributions for street lamps and headlamps, and a road of class R3."""
+    document = photometry()
+    lobes = ("street lamp", "ego low beam", "low beam")
+    document["lamps"] = [
+        # C0 along the road, C90 towards the carriageway.
+        _measured("street lamp", "street_lamp_*/light", "street-lamp.ies", _SODIUM)
+        | {"flux_lm": 9500, "aim": [0, 0, -1], "c0": [0, 1, 0]},
+        _beam("low beam", ["car_ego/headlamp_*", "car_traffic_*/headlamp_*"], "low-beam.csv"),
+        # One of the oncoming drivers has forgotten to dip.
+        _beam("high beam", "car_traffic_005/headlamp_*", "high-beam.csv"),
+    ] + [lamp for lamp in document["lamps"] if lamp["name"] not in lobes]
+    for emitter in document["emitters"]:
+        if emitter["name"] == "headlamp":
+            emitter["lamp"] = "low beam"
+    document["surfaces"] = [{"materials": "asphalt*", "reflection_table": "R3", "q0": 0.07}]
+    return document
+
+
 def photometry():
     """The document's content; intensities in candela, luminances in cd/m2, angles in degrees."""
     return {
@@ -101,12 +120,29 @@ def _spot(name, nodes, candela, cones, kelvin, aim=(0, 0, -1), opening=None):
     return lamp | ({"opening": opening} if opening else {})
 
 
+def _measured(name, nodes, file, kelvin):
+    """A lamp of a measured distribution of data/photometry."""
+    return {
+        "name": name,
+        "nodes": nodes,
+        "type": "distribution",
+        "file": f"../photometry/{file}",
+        "colour_temperature_K": kelvin,
+    }
+
+
+def _beam(name, nodes, file):
+    """The nodes look 1 degree down; a beam has its cut-off, 0.57 degrees down, in itself."""
+    return _measured(name, nodes, file, _HALOGEN) | {"pitch_deg": 1, "opening": _HEADLAMP}
+
+
 def _coloured(name, nodes, candela, cones, colour, opening):
     lamp = _spot(name, nodes, candela, cones, None, opening=opening)
     del lamp["colour_temperature_K"]
     return lamp | {"colour_rgb": colour}
 
 
-def write_photometry(path):
-    """Write the JSON file."""
-    path.write_text(json.dumps(photometry(), indent=2) + "\n")
+def write_photometry(folder, name):
+    """Write the JSON files."""
+    for suffix, document in (("", photometry()), (".measured", measured_photometry())):
+        (folder / f"{name}{suffix}.photometry.json").write_text(json.dumps(document, indent=2) + "\n")

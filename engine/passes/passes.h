@@ -67,6 +67,11 @@ struct ShadeSettings {
 /// 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert.
 Resource add_shading(FrameGraph&, const Kernels&, const GBuffer&, const Clusters&, const View&, const ShadeSettings&);
 
+/// Adds a sky that is a picture to shaded luminance, in place: the sky itself where nothing is drawn, E(normal) rho lambert
+/// and specular reflection elsewhere. `sky` holds rgba32f texels as shared/sky.h says, with a sharp map of `sharp_side`.
+Resource add_sky(FrameGraph&, const Kernels&, const GBuffer&, Resource scene, Resource sky, uint32_t sharp_side, const View&,
+                 float lambert);
+
 /// Luminance at halving resolutions, see shared::PyramidPush. Level 0 is the scene image itself and is not stored.
 struct Pyramid {
     std::vector<Resource> levels;     ///< levels[k - 1] is level k, rgba32f, up to 1x1 (one level for a 1x1 image)

@@ -9,6 +9,7 @@
 #include "shaders/pyramid.comp.inc"
 #include "shaders/select.comp.inc"
 #include "shaders/shade.comp.inc"
+#include "shaders/sky.comp.inc"
 #include "shared/tone.h"
 
 namespace vesper {
@@ -42,6 +43,7 @@ Kernels::Kernels(const Device& device)
       select(device, "select.comp", select_comp),
       shade(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 0}),
       shade_every_light(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 1}),
+      sky(device, "sky.comp", sky_comp, {shade_group.width, shade_group.height, shade_rows}),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),
       histogram(device, "histogram.comp", histogram_comp),

@@ -15,6 +15,7 @@ struct Kernels {
     uint32_t shade_bands;    ///< as shared::ShadePush::bands
     Kernel select;
     Kernel shade, shade_every_light;
+    Kernel sky;
     Kernel pyramid_first, pyramid;
     Kernel histogram, adapt;
     std::vector<Kernel> bright;     ///< by shared::kTone*

@@ -75,7 +75,7 @@ public:
     /// Forgets what the eye was adapted to, as at a camera cut.
     void reset_adaptation();
     const ResidentScene& scene() const { return resident_; }
-    uint64_t device_bytes() const { return resident_.bytes() + executor_.heap_bytes(); }
+    uint64_t device_bytes() const { return resident_.bytes() + map_arena_.bytes() + executor_.heap_bytes(); }
 
 private:
     /// The frame's resources that the host reads.
@@ -84,12 +84,24 @@ private:
         uint32_t foveal_level;
         float far;
     };
+    /// A texel buffer of the scene, rgba32f.
+    struct TexelBuffer {
+        OwnedBuffer buffer;
+        uint64_t bytes = 0;
+        explicit operator bool() const { return bytes != 0; }
+    };
+    TexelBuffer upload_texels(const Device& device, const std::vector<glm::vec4>& texels);
     Declared declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
                      const LightList& lights, float seconds, Outputs outputs) const;
 
     Kernels kernels_;
     ResidentScene resident_;
     std::vector<PlacedLight> lights_;
+    LightMaps maps_;
+    Arena map_arena_;
+    OwnedBuffer map_texels_;
+    TexelBuffer sky_, retro_;     // without buffers where the scene has no picture of a sky, nothing retroreflective
+    uint32_t sky_sharp_side_ = 0;
     float ambient_illuminance_, sky_luminance_;
     glm::vec3 ambient_colour_, sky_colour_;
     Executor executor_;

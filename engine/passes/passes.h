@@ -23,7 +23,7 @@ namespace vesper {
 
 /// Surfaces seen by each pixel.
 struct GBuffer {
-    Resource reflectance;  ///< rgba16f: base colour [0, 1], metallic [0, 1]
+    Resource reflectance;  ///< rgba16f: base colour [0, 1]; metallic [0, 1] or another kind of surface, see shared/shade.h
     Resource surface;      ///< rgba32f: view-frame normal, octahedral (2), depth along the view axis (m; 0: nothing), roughness
     Resource emission;     ///< rgba32f: emitted RGB luminance, cd/m^2
     Resource depth;        ///< d32: near / depth, 0 at infinity
@@ -39,10 +39,18 @@ struct ClusterSettings {
     float far = 0;                 ///< m, where geometry ends; 0: unknown, lamps alone decide
 };
 
+/// The texels of LightMaps (rgba16f), and which of them is the first cell of the first road table.
+struct MapTexels {
+    Resource texels;
+    uint32_t roads = 0;
+    bool has_roads = false;
+};
+
 struct Clusters {
+    MapTexels maps;
     Resource lights;   ///< rgba32f texels, kTexelsPerLight per light
-    Resource counts;   ///< r32ui, two per froxel: cones, then powers; kAllLights if they did not fit
-    Resource indices;  ///< r32ui, grid.capacity per froxel: indices of cones, then of powers, each ascending
+    Resource counts;   ///< r32ui, two per froxel: cones, then cosine powers and maps; kAllLights if they did not fit
+    Resource indices;  ///< r32ui, grid.capacity per froxel: indices of cones, then of the others, each ascending
     Resource report;   ///< shared::ClusterReport
     shared::ClusterPush push;  ///< grid, counts, threshold, near and far
 };
@@ -50,7 +58,7 @@ struct Clusters {
 /// Lists for every froxel all cone and cosine-power lights that may give `threshold` lx somewhere in it. Exact or more,
 /// never less. Slices are of equal ratio from the nearest metre to the farthest depth any lamp reaches with `threshold`
 /// (d = sqrt(I / threshold)), or to `far` if that is nearer.
-Clusters add_clusters(FrameGraph&, const Kernels&, const LightList&, const View&, const ClusterSettings&);
+Clusters add_clusters(FrameGraph&, const Kernels&, const LightList&, const MapTexels&, const View&, const ClusterSettings&);
 
 struct ShadeSettings {
     float lambert = 1 / std::numbers::pi_v<float>;  ///< sr^-1: L = E reflectance / pi; 1: the paper's L = E R
@@ -58,13 +66,15 @@ struct ShadeSettings {
     glm::vec3 ambient{0};             ///< illuminance, RGB of luminance lx
     glm::vec3 sky{0};                 ///< cd/m^2 RGB
     bool all_lights = false;          ///< look at every light in every pixel, for comparison
+    Resource retro{};                 ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
 };
 
 /// Turns the emission of a G-buffer, in place, into scene luminance, rgba32f, cd/m^2 RGB (alpha 1):
 /// L = sum_k E_k (rho lambert + specular) + ambient rho lambert + emission, E_k = I_k(direction) cos / d^2, counted where
 /// I_k / d^2 >= threshold. rho = base colour (1 - metallic). Specular: GGX (Walter et al. 2007, a = roughness^2) with
 /// height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel; F0 is the base colour of a metal and
-/// 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert.
+/// 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert. Retroreflective surfaces (photometry/retroreflection.h)
+/// add R_A I / d^2 / cos(view) times their base colour for every lamp in front of them.
 Resource add_shading(FrameGraph&, const Kernels&, const GBuffer&, const Clusters&, const View&, const ShadeSettings&);
 
 /// Adds a sky that is a picture to shaded luminance, in place: the sky itself where nothing is drawn, E(normal) rho lambert

@@ -7,12 +7,15 @@ uint retro_class(float metallic) {
     return metallic >= kRetroCode ? min(uint(metallic - kRetroCode + 0.5), kRetroClasses - 1u) : kRetroClasses;
 }
 
+// RetroBase::reach2.
+float retro_reach2(uint class_) { return texelFetch(retro_classes, int(class_ * kRetroTexels + kRetroRamps)).w; }
+
 // Luminance per illuminance facing the lamp, sr^-1, where the base colour is 1. The observation angle is small where it
 // matters: the chord between the two directions is exact where their dot product is not.
 float retroreflection(uint class_, vec3 toward_light, vec3 toward_eye, float normal_light, float normal_eye) {
     const int first = int(class_ * kRetroTexels);
     const vec3 chord = toward_light - toward_eye;
-    // 2 asin(h) as a series, within 1e-4 up to 60 degrees; asin() may be off by more.
+    // 2 asin(h) as a series, within 1e-4 up to 60 degrees, beyond which nothing is left of real sheets; asin() may be off by more.
     const float h2 = 0.25 * dot(chord, chord);
     const float angle = 2.0 * sqrt(h2) * (1.0 + h2 * (1.0 / 6.0 + h2 * (3.0 / 40.0 + h2 * (5.0 / 112.0))));
     const vec4 base = texelFetch(retro_classes, first + int(kRetroRamps));

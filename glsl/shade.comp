@@ -46,7 +46,8 @@ float f90[kRows];                // and at grazing incidence
 float a2[kRows];                 // GGX alpha^2
 float normal_eye[kRows], smith_eye[kRows];
 
-uint sheet[kRows];               // class of retroreflection; kRetroClasses: none
+uint sheet[kRows];               // class of retroreflection
+float reach2[kRows];             // and how far from the eye's direction it returns light, see RetroBase; -1: not at all
 
 // And that of a road: the direction of sight along its plane, what draws beta towards 90 degrees, and its table.
 vec3 sight[kRows];
@@ -124,13 +125,18 @@ float relative_intensity(Lamp lamp, float cosine, vec3 from, bool cone) {
 
 // What a retroreflective pixel adds to that, per illuminance facing the lamp.
 vec3 sheet_coefficient(uint r, vec3 toward_light, float normal_light) {
-    const bool has_sheet = sheet[r] < kRetroClasses && normal_light > 0.0;
-    const float back = retroreflection(min(sheet[r], kRetroClasses - 1u), toward_light, toward_eye[r], normal_light, normal_eye[r]);
-    return has_sheet ? diffuse[r] * (back / push.lambert) : vec3(0.0);
+    return diffuse[r] * (retroreflection(sheet[r], toward_light, toward_eye[r], normal_light, normal_eye[r]) / push.lambert);
+}
+
+bool returns_light(uint r, vec3 toward_light, float normal_light) {
+    const vec3 chord = toward_light - toward_eye[r];
+    return dot(chord, chord) <= reach2[r] && normal_light > 0.0;
 }
 
 // Adds a lamp to the pixels of some slices, a bit for each.
 void add_lamp(Lamp lamp, uint slices, Loop loop) {
+    float returned[kRows];  // of what a retroreflective pixel returns, the illuminance facing the lamp, lx
+    bool any_returned = false;
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const vec3 to = lamp.position - position[r];
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
@@ -143,8 +149,19 @@ void add_lamp(Lamp lamp, uint slices, Loop loop) {
         if (kRoads != 0u && loop.paved) weight = road && normal_light > 0.0 ? road_coefficient(r, to, inverse, normal_light) : weight;
         const vec3 e = lamp.colour * (counts_here ? facing * weight : 0.0);
         sum[r] += loop.glossy ? e * (road ? diffuse[r] : coefficient(r, to * inverse, max(normal_light, 0.0))) : e;
-        if (kRetro != 0u && loop.retro && counts_here) sum[r] += lamp.colour * facing * sheet_coefficient(r, to * inverse, normal_light);
+        if (kRetro != 0u && loop.retro) {
+            returned[r] = counts_here && returns_light(r, to * inverse, normal_light) ? facing : 0.0;
+            any_returned = any_returned || returned[r] > 0.0;
+        }
     }
+    if (kRetro == 0u || !loop.retro) return;
+    // Few lamps are near the line of sight. A loop of one turn, so that a CPU device does nothing for the others.
+    any_returned = subgroupAny(any_returned);
+    for (uint k = 0u; k < (any_returned ? 1u : 0u); ++k)
+        [[unroll]] for (uint r = 0u; r < kRows; ++r) {
+            const vec3 toward = normalize(lamp.position - position[r]);
+            sum[r] += lamp.colour * returned[r] * sheet_coefficient(r, toward, max(dot(normal[r], toward), 0.0));
+        }
 }
 
 // The list of a block: entries of cones from the front, of others from the back. Or, all of them, every light there is.
@@ -187,7 +204,7 @@ void add_directional() {
             if (kRoads != 0u) weight = road && normal_light > 0.0 ? road_coefficient(r, -lamp.axis, 1.0, normal_light) : weight;
             const vec3 e = lamp.colour * (lamp.intensity * weight);
             sum[r] += shiny ? e * (road ? diffuse[r] : coefficient(r, -lamp.axis, normal_light)) : e;
-            if (kRetro != 0u && mirroring) sum[r] += lamp.colour * lamp.intensity * sheet_coefficient(r, -lamp.axis, normal_light);
+            if (kRetro != 0u && mirroring && returns_light(r, -lamp.axis, normal_light)) sum[r] += lamp.colour * lamp.intensity * sheet_coefficient(r, -lamp.axis, normal_light);
         }
     }
 }
@@ -241,8 +258,10 @@ void main() {
         normal[r] = decode_normal(surface.xy);
         toward_eye[r] = normalize(-position[r]);
         base[r] = reflectance.rgb;
-        sheet[r] = kRetro != 0u && drawn ? retro_class(reflectance.a) : kRetroClasses;
-        mirroring = mirroring || sheet[r] < kRetroClasses;
+        const uint class_ = kRetro != 0u && drawn ? retro_class(reflectance.a) : kRetroClasses;
+        sheet[r] = min(class_, kRetroClasses - 1u);
+        if (kRetro != 0u) reach2[r] = class_ < kRetroClasses ? retro_reach2(sheet[r]) : -1.0;
+        mirroring = mirroring || class_ < kRetroClasses;
         prepare_lobe(r, base[r], reflectance.a >= kRetroCode ? 0.0 : max(reflectance.a, 0.0), surface.w);
         prepare_road(r, reflectance.a);
         const bool road = tan_cells[r] > 0.0;

@@ -41,8 +41,8 @@ vec3 blurred(vec3 direction, float roughness) {
     const float level = clamp(roughness, 0.0, 1.0) * float(kSkyLobes);
     const uint below = min(uint(level), kSkyLobes - 1u);
     const uint above = kSkyLobesStart + below * kSkyLobeTexels;
-    const vec3 low = below == 0u ? look_up(octahedral, kSkySharpStart, push.sharp_side)
-                                 : look_up(octahedral, above - kSkyLobeTexels, kSkyLobeSide);
+    const bool sharp = below == 0u;
+    const vec3 low = look_up(octahedral, sharp ? kSkySharpStart : above - kSkyLobeTexels, sharp ? push.sharp_side : kSkyLobeSide);
     return mix(low, look_up(octahedral, above, kSkyLobeSide), level - float(below));
 }
 

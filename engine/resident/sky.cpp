@@ -37,7 +37,10 @@ void append(std::vector<glm::vec4>& texels, const Retroreflector& r) {
     }
     for (const shared::RetroRamp& ramp : ramps)
         texels.emplace_back(ramp.observation, ramp.observation_slope, ramp.entrance, ramp.entrance_slope);
-    texels.emplace_back(float(std::log2(r.coefficient.front())), float(r.entrance_factor.front()), r.marking ? 0.0f : 1.0f, 0.0f);
+    const double left = std::log2(double(shared::kRetroLeast) / r.coefficient.back()) / ramps[r.observation.size() - 1].observation_slope;
+    const double reach = std::min(r.observation.back() * kRadians + std::max(left, 0.0), std::numbers::pi);
+    texels.emplace_back(float(std::log2(r.coefficient.front())), float(r.entrance_factor.front()), r.marking ? 0.0f : 1.0f,
+                        float(4 * std::pow(std::sin(reach / 2), 2)));
 }
 
 }  // namespace
@@ -54,7 +57,8 @@ std::vector<glm::vec4> sky_texels(const SkyMap& map) {
 std::vector<glm::vec4> retro_texels(std::span<const Retroreflector> classes) {
     std::vector<glm::vec4> texels;
     for (const Retroreflector& r : classes) append(texels, r);
-    if (texels.empty()) append(texels, Retroreflector{"none", {0, 1}, {1e-6, 1e-7}, {0}, {0}, false});
+    while (texels.size() < shared::kRetroClasses * shared::kRetroTexels)
+        append(texels, Retroreflector{"none", {0, 1}, {1e-6, 1e-7}, {0}, {0}, false});
     return texels;
 }
 

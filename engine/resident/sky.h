@@ -14,7 +14,7 @@ namespace vesper {
 /// The texels of shared/sky.h.
 std::vector<glm::vec4> sky_texels(const SkyMap&);
 
-/// The texels of shared/retro.h; at least one class, so that there is something to bind.
+/// The texels of shared/retro.h; always of kRetroClasses classes, so that no index leaves the buffer.
 std::vector<glm::vec4> retro_texels(std::span<const Retroreflector>);
 
 }  // namespace vesper

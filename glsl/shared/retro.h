@@ -9,6 +9,7 @@ const float kRetroCode = 2.0f;
 const uint kRetroClasses = 8u;     // at most
 const uint kRetroRamps = 8u;       // of each angle
 const float kRetroLeastCosine = 0.05f;
+const float kRetroLeast = 1e-6f;   // cd/(lx m^2), a hundred-thousandth of what a dark wall reflects: beyond, nothing is added
 
 // Read as a texel buffer of rgba32f texels, kRetroTexels per class: kRetroRamps ramps, then a RetroBase. A curve is its first
 // value and the sum of slope * clamp(x - start, 0, length) over its ramps, so that looking it up takes no search.
@@ -24,7 +25,7 @@ struct RetroBase {
     float log2_coefficient;  // at the first angle, cd/(lx m^2)
     float entrance_factor;   // at the first angle
     float sheet;             // 1: R_A, luminance is over the cosine of view; 0: R_L
-    float unused;
+    float reach2;            // square of the chord between directions to lamp and eye where the coefficient is kRetroLeast
 };
 SHARED_SIZE(RetroBase, 16)
 

@@ -30,8 +30,8 @@ inline Returned returned(const Retroreflector& r, glm::dvec3 n, glm::dvec3 l, gl
     for (const double sign : {-1.0, 1.0})
         moved += std::abs(luminance(observation + sign * turn, nl, nv) - value) + std::abs(luminance(observation, nl + sign * shift, nv) - value) +
                  std::abs(luminance(observation, nl, nv + sign * shift) - value);
-    // 3e-6: logarithms of up to 10 bits. 1e-9: what is left beyond 60 degrees, where the device's angle is a series.
-    return {value, moved + 3e-6 * value + 1e-9};
+    // 3e-6: logarithms of up to 10 bits. 1e-6: what the device leaves out.
+    return {value, moved + 3e-6 * value + 1e-6 / (r.marking ? 1 : std::max(nv, 0.05))};
 }
 
 }  // namespace vesper::reference

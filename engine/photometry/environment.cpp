@@ -40,7 +40,8 @@ Environment averaged(const Environment& e, uint32_t width) {
     const double step = static_cast<double>(e.width) / width;
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x) {
-            const double top = y * step, bottom = std::min(top + step, double(e.height)), left = x * step, right = left + step;
+            const double top = y * step, bottom = std::min(top + step, double(e.height)), left = x * step,
+                         right = left + step;
             glm::dvec3 sum(0);
             double weights = 0;
             for (auto j = static_cast<uint32_t>(top); j < e.height && j < bottom; ++j) {
@@ -51,7 +52,8 @@ Environment averaged(const Environment& e, uint32_t width) {
                 }
             }
             for (int c = 0; c < 3; ++c)
-                small.rgb[(static_cast<size_t>(y) * width + x) * 3 + static_cast<size_t>(c)] = static_cast<float>(sum[c] / weights);
+                small.rgb[(static_cast<size_t>(y) * width + x) * 3 + static_cast<size_t>(c)] =
+                    static_cast<float>(sum[c] / weights);
         }
     return small;
 }
@@ -104,20 +106,21 @@ glm::dvec3 luminance_of(const Environment& e, glm::dvec3 direction) {
 
 glm::dvec3 irradiance(const Environment& e, glm::dvec3 n) {
     glm::dvec3 sum(0);
-    for_every_pixel(e, [&](glm::dvec3 d, glm::dvec3 l, double angle) { sum += l * (std::max(glm::dot(d, n), 0.0) * angle); });
+    for_every_pixel(
+        e, [&](glm::dvec3 d, glm::dvec3 l, double angle) { sum += l * (std::max(glm::dot(d, n), 0.0) * angle); });
     return sum;
 }
 
 Irradiance9 irradiance_polynomial(const Environment& e) {
-    // Projections of luminance on the polynomials, times the square of their normalisation and what the cosine lobe leaves
-    // of their order: pi, 2 pi / 3, pi / 4 (Ramamoorthi and Hanrahan, eq. 8).
+    // Projections of luminance on the polynomials, times the square of their normalisation and what the cosine lobe
+    // leaves of their order: pi, 2 pi / 3, pi / 4 (Ramamoorthi and Hanrahan, eq. 8).
     Irradiance9 sums{};
     for_every_pixel(e, [&](glm::dvec3 d, glm::dvec3 l, double angle) {
-        const double basis[9] = {1,         d.y,       d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1,
-                                 d.x * d.z, d.x * d.x - d.y * d.y};
+        const double basis[9] = {
+            1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
         for (size_t i = 0; i < 9; ++i) sums[i] += l * (basis[i] * angle);
     });
-    constexpr double kSquares[9] = {1 / (4 * kPi),  3 / (4 * kPi),  3 / (4 * kPi),  3 / (4 * kPi), 15 / (4 * kPi),
+    constexpr double kSquares[9] = {1 / (4 * kPi),  3 / (4 * kPi),  3 / (4 * kPi),  3 / (4 * kPi),  15 / (4 * kPi),
                                     15 / (4 * kPi), 5 / (16 * kPi), 15 / (4 * kPi), 15 / (16 * kPi)};
     constexpr double kLobe[3] = {kPi, 2 * kPi / 3, kPi / 4};
     for (size_t i = 0; i < 9; ++i) sums[i] *= kSquares[i] * kLobe[i == 0 ? 0 : i < 4 ? 1 : 2];

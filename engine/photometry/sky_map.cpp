@@ -21,7 +21,8 @@ glm::dvec2 hammersley(uint32_t i, uint32_t count) {
 
 /// Facet normal of the GGX distribution about z (Walter et al. 2007, eq. 35 and 36).
 glm::dvec3 facet(glm::dvec2 u, double a) {
-    const double cosine = std::sqrt((1 - u.x) / (1 + (a * a - 1) * u.x)), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    const double cosine = std::sqrt((1 - u.x) / (1 + (a * a - 1) * u.x)),
+                 sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
     return {sine * std::cos(2 * kPi * u.y), sine * std::sin(2 * kPi * u.y), cosine};
 }
 
@@ -32,7 +33,8 @@ glm::dvec3 visible_facet(glm::dvec2 u, glm::dvec3 v, double a) {
     const glm::dvec3 t1 = across > 0 ? glm::dvec3(-stretched.y, stretched.x, 0) / across : glm::dvec3(1, 0, 0);
     const double r = std::sqrt(u.x), x = r * std::cos(2 * kPi * u.y), s = 0.5 * (1 + stretched.z);
     const double y = (1 - s) * std::sqrt(1 - x * x) + s * r * std::sin(2 * kPi * u.y);
-    const glm::dvec3 h = t1 * x + glm::cross(stretched, t1) * y + stretched * std::sqrt(std::max(0.0, 1 - x * x - y * y));
+    const glm::dvec3 h =
+        t1 * x + glm::cross(stretched, t1) * y + stretched * std::sqrt(std::max(0.0, 1 - x * x - y * y));
     return glm::normalize(glm::dvec3(a * h.x, a * h.y, std::max(0.0, h.z)));
 }
 
@@ -73,7 +75,8 @@ OctahedralMap sharp_map(const Environment& e, uint32_t side) {
     return filled(side, [&](glm::dvec2 place) {
         glm::dvec3 sum(0);
         for (const double dy : {-0.5, 0.5})
-            for (const double dx : {-0.5, 0.5}) sum += luminance_of(e, octahedral_direction(place + glm::dvec2(dx, dy) / double(side)));
+            for (const double dx : {-0.5, 0.5})
+                sum += luminance_of(e, octahedral_direction(place + glm::dvec2(dx, dy) / double(side)));
         return sum * 0.25;
     });
 }
@@ -98,8 +101,8 @@ OctahedralMap half_of(OctahedralMap& map) {
     });
 }
 
-/// Directions of one lobe, with their weights and the map whose texels are about as large as what each stands for (M. Colbert
-/// and J. Krivanek, GPU Gems 3, chapter 20).
+/// Directions of one lobe, with their weights and the map whose texels are about as large as what each stands for (M.
+/// Colbert and J. Krivanek, GPU Gems 3, chapter 20).
 struct LobeSample {
     glm::dvec3 direction;  // about z
     double weight;
@@ -138,7 +141,8 @@ glm::dvec2 octahedral_place(glm::dvec3 d) {
 }
 
 glm::dvec3 luminance_of(const OctahedralMap& map, glm::dvec3 direction) {
-    const glm::dvec2 place = (octahedral_place(direction) * 0.5 + 0.5) * double(map.side) + 0.5;  // the border is texel 0
+    const glm::dvec2 place =
+        (octahedral_place(direction) * 0.5 + 0.5) * double(map.side) + 0.5;  // the border is texel 0
     const glm::dvec2 corner = glm::clamp(glm::floor(place), glm::dvec2(0), glm::dvec2(map.side)), t = place - corner;
     const auto texel = [&](size_t dx, size_t dy) {
         return glm::dvec3(map.texels[(size_t(corner.y) + dy) * map.pitch() + size_t(corner.x) + dx]);
@@ -147,14 +151,16 @@ glm::dvec3 luminance_of(const OctahedralMap& map, glm::dvec3 direction) {
 }
 
 SkyMap make_sky_map(const Environment& e) {
-    SkyMap map{irradiance_polynomial(e), sharp_map(e, std::clamp(std::bit_ceil(2 * e.height), kSkyLobeSide, kSkyMaxSide)), {}};
+    SkyMap map{
+        irradiance_polynomial(e), sharp_map(e, std::clamp(std::bit_ceil(2 * e.height), kSkyLobeSide, kSkyMaxSide)), {}};
     std::vector<OctahedralMap> halves{map.sharp};
     while (halves.back().side > 4) halves.push_back(half_of(halves.back()));
     for (uint32_t i = 1; i <= kSkyLobes; ++i) {
         const auto samples = lobe_samples(double(i) / kSkyLobes, map.sharp.side, halves.size());
         map.lobes.push_back(filled(kSkyLobeSide, [&](glm::dvec2 place) {
             const glm::dvec3 z = octahedral_direction(place);
-            const glm::dvec3 x = glm::normalize(glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
+            const glm::dvec3 x =
+                glm::normalize(glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
             const glm::dmat3 frame(x, glm::cross(z, x), z);
             glm::dvec3 sum(0);
             for (const LobeSample& s : samples) sum += luminance_of(halves[s.map], frame * s.direction) * s.weight;
@@ -184,7 +190,8 @@ std::vector<Reflected> specular_table() {
     std::vector<Reflected> table;
     for (uint32_t row = 0; row < kSpecularSide; ++row)
         for (uint32_t column = 0; column < kSpecularSide; ++column)
-            table.push_back(specular_reflectance(std::pow(double(column) / (kSpecularSide - 1), 2), double(row) / (kSpecularSide - 1), 512));
+            table.push_back(specular_reflectance(std::pow(double(column) / (kSpecularSide - 1), 2),
+                                                 double(row) / (kSpecularSide - 1), 512));
     return table;
 }
 

@@ -37,10 +37,11 @@ void append(std::vector<glm::vec4>& texels, const Retroreflector& r) {
     }
     for (const shared::RetroRamp& ramp : ramps)
         texels.emplace_back(ramp.observation, ramp.observation_slope, ramp.entrance, ramp.entrance_slope);
-    const double left = std::log2(double(shared::kRetroLeast) / r.coefficient.back()) / ramps[r.observation.size() - 1].observation_slope;
+    const double left = std::log2(double(shared::kRetroLeast) / r.coefficient.back()) /
+                        ramps[r.observation.size() - 1].observation_slope;
     const double reach = std::min(r.observation.back() * kRadians + std::max(left, 0.0), std::numbers::pi);
-    texels.emplace_back(float(std::log2(r.coefficient.front())), float(r.entrance_factor.front()), r.marking ? 0.0f : 1.0f,
-                        float(4 * std::pow(std::sin(reach / 2), 2)));
+    texels.emplace_back(float(std::log2(r.coefficient.front())), float(r.entrance_factor.front()),
+                        r.marking ? 0.0f : 1.0f, float(4 * std::pow(std::sin(reach / 2), 2)));
 }
 
 }  // namespace
@@ -48,7 +49,8 @@ void append(std::vector<glm::vec4>& texels, const Retroreflector& r) {
 std::vector<glm::vec4> sky_texels(const SkyMap& map) {
     std::vector<glm::vec4> texels;
     for (const glm::dvec3& factor : map.irradiance) texels.emplace_back(glm::vec3(factor), 0);
-    for (const Reflected& fraction : specular_table()) texels.emplace_back(float(fraction.scale), float(fraction.offset), 0, 0);
+    for (const Reflected& fraction : specular_table())
+        texels.emplace_back(float(fraction.scale), float(fraction.offset), 0, 0);
     for (const OctahedralMap& lobe : map.lobes) append(texels, lobe);
     append(texels, map.sharp);
     return texels;

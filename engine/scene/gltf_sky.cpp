@@ -17,7 +17,8 @@ void read_environment(GltfReader& reader, const JsonValue& source) {
     const auto bytes = reader.document.view(number.index(reader.document.list("bufferViews").size(), "bufferViews"));
     if (bytes.size() != width * height * 6) number.fail("must hold three half floats per pixel and nothing else");
     const double scale = source.number_or("scale", 1, 0);
-    Environment made{uint32_t(width), uint32_t(height), {}, source.number_or("rotation_deg", 0, -360, 360) * std::numbers::pi / 180};
+    Environment made{
+        uint32_t(width), uint32_t(height), {}, source.number_or("rotation_deg", 0, -360, 360) * std::numbers::pi / 180};
     made.rgb.reserve(bytes.size() / 2);
     for (size_t i = 0; i < bytes.size(); i += 2) {
         const auto half = static_cast<uint16_t>(bytes[i] | bytes[i + 1] << 8);
@@ -31,7 +32,8 @@ void read_environment(GltfReader& reader, const JsonValue& source) {
 void read_retroreflectors(GltfReader& reader, const JsonValue& block) {
     const auto classes = block.elements_of("retroreflectors");
     if (classes.size() > kMaxRetroreflectors)
-        block.at("retroreflectors").fail("must not have more than " + std::to_string(kMaxRetroreflectors) + " elements");
+        block.at("retroreflectors")
+            .fail("must not have more than " + std::to_string(kMaxRetroreflectors) + " elements");
     for (const JsonValue& one : classes) reader.scene.retroreflectors.push_back(read_whole_retroreflector(one));
     const size_t materials = reader.document.list("materials").size();
     for (const JsonValue& use : block.elements_of("retroreflective")) {

@@ -29,9 +29,11 @@ Retroreflector checked(const JsonValue& source, Retroreflector made) {
 
 /// The factor that the sky's values are multiplied by.
 double factor_of(const JsonValue& source, const Environment& e, double white_luminance) {
-    const auto scale = source.find("scale"), luminance = source.find("luminance_cd_m2"), illuminance = source.find("illuminance_lx");
+    const auto scale = source.find("scale"), luminance = source.find("luminance_cd_m2"),
+               illuminance = source.find("illuminance_lx");
     if (scale && luminance) luminance->fail("is given beside scale: one of them is wanted");
-    if (illuminance && (scale || luminance)) illuminance->fail("is given beside scale or luminance_cd_m2: one of them is wanted");
+    if (illuminance && (scale || luminance))
+        illuminance->fail("is given beside scale or luminance_cd_m2: one of them is wanted");
     if (scale) return scale->number(0, 1e12);
     if (!luminance && !illuminance) return white_luminance > 0 ? white_luminance : 1;
     const JsonValue& stated = luminance ? *luminance : *illuminance;
@@ -64,7 +66,8 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
 }
 
 DirectionalRule read_directional(const JsonValue& source) {
-    source.allow_only({"name", "illuminance_lx", "direction", "azimuth_deg", "elevation_deg", "colour_temperature_K", "colour_rgb"});
+    source.allow_only(
+        {"name", "illuminance_lx", "direction", "azimuth_deg", "elevation_deg", "colour_temperature_K", "colour_rgb"});
     DirectionalRule rule;
     rule.name = source.text_or("name", "directional light");
     rule.illuminance = source.at("illuminance_lx").number(0, 2e5);
@@ -77,7 +80,8 @@ DirectionalRule read_directional(const JsonValue& source) {
         if (!(glm::length(axis) > 1e-6)) direction->fail("must not be of length 0");
         rule.direction = glm::normalize(axis);
     } else {
-        const double azimuth = source.at("azimuth_deg").number(-360, 360), elevation = source.at("elevation_deg").number(-90, 90);
+        const double azimuth = source.at("azimuth_deg").number(-360, 360),
+                     elevation = source.at("elevation_deg").number(-90, 90);
         rule.direction = -direction_of(azimuth * kRadians, elevation * kRadians);
     }
     return rule;
@@ -100,7 +104,11 @@ Retroreflector read_retroreflection(const JsonValue& source) {
         made.name = "R_L " + std::to_string(int(marking->number())) + " mcd/(m^2 lx)";
     } else {
         table->allow_only({"name", "observation_deg", "r_a", "entrance_deg", "entrance_factor"});
-        made = {table->text_or("name", "table"), numbers_of(table->at("observation_deg")), numbers_of(table->at("r_a")), {5, 30, 50, 80}, {1, 0.5, 0.15, 0}};
+        made = {table->text_or("name", "table"),
+                numbers_of(table->at("observation_deg")),
+                numbers_of(table->at("r_a")),
+                {5, 30, 50, 80},
+                {1, 0.5, 0.15, 0}};
         if (const auto entrance = table->find("entrance_deg")) {
             made.entrance = numbers_of(*entrance);
             made.entrance_factor = numbers_of(table->at("entrance_factor"));
@@ -112,14 +120,19 @@ Retroreflector read_retroreflection(const JsonValue& source) {
 }
 
 nlohmann::json json_of(const Retroreflector& r) {
-    return {{"name", r.name},          {"observation_deg", r.observation},     {"coefficient", r.coefficient},
-            {"entrance_deg", r.entrance}, {"entrance_factor", r.entrance_factor}, {"marking", r.marking}};
+    return {{"name", r.name},
+            {"observation_deg", r.observation},
+            {"coefficient", r.coefficient},
+            {"entrance_deg", r.entrance},
+            {"entrance_factor", r.entrance_factor},
+            {"marking", r.marking}};
 }
 
 Retroreflector read_whole_retroreflector(const JsonValue& source) {
     source.allow_only({"name", "observation_deg", "coefficient", "entrance_deg", "entrance_factor", "marking"});
-    return checked(source, {source.text_or("name", ""), numbers_of(source.at("observation_deg")), numbers_of(source.at("coefficient")),
-                            numbers_of(source.at("entrance_deg")), numbers_of(source.at("entrance_factor")), source.boolean_or("marking", false)});
+    return checked(source, {source.text_or("name", ""), numbers_of(source.at("observation_deg")),
+                            numbers_of(source.at("coefficient")), numbers_of(source.at("entrance_deg")),
+                            numbers_of(source.at("entrance_factor")), source.boolean_or("marking", false)});
 }
 
 Photometry with_night_sky(Photometry p) {

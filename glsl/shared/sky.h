@@ -4,10 +4,10 @@
 #include "types.h"
 SHARED_BEGIN
 
-// Read as a texel buffer of rgba32f texels: kSkyPolynomial factors of the illuminance (photometry/environment.h), a table of
-// kSpecularSide^2 reflected
-// fractions (x: of F0, y: of F90; the root of n.v along rows, roughness down columns), kSkyLobes octahedral maps of the sky blurred by the lobes of
-// roughness 1 / kSkyLobes ... 1, and the sharp one. Maps have a border of one texel.
+// Read as a texel buffer of rgba32f texels: kSkyPolynomial factors of the illuminance (photometry/environment.h), a
+// table of kSpecularSide^2 reflected fractions (x: of F0, y: of F90; the root of n.v along rows, roughness down columns),
+// kSkyLobes octahedral maps of the sky blurred by the lobes of roughness 1 / kSkyLobes ... 1, and the sharp one. Maps have
+// a border of one texel.
 const uint kSkyPolynomial = 9u;
 const uint kSpecularSide = 32u;
 const uint kSkyLobes = 5u;

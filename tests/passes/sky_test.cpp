@@ -50,22 +50,26 @@ Surfaces noise(VkExtent2D extent, uint32_t seed) {
 std::vector<glm::vec4> add(PassRig& rig, const Surfaces& s, const SkyMap& sky, const View& view, float lambert) {
     FrameGraph graph;
     const GBuffer g{rig.image(graph, "reflectance", kReflectanceFormat, s.extent, to_halves(s.reflectance)),
-                    rig.image(graph, "surface", kSurfaceFormat, s.extent, s.surface), {}, {}};
+                    rig.image(graph, "surface", kSurfaceFormat, s.extent, s.surface),
+                    {},
+                    {}};
     const Resource scene = rig.image(graph, "scene", kSceneFormat, s.extent, s.scene);
     const Resource texels = graph.upload("sky", sky_texels(sky), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource wanted = keep<glm::vec4>(graph, add_sky(graph, rig.kernels(), g, scene, texels, sky.sharp.side, view, lambert));
+    const Resource wanted =
+        keep<glm::vec4>(graph, add_sky(graph, rig.kernels(), g, scene, texels, sky.sharp.side, view, lambert));
     rig.run(graph);
     return rig.got<glm::vec4>(wanted);
 }
 
-void expect_reference(const std::vector<glm::vec4>& got, const Surfaces& s, const SkyMap& sky, const View& view, float lambert) {
+void expect_reference(const std::vector<glm::vec4>& got, const Surfaces& s, const SkyMap& sky, const View& view,
+                      float lambert) {
     Picture want(s.extent.width, s.extent.height, 3), have = want, rounding = want;
     for (size_t i = 0; i < got.size(); ++i) {
         const glm::dvec2 centre(double(i % s.extent.width) + 0.5, double(i / s.extent.width) + 0.5);
         const reference::SurfaceTexel texel{glm::dvec4(s.reflectance[i]), glm::dvec4(s.surface[i]), {}};
         const glm::dvec3 l = reference::add_sky(sky, texel, glm::dvec3(s.scene[i]), centre, view, lambert);
-        // Lamps in the sky are edges: a direction off by 3e-7 moves on the sharp map by a small part of a texel, and what
-        // differs between neighbours comes in. Found by turning the ray. The table of fractions is within 0.008.
+        // Lamps in the sky are edges: a direction off by 3e-7 moves on the sharp map by a small part of a texel, and
+        // what differs between neighbours comes in. Found by turning the ray. The table of fractions is within 0.008.
         const glm::dmat3 off = glm::dmat3(glm::rotate(glm::dmat4(1), 1e-6, glm::dvec3(0.6, 0.64, 0.48)));
         const glm::dmat3 world = glm::transpose(glm::dmat3(view.world_to_view));
         const glm::dvec2 slope = glm::dvec2(view.ray_scale()) * centre + glm::dvec2(view.ray_offset());
@@ -136,7 +140,8 @@ TEST(Sky, WhatIsNotFiniteStaysInItsPixel) {
     const Surfaces clean = noise(extent, 4);
     Surfaces s = clean;
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    for (size_t i = 3; i < s.scene.size(); i += 7) s.surface[i] = {kNan, kNan, i % 2 ? kNan : 5, kNan}, s.reflectance[i].w = kNan;
+    for (size_t i = 3; i < s.scene.size(); i += 7)
+        s.surface[i] = {kNan, kNan, i % 2 ? kNan : 5, kNan}, s.reflectance[i].w = kNan;
     const auto got = add(rig, s, sky, view, 1), want = add(rig, clean, sky, view, 1);
     for (size_t i = 0; i < got.size(); ++i)
         if (i % 7 != 3) {

@@ -1,4 +1,5 @@
-// Skies: against closed forms, and polynomial and blurred maps against sums over all pixels. SPDX-License-Identifier: MIT
+// Skies: against closed forms, and polynomial and blurred maps against sums over all pixels. SPDX-License-Identifier:
+// MIT
 #include "photometry/environment.h"
 
 #include <cmath>
@@ -97,10 +98,11 @@ TEST(Environment, OneBrightPixel) {
     EXPECT_NEAR(luminance_of(seam, direction_at(seam, {16, 3.5})).r, 0.5, 1e-9);
 }
 
-// The polynomial is exact for luminances that are polynomials of degree 2 themselves, here 2 + y + x z: by the lobe's factors
-// pi, 2 pi / 3 and pi / 4 the illuminance is 2 pi + 2 pi / 3 y + pi / 4 x z.
+// The polynomial is exact for luminances that are polynomials of degree 2 themselves, here 2 + y + x z: by the lobe's
+// factors pi, 2 pi / 3 and pi / 4 the illuminance is 2 pi + 2 pi / 3 y + pi / 4 x z.
 TEST(Environment, ThePolynomialIsExactUpToOrderTwo) {
-    const Environment e = sky_of(512, [](dvec3 d) { return dvec3(2 + d.y + d.x * d.z); }, 0.7);
+    const Environment e = sky_of(
+        512, [](dvec3 d) { return dvec3(2 + d.y + d.x * d.z); }, 0.7);
     const Irradiance9 polynomial = irradiance_polynomial(e);
     std::mt19937 random(4);
     for (int i = 0; i < 20; ++i) {
@@ -111,8 +113,8 @@ TEST(Environment, ThePolynomialIsExactUpToOrderTwo) {
     }
 }
 
-// Half a sky is the smoothest of the hard cases: within 3 % of the largest illuminance. A single spot is the hardest there is:
-// 10 % of what it gives at best, since the orders left out begin with the fourth. DESIGN.md states both.
+// Half a sky is the smoothest of the hard cases: within 3 % of the largest illuminance. A single spot is the hardest
+// there is: 10 % of what it gives at best, since the orders left out begin with the fourth. DESIGN.md states both.
 TEST(Environment, ThePolynomialsErrorIsAsStated) {
     std::mt19937 random(5);
     const Environment half = sky_of(64, [](dvec3 d) { return dvec3(d.y > 0); });
@@ -166,7 +168,8 @@ TEST(SkyMap, DirectionsGoThereAndBack) {
 
 // The border must be what lies beyond: lookups are continuous across every edge.
 TEST(SkyMap, HasNoSeams) {
-    const SkyMap map = make_sky_map(sky_of(64, [](dvec3 d) { return dvec3(2 + d.x, 2 + d.y + 0.5 * d.z, 2 + d.x * d.y); }));
+    const SkyMap map =
+        make_sky_map(sky_of(64, [](dvec3 d) { return dvec3(2 + d.x, 2 + d.y + 0.5 * d.z, 2 + d.x * d.y); }));
     std::mt19937 random(8);
     std::uniform_real_distribution<double> along(-1, 1);
     const auto check = [&](glm::dvec2 edge) {
@@ -199,7 +202,8 @@ TEST(SkyMap, KeepsTheMean) {
     for (int i = 0; i < 12; ++i) e.rgb[3 * (random() % (e.width * e.height)) + 1] = 2000;
     double want = 0;
     for (uint32_t y = 0; y < e.height; ++y)
-        for (uint32_t x = 0; x < e.width; ++x) want += e.rgb[3 * (size_t(y) * e.width + x) + 1] * solid_angle_of_row(e, y) / (4 * kPi);
+        for (uint32_t x = 0; x < e.width; ++x)
+            want += e.rgb[3 * (size_t(y) * e.width + x) + 1] * solid_angle_of_row(e, y) / (4 * kPi);
     const SkyMap map = make_sky_map(e);
     const auto mean = [](const OctahedralMap& m) {
         double sum = 0;
@@ -262,11 +266,13 @@ TEST(SkyMap, TheTableOfReflectedFractions) {
     for (int i = 0; i < 300; ++i) {
         const double nv = 0.02 + 0.98 * unit(random), roughness = unit(random);
         const double x = std::sqrt(nv) * (kSpecularSide - 1), y = roughness * (kSpecularSide - 1);
-        const auto column = std::min(size_t(x), size_t(kSpecularSide - 2)), row = std::min(size_t(y), size_t(kSpecularSide - 2));
+        const auto column = std::min(size_t(x), size_t(kSpecularSide - 2)),
+                   row = std::min(size_t(y), size_t(kSpecularSide - 2));
         const auto mixed = [&](auto part) {
             const Reflected* at = &table[row * kSpecularSide + column];
             return std::lerp(std::lerp(part(at[0]), part(at[1]), x - double(column)),
-                             std::lerp(part(at[kSpecularSide]), part(at[kSpecularSide + 1]), x - double(column)), y - double(row));
+                             std::lerp(part(at[kSpecularSide]), part(at[kSpecularSide + 1]), x - double(column)),
+                             y - double(row));
         };
         const Reflected exact = specular_reflectance(nv, roughness, 8192);
         worst = std::max({worst, std::abs(mixed([](const Reflected& r) { return r.scale; }) - exact.scale),

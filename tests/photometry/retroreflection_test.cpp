@@ -34,8 +34,8 @@ TEST(Retroreflection, ReproducesItsTables) {
     EXPECT_NEAR(retroreflection(ra1, 0.265, 5), std::sqrt(70.0 * 50), 1e-9);
 }
 
-// A white sign of class RA2 at 100 m, 500 cd towards it from each of two headlamps, seen half a degree from them: 0.05 lx each
-// and about 12 cd/m^2 in all.
+// A white sign of class RA2 at 100 m, 500 cd towards it from each of two headlamps, seen half a degree from them: 0.05
+// lx each and about 12 cd/m^2 in all.
 TEST(Retroreflection, ASignInTheHeadlamps) {
     const double illuminance = 500.0 / (100 * 100);
     const Retroreflector ra2 = retroreflective_class("RA2");
@@ -73,9 +73,7 @@ TEST(Retroreflection, RefusesWhatCannotBe) {
     refused([](auto& r) { r.coefficient = {10}; });
     refused([](auto& r) { r.entrance = {}, r.entrance_factor = {}; });
     refused([](auto& r) { r.entrance_factor = {1, 1.1}; });
-    refused([](auto& r) {
-        r.observation = {0, 1, 2, 3, 4, 5, 6, 7, 8}, r.coefficient = {9, 8, 7, 6, 5, 4, 3, 2, 1};
-    });
+    refused([](auto& r) { r.observation = {0, 1, 2, 3, 4, 5, 6, 7, 8}, r.coefficient = {9, 8, 7, 6, 5, 4, 3, 2, 1}; });
     EXPECT_THROW(retroreflective_class("RA9"), Error);
 }
 

@@ -1,5 +1,5 @@
-// Skies, directional lights and retroreflection, from the photometry file to the scene that is read. SPDX-License-Identifier:
-// MIT
+// Skies, directional lights and retroreflection, from the photometry file to the scene that is read.
+// SPDX-License-Identifier: MIT
 #include <cmath>
 #include <numbers>
 
@@ -15,7 +15,11 @@ namespace {
 using nlohmann::json;
 
 HdrImage picture(uint32_t width, uint32_t height, float value, double white = 0) {
-    return {.width = width, .height = height, .rgb = std::vector<float>(size_t(3) * width * height, value), .white_luminance = white, .header = {}};
+    return {.width = width,
+            .height = height,
+            .rgb = std::vector<float>(size_t(3) * width * height, value),
+            .white_luminance = white,
+            .header = {}};
 }
 
 class ConvertSky : public testing::Test {
@@ -34,7 +38,8 @@ protected:
 
     ConversionReport convert_with(json photometry, const std::string& output = "out.gltf") {
         photometry["version"] = 1;
-        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()), folder_ / output);
+        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()),
+                       folder_ / output);
     }
     Scene converted(const std::string& output = "out.gltf") const { return read_gltf(folder_ / output).scene; }
     Environment sky() const { return converted().environment.value(); }
@@ -68,7 +73,8 @@ TEST_F(ConvertSky, WhatIsNotStatedIsANightInTown) {
 TEST_F(ConvertSky, APictureGoesIntoTheFile) {
     for (const char* output : {"out.gltf", "out.glb"}) {
         SCOPED_TRACE(output);
-        const ConversionReport report = convert_with({{"sky", {{"image", "night.exr"}, {"scale", 0.02}, {"rotation_deg", 90}}}}, output);
+        const ConversionReport report =
+            convert_with({{"sky", {{"image", "night.exr"}, {"scale", 0.02}, {"rotation_deg", 90}}}}, output);
         EXPECT_TRUE(mentions(report.changes, "night.exr"));
         std::filesystem::rename(folder_ / "night.exr", folder_ / "away.exr");
         const Scene scene = converted(output);
@@ -101,7 +107,11 @@ TEST_F(ConvertSky, IsScaledToWhatIsStated) {
 TEST_F(ConvertSky, TheMoon) {
     street_.root["scenes"] = {{{"nodes", {0, 1, 2}}}};
     street_.root["scene"] = 0;
-    const json moon = {{"name", "moon"}, {"illuminance_lx", 0.25}, {"azimuth_deg", 90}, {"elevation_deg", 30}, {"colour_temperature_K", 4100}};
+    const json moon = {{"name", "moon"},
+                       {"illuminance_lx", 0.25},
+                       {"azimuth_deg", 90},
+                       {"elevation_deg", 30},
+                       {"colour_temperature_K", 4100}};
     const json dusk = {{"illuminance_lx", 3}, {"direction", {0, -2, 0}}};
     convert_with({{"directional", {moon, dusk}}});
     const Scene scene = converted();
@@ -119,9 +129,10 @@ TEST_F(ConvertSky, TheMoon) {
 }
 
 TEST_F(ConvertSky, Retroreflection) {
-    const json rules = {{{"materials", "sign"}, {"retroreflection", {{"class", "RA2"}, {"scale", 1.5}}}},
-                        {{"materials", "marking"}, {"retroreflection", {{"r_l_mcd", 150}}}},
-                        {{"materials", "wall"}, {"retroreflection", {{"table", {{"observation_deg", {0.1, 1}}, {"r_a", {90, 9}}}}}}}};
+    const json rules = {
+        {{"materials", "sign"}, {"retroreflection", {{"class", "RA2"}, {"scale", 1.5}}}},
+        {{"materials", "marking"}, {"retroreflection", {{"r_l_mcd", 150}}}},
+        {{"materials", "wall"}, {"retroreflection", {{"table", {{"observation_deg", {0.1, 1}}, {"r_a", {90, 9}}}}}}}};
     EXPECT_TRUE(mentions(convert_with({{"surfaces", rules}}).changes, "retroreflection RA2"));
     const Scene scene = converted();
     ASSERT_EQ(scene.retroreflectors.size(), 3u);
@@ -139,8 +150,10 @@ TEST_F(ConvertSky, RefusesWithPlaceAndReason) {
     EXPECT_TRUE(contains(sky_rule({{"image", "missing.exr"}}), "p.json: /sky/image: "));
     EXPECT_TRUE(contains(sky_rule({{"image", "square.exr"}}), "twice as wide"));
     EXPECT_TRUE(contains(sky_rule({{"image", "black.exr"}, {"illuminance_lx", 1}}), "/sky"));
-    EXPECT_TRUE(contains(sky_rule({{"image", "night.exr"}, {"scale", 1}, {"luminance_cd_m2", 1}}), "/sky/luminance_cd_m2: "));
-    EXPECT_TRUE(contains(sky_rule({{"image", "night.exr"}, {"scale", 1}, {"illuminance_lx", 1}}), "/sky/illuminance_lx: "));
+    EXPECT_TRUE(
+        contains(sky_rule({{"image", "night.exr"}, {"scale", 1}, {"luminance_cd_m2", 1}}), "/sky/luminance_cd_m2: "));
+    EXPECT_TRUE(
+        contains(sky_rule({{"image", "night.exr"}, {"scale", 1}, {"illuminance_lx", 1}}), "/sky/illuminance_lx: "));
     EXPECT_TRUE(contains(sky_rule({{"image", "night.exr"}, {"colour_rgb", {1, 1, 1}}}), "unknown key"));
     const auto moon = [&](json m) { return complaint_with({{"directional", json::array({std::move(m)})}}); };
     EXPECT_TRUE(contains(moon({{"illuminance_lx", 1}}), "azimuth_deg"));

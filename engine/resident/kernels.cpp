@@ -10,6 +10,7 @@
 #include "shaders/select.comp.inc"
 #include "shaders/shade.comp.inc"
 #include "shaders/sky.comp.inc"
+#include "shaders/sources.comp.inc"
 #include "shared/tone.h"
 
 namespace vesper {
@@ -42,6 +43,7 @@ Kernels::Kernels(const Device& device)
       shade_bands(device.is_cpu() ? 16 : 1),
       select(device, "select.comp", select_comp),
       sky(device, "sky.comp", sky_comp, {shade_group.width, shade_group.height, shade_rows}),
+      sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),
       histogram(device, "histogram.comp", histogram_comp),

@@ -20,6 +20,7 @@ struct Kernels {
     /// Made when it is first asked for.
     const Kernel& shade(uint32_t variant) const;
     Kernel sky;
+    Kernel sources;
     Kernel pyramid_first, pyramid;
     Kernel histogram, adapt;
     std::vector<Kernel> bright;     ///< by shared::kTone*

@@ -58,6 +58,7 @@ Material as_road(const Scene& scene, Material m) {
 // A retroreflective surface as the G-buffer holds it (shared/retro.h).
 Material as_sheet(Material m) {
     m.metallic = shared::kRetroCode + float(m.retroreflector);
+    m.roughness = std::min(m.roughness, 0.999f);  // not matt: lamps count by what they give a surface facing them
     m.metallic_roughness_texture = {};
     return m;
 }

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "resident/sky.h"
+
 namespace vesper {
 namespace {
 
@@ -43,7 +45,19 @@ Renderer::Renderer(Device& device, const Scene& scene)
       sky_luminance_(scene.sky_luminance),
       ambient_colour_(scene.ambient_colour),
       sky_colour_(scene.sky_colour),
-      executor_(device) {}
+      executor_(device) {
+    if (scene.environment) {
+        const SkyMap map = make_sky_map(*scene.environment);
+        sky_sharp_side_ = map.sharp.side;
+        sky_ = upload_texels(device, sky_texels(map));
+    }
+    if (!scene.retroreflectors.empty()) retro_ = upload_texels(device, retro_texels(scene.retroreflectors));
+}
+
+Renderer::TexelBuffer Renderer::upload_texels(const Device& device, const std::vector<glm::vec4>& texels) {
+    const auto bytes = std::as_bytes(std::span(texels));
+    return {upload_buffer(device, map_arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT), bytes.size()};
+}
 
 Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
                                      const LightList& lights, const SourceList& sources, float seconds, Outputs outputs) const {
@@ -62,8 +76,13 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
     const MapTexels maps{graph.external("maps", map_texels_.get(), maps_.texels.size() * sizeof(glm::vec4), VK_FORMAT_R32G32B32A32_SFLOAT),
                          maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};
     const Clusters clusters = add_clusters(graph, kernels_, lights, maps, view, clustering);
-    const Resource shaded = add_shading(graph, kernels_, surfaces, clusters, view, shading);
-    const Resource scene = add_sources(graph, kernels_, shaded, surfaces.surface, sources, view);
+    if (retro_ && !ldr) shading.retro = graph.external("retroreflection", retro_.buffer.get(), retro_.bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
+    Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
+    if (sky_ && !ldr) {
+        const Resource sky = graph.external("sky map", sky_.buffer.get(), sky_.bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
+        scene = add_sky(graph, kernels_, surfaces, scene, sky, sky_sharp_side_, view, shading.lambert);
+    }
+    scene = add_sources(graph, kernels_, scene, surfaces.surface, sources, view);
     const Pyramid luminance = add_pyramid(graph, kernels_, scene, view.extent);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
     const Resource histogram = add_histogram(graph, kernels_, luminance, level, view.extent, settings.histogram);

@@ -86,6 +86,13 @@ private:
         uint32_t foveal_level;
         float far;
     };
+    /// A texel buffer of the scene, rgba32f.
+    struct TexelBuffer {
+        OwnedBuffer buffer;
+        uint64_t bytes = 0;
+        explicit operator bool() const { return bytes != 0; }
+    };
+    TexelBuffer upload_texels(const Device& device, const std::vector<glm::vec4>& texels);
     Declared declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
                      const LightList& lights, const SourceList& sources, float seconds, Outputs outputs) const;
 
@@ -96,6 +103,8 @@ private:
     LightMaps maps_;
     Arena map_arena_;
     OwnedBuffer map_texels_;
+    TexelBuffer sky_, retro_;     // without buffers where the scene has no picture of a sky, nothing retroreflective
+    uint32_t sky_sharp_side_ = 0;
     float ambient_illuminance_, sky_luminance_;
     glm::vec3 ambient_colour_, sky_colour_;
     Executor executor_;

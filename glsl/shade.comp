@@ -17,7 +17,8 @@ layout(constant_id = 2) const uint kRows = 1u;
 layout(constant_id = 3) const uint kEveryLight = 0u;  // ignore the lists, for comparison
 layout(constant_id = 4) const uint kPowers = 1u;      // there are cosine powers,
 layout(constant_id = 5) const uint kMaps = 1u;        // measured distributions,
-layout(constant_id = 6) const uint kRoads = 1u;       // roads with a table
+layout(constant_id = 6) const uint kRoads = 1u;       // roads with a table,
+layout(constant_id = 7) const uint kRetro = 1u;       // retroreflective surfaces
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
@@ -26,15 +27,17 @@ layout(binding = 3) uniform samplerBuffer lights;
 layout(binding = 4) uniform usamplerBuffer block_counts;
 layout(binding = 5) uniform usamplerBuffer entries;
 layout(binding = 6) uniform samplerBuffer maps;
+layout(binding = 7) uniform samplerBuffer retro_classes;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
 #include "maps.glsl"
+#include "retro.glsl"
 
 const float kTableSine = 0.0261769, kNoSheenSine = 0.1736482;  // of 1.5 and of 10 degrees
 
 vec3 position[kRows], normal[kRows], toward_eye[kRows];
 uint slice_bit[kRows];        // 0: nothing is drawn
-bool shiny, paved;            // whether any of the pixels has a specular lobe, or is a road with a table
+bool shiny, paved, mirroring; // whether any of the pixels has a specular lobe, is a road with a table, or retroreflects
 vec3 sum[kRows];              // shiny: luminance, cd/m^2 RGB; otherwise what `diffuse` makes luminance
 
 // What the luminance coefficient of a pixel needs.
@@ -43,6 +46,9 @@ vec3 diffuse[kRows], f0[kRows];  // luminance coefficient rho lambert, sr^-1; re
 float f90[kRows];                // and at grazing incidence
 float a2[kRows];                 // GGX alpha^2
 float normal_eye[kRows], smith_eye[kRows];
+
+uint sheet[kRows];               // class of retroreflection
+float reach2[kRows];             // and how far from the eye's direction it returns light, see RetroBase; -1: not at all
 
 // And that of a road: the direction of sight along its plane, what draws beta towards 90 degrees, and its table.
 vec3 sight[kRows];
@@ -99,7 +105,7 @@ Lamp fetch(uint index, bool cone) {
 
 // What a loop over lamps is for: kinds of lamps and of surfaces it may meet.
 struct Loop {
-    bool cones, glossy, paved;
+    bool cones, glossy, paved, retro;
 };
 
 // Intensity in a direction relative to the largest. `cosine` to the axis; `from` the lamp, of any length.
@@ -118,8 +124,20 @@ float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool
     return relative;
 }
 
+// What a retroreflective pixel adds to that, per illuminance facing the lamp.
+vec3 sheet_coefficient(uint r, vec3 toward_light, float normal_light) {
+    return diffuse[r] * (retroreflection(sheet[r], toward_light, toward_eye[r], normal_light, normal_eye[r]) / push.lambert);
+}
+
+bool returns_light(uint r, vec3 toward_light, float normal_light) {
+    const vec3 chord = toward_light - toward_eye[r];
+    return dot(chord, chord) <= reach2[r] && normal_light > 0.0;
+}
+
 // Adds a lamp to the pixels of some slices, a bit for each.
 void add_lamp(Lamp lamp, uint slices, Loop loop) {
+    float returned[kRows];  // of what a retroreflective pixel returns, the illuminance facing the lamp, lx
+    bool any_returned = false;
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const vec3 to = lamp.position - position[r];
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
@@ -132,7 +150,19 @@ void add_lamp(Lamp lamp, uint slices, Loop loop) {
         if (kRoads != 0u && loop.paved) weight = road && normal_light > 0.0 ? road_coefficient(r, to, inverse, normal_light) : weight;
         const vec3 e = lamp.colour * (counts_here ? facing * weight : 0.0);
         sum[r] += loop.glossy ? e * (road ? diffuse[r] : coefficient(r, to * inverse, max(normal_light, 0.0))) : e;
+        if (kRetro != 0u && loop.retro) {
+            returned[r] = counts_here && returns_light(r, to * inverse, normal_light) ? facing : 0.0;
+            any_returned = any_returned || returned[r] > 0.0;
+        }
     }
+    if (kRetro == 0u || !loop.retro) return;
+    // Few lamps are near the line of sight. A loop of one turn, so that a CPU device does nothing for the others.
+    any_returned = subgroupAny(any_returned);
+    for (uint k = 0u; k < (any_returned ? 1u : 0u); ++k)
+        [[unroll]] for (uint r = 0u; r < kRows; ++r) {
+            const vec3 toward = normalize(lamp.position - position[r]);
+            sum[r] += lamp.colour * returned[r] * sheet_coefficient(r, toward, max(dot(normal[r], toward), 0.0));
+        }
 }
 
 // The list of a block: entries of cones from the front, of others from the back. Or, all of them, every light there is.
@@ -158,10 +188,10 @@ void add_entry(List list, uint at, uint number, Loop loop) {
     add_lamp(fetch(light, loop.cones), list.all_of_them ? ~0u : slices, loop);
 }
 
-void add_lamps(List list, bool glossy, bool with_roads) {
-    for (uint i = 0u; i < list.cones; ++i) add_entry(list, list.first + i, i, Loop(true, glossy, with_roads));
+void add_lamps(List list, bool glossy, bool with_roads, bool retro) {
+    for (uint i = 0u; i < list.cones; ++i) add_entry(list, list.first + i, i, Loop(true, glossy, with_roads, retro));
     if (kPowers == 0u && kMaps == 0u) return;
-    for (uint i = 0u; i < list.others; ++i) add_entry(list, list.last - i, list.cones + i, Loop(false, glossy, with_roads));
+    for (uint i = 0u; i < list.others; ++i) add_entry(list, list.last - i, list.cones + i, Loop(false, glossy, with_roads, retro));
 }
 
 void add_directional() {
@@ -175,6 +205,7 @@ void add_directional() {
             if (kRoads != 0u) weight = road && normal_light > 0.0 ? road_coefficient(r, -lamp.axis, 1.0, normal_light) : weight;
             const vec3 e = lamp.colour * (lamp.intensity * weight);
             sum[r] += shiny ? e * (road ? diffuse[r] : coefficient(r, -lamp.axis, normal_light)) : e;
+            if (kRetro != 0u && mirroring && returns_light(r, -lamp.axis, normal_light)) sum[r] += lamp.colour * lamp.intensity * sheet_coefficient(r, -lamp.axis, normal_light);
         }
     }
 }
@@ -214,7 +245,7 @@ void main() {
     const uvec2 invocation = group * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy;
     const uvec2 first = invocation * uvec2(1u, kRows);
 
-    shiny = false, paved = false;
+    shiny = false, paved = false, mirroring = false;
     vec3 base[kRows], ambient[kRows];
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const uvec2 pixel = first + uvec2(0u, r);
@@ -228,7 +259,11 @@ void main() {
         normal[r] = decode_normal(surface.xy);
         toward_eye[r] = normalize(-position[r]);
         base[r] = reflectance.rgb;
-        prepare_lobe(r, base[r], max(reflectance.a, 0.0), surface.w);
+        const uint class_ = kRetro != 0u && drawn ? retro_class(reflectance.a) : kRetroClasses;
+        sheet[r] = min(class_, kRetroClasses - 1u);
+        if (kRetro != 0u) reach2[r] = class_ < kRetroClasses ? retro_reach2(sheet[r]) : -1.0;
+        mirroring = mirroring || class_ < kRetroClasses;
+        prepare_lobe(r, base[r], reflectance.a >= kRetroCode ? 0.0 : max(reflectance.a, 0.0), surface.w);
         prepare_road(r, reflectance.a);
         least_cosine[r] = surface.w < 1.0 ? 1.0 : 0.0;
         const bool road = tan_cells[r] > 0.0;
@@ -241,16 +276,18 @@ void main() {
 
     // A loop for each kind of surface, of which a CPU device skips those that none of its lanes takes; it would not skip an
     // if. Lanes that could take a cheap one go along with their neighbours rather than make them wait.
-    shiny = subgroupAny(shiny), paved = kRoads != 0u && subgroupAny(paved);
+    mirroring = kRetro != 0u && subgroupAny(mirroring);
+    shiny = subgroupAny(shiny) || mirroring, paved = kRoads != 0u && subgroupAny(paved);
     const uvec2 block = min(first, push.size - 1u) / kBlockSize;
     const List list = list_of(block.y * push.blocks_x + block.x);
     const List none = List(0u, 0u, 0u, 0u, false);
-    add_lamps(shiny || paved ? none : list, false, false);
-    add_lamps(shiny && !paved ? list : none, true, false);
+    add_lamps(shiny || paved ? none : list, false, false, false);
+    add_lamps(shiny && !paved && !mirroring ? list : none, true, false, false);
     if (kRoads != 0u) {
-        add_lamps(paved && !shiny ? list : none, false, true);
-        add_lamps(paved && shiny ? list : none, true, true);
+        add_lamps(paved && !shiny ? list : none, false, true, false);
+        add_lamps(paved && shiny && !mirroring ? list : none, true, true, false);
     }
+    if (kRetro != 0u) add_lamps(mirroring ? list : none, true, kRoads != 0u, true);
     add_directional();
 
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {

@@ -25,7 +25,7 @@ namespace vesper {
 
 /// Surfaces seen by each pixel.
 struct GBuffer {
-    Resource reflectance;  ///< rgba16f: base colour [0, 1], metallic [0, 1]
+    Resource reflectance;  ///< rgba16f: base colour [0, 1]; metallic [0, 1] or another kind of surface, see shared/shade.h
     Resource surface;      ///< rgba32f: view-frame normal, octahedral (2), depth along the view axis (m; 0: nothing), roughness
     Resource emission;     ///< rgba32f: emitted RGB luminance, cd/m^2
     Resource depth;        ///< d32: near / depth, 0 at infinity
@@ -68,6 +68,7 @@ struct ShadeSettings {
     glm::vec3 ambient{0};             ///< illuminance, RGB of luminance lx
     glm::vec3 sky{0};                 ///< cd/m^2 RGB
     bool all_lights = false;          ///< look at every light in every pixel, for comparison
+    Resource retro{};                 ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
 };
 
 /// Turns the emission of a G-buffer, in place, into scene luminance, rgba32f, cd/m^2 RGB (alpha 1):
@@ -75,8 +76,14 @@ struct ShadeSettings {
 /// E_k (on surfaces of roughness 1) or I_k / d^2 (on others) >= threshold. A road with a table reflects after CIE 144 (see
 /// shared/shade.h); it is no specular surface of ours. rho = base colour (1 - metallic). Specular: GGX (Walter et al. 2007, a = roughness^2) with
 /// height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel; F0 is the base colour of a metal and
-/// 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert.
+/// 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert. Retroreflective surfaces (photometry/retroreflection.h)
+/// add R_A I / d^2 / cos(view) times their base colour for every lamp in front of them.
 Resource add_shading(FrameGraph&, const Kernels&, const GBuffer&, const Clusters&, const View&, const ShadeSettings&);
+
+/// Adds a sky that is a picture to shaded luminance, in place: the sky itself where nothing is drawn, E(normal) rho lambert
+/// and specular reflection elsewhere. `sky` holds rgba32f texels as shared/sky.h says, with a sharp map of `sharp_side`.
+Resource add_sky(FrameGraph&, const Kernels&, const GBuffer&, Resource scene, Resource sky, uint32_t sharp_side, const View&,
+                 float lambert);
 
 /// Adds to the scene image, in place, the lamps of `list` seen directly: their luminance times the part of each pixel that
 /// their outline covers, exactly, where no `surface` (GBuffer::surface) lies before them. However small a lamp is, the sum

@@ -40,8 +40,10 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
     if (push.lights.powers) variant |= Kernels::kPowers;
     if (push.lights.maps) variant |= Kernels::kMaps;
     if (clusters.maps.has_roads) variant |= Kernels::kRoads;
+    if (settings.retro) variant |= Kernels::kRetro;
+    const Resource retro = settings.retro ? settings.retro : clusters.maps.texels;  // the binding must hold something
     graph.dispatch("shade", kernels.shade(variant),
-                   {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(counts), sample(entries), sample(clusters.maps.texels)},
+                   {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(counts), sample(entries), sample(clusters.maps.texels), sample(retro)},
                    push, {group_grid.x, group_rows, 1});
     return g.emission;
 }

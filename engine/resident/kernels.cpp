@@ -9,6 +9,7 @@
 #include "shaders/pyramid.comp.inc"
 #include "shaders/select.comp.inc"
 #include "shaders/shade.comp.inc"
+#include "shaders/sky.comp.inc"
 #include "shaders/sources.comp.inc"
 #include "shared/tone.h"
 
@@ -41,6 +42,7 @@ Kernels::Kernels(const Device& device)
       shade_rows(device.is_cpu() ? 8 : 1),
       shade_bands(device.is_cpu() ? 16 : 1),
       select(device, "select.comp", select_comp),
+      sky(device, "sky.comp", sky_comp, {shade_group.width, shade_group.height, shade_rows}),
       sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),
@@ -57,7 +59,7 @@ const Kernel& Kernels::shade(uint32_t variant) const {
     if (found != shade_.end()) return found->second;
     const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
     Kernel kernel(device_, "shade.comp", shade_comp,
-                  {shade_group.width, shade_group.height, shade_rows, has(kEveryLight), has(kPowers), has(kMaps), has(kRoads)});
+                  {shade_group.width, shade_group.height, shade_rows, has(kEveryLight), has(kPowers), has(kMaps), has(kRoads), has(kRetro)});
     return shade_.emplace(variant, std::move(kernel)).first->second;
 }
 

@@ -16,9 +16,10 @@ struct Kernels {
     uint32_t shade_bands;    ///< as shared::ShadePush::bands
     Kernel select;
     /// Bits of a shading kernel: what it has code for.
-    enum ShadeVariant : uint32_t { kEveryLight = 1, kPowers = 2, kMaps = 4, kRoads = 8 };
+    enum ShadeVariant : uint32_t { kEveryLight = 1, kPowers = 2, kMaps = 4, kRoads = 8, kRetro = 16 };
     /// Made when it is first asked for.
     const Kernel& shade(uint32_t variant) const;
+    Kernel sky;
     Kernel sources;
     Kernel pyramid_first, pyramid;
     Kernel histogram, adapt;

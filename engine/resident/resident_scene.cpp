@@ -12,6 +12,7 @@
 #include "shaders/gbuffer.vert.inc"
 #include "shared/gbuffer.h"
 #include "shared/photometry.h"
+#include "shared/retro.h"
 #include "shared/shade.h"
 
 namespace vesper {
@@ -50,6 +51,14 @@ Material as_road(const Scene& scene, Material m) {
     m.base_colour = glm::vec4(colour, m.base_colour.a);
     m.metallic = shared::kRoadKind - float(m.reflection_table);
     m.roughness = float(std::numbers::pi * q0);
+    m.metallic_roughness_texture = {};
+    return m;
+}
+
+// A retroreflective surface as the G-buffer holds it (shared/retro.h).
+Material as_sheet(Material m) {
+    m.metallic = shared::kRetroCode + float(m.retroreflector);
+    m.roughness = std::min(m.roughness, 0.999f);  // not matt: lamps count by what they give a surface facing them
     m.metallic_roughness_texture = {};
     return m;
 }
@@ -121,7 +130,9 @@ void ResidentScene::place(const Scene& scene) {
 
 void ResidentScene::make_surfaces(const Device&, const Scene& scene) {
     for (const Material& stated : scene.materials) {
-        const Material m = stated.reflection_table == kNone ? stated : as_road(scene, stated);
+        const Material m = stated.reflection_table != kNone ? as_road(scene, stated)
+                           : stated.retroreflector != kNone ? as_sheet(stated)
+                                                            : stated;
         uint32_t variant = 0;
         if (m.base_colour_texture.image != kNone) variant |= kBaseTexture;
         if (m.metallic_roughness_texture.image != kNone) variant |= kMetallicRoughnessTexture;

@@ -9,6 +9,7 @@
 #include "io/atomic_file.h"
 #include "scene/convert_rules.h"
 #include "scene/gltf_write.h"
+#include "scene/photometry_parts.h"
 
 #ifndef VESPER_VERSION
 #define VESPER_VERSION "0.1.0"
@@ -35,11 +36,16 @@ json block_of(const Conversion& conversion, const std::filesystem::path& input,
     if (p.transfer.kind == Transfer::Kind::Gamma) block["transfer"]["gamma"] = std::stod(decimal(p.transfer.gamma));
     if (p.ambient) block["ambient"] = quantity_of("illuminance_lx", *p.ambient);
     if (p.sky) block["sky"] = quantity_of("luminance_cd_m2", *p.sky);
+    if (!conversion.environment.is_null()) block["environment"] = conversion.environment;
     if (!conversion.lobes.empty()) block["lobes"] = conversion.lobes;
     if (!conversion.openings.empty()) block["openings"] = conversion.openings;
     if (!conversion.roads.empty()) {
         block["reflection_tables"] = conversion.reflection_tables;
         block["roads"] = conversion.roads;
+    }
+    if (!conversion.retroreflective.empty()) {
+        block["retroreflectors"] = conversion.retroreflectors;
+        block["retroreflective"] = conversion.retroreflective;
     }
     block["provenance"] = {{"input", input.filename().string()},
                            {"photometry", photometry.filename().string()},
@@ -97,8 +103,9 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
                                  const std::filesystem::path& output, const std::optional<Transfer>& transfer,
                                  const SceneLimits& limits) {
     check_paths(input, photometry, output);
-    Photometry rules = read_photometry(photometry);
-    if (transfer) rules.transfer = *transfer;
+    Photometry stated = read_photometry(photometry);
+    if (transfer) stated.transfer = *transfer;
+    const Photometry rules = with_night_sky(stated);
 
     GltfDocument document(input, limits);
     if (const auto extras = document.root().find("extras")) {
@@ -113,7 +120,10 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     Conversion conversion{document, original, rules, report};
     convert_lamps(conversion);
     convert_materials(conversion);
+    convert_sky(conversion);
     describe_rest(conversion);
+    if (rules.ambient.has_value() != stated.ambient.has_value() || rules.sky.has_value() != stated.sky.has_value())
+        report.changes.push_back("ambient and sky: what is not stated is that of a clear night over a city");
     json& root = document.edit();
     object_member(document, root, "extras")["vesper"] = block_of(conversion, input, photometry);
 

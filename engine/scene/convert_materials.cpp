@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
 #include "scene/convert_rules.h"
+#include "scene/photometry_parts.h"
 #include "scene/reflection_json.h"
 
 namespace vesper {
@@ -144,10 +146,8 @@ void set_roughness(Conversion& conversion, const SurfaceRule& rule, json& materi
         material["extensions"][kSpecularGlossiness]["glossinessFactor"] = 1 - *rule.roughness;
 }
 
-/// The table's place in the extras block; equal tables are stored once.
-size_t table_index(Conversion& conversion, const ReflectionTable& table) {
-    json& tables = conversion.reflection_tables;
-    const json whole = json_of(table);
+/// The place of something in a list of the extras block; what is equal is stored once.
+size_t index_in(json& tables, const json& whole) {
     const auto same = std::find(tables.begin(), tables.end(), whole);
     if (same != tables.end()) return static_cast<size_t>(same - tables.begin());
     tables.push_back(whole);
@@ -207,15 +207,22 @@ void convert_materials(Conversion& conversion) {
             set_roughness(conversion, rule, material, conversion.original.scene.materials[m]);
             if (rule.reflection_table)
                 conversion.roads.push_back(
-                    {{"material", m}, {"table", table_index(conversion, *rule.reflection_table)}});
+                    {{"material", m}, {"table", index_in(conversion.reflection_tables, json_of(*rule.reflection_table))}});
+            if (rule.retroreflector)
+                conversion.retroreflective.push_back(
+                    {{"material", m}, {"retroreflector", index_in(conversion.retroreflectors, json_of(*rule.retroreflector))}});
         }
         if (!surfaces[r].empty())
             conversion.report.changes.push_back(
                 "surface " + in_quotes(rule.name) + ": " + count_of(surfaces[r].size()) + ", reflectance times " +
                 decimal(rule.reflectance_scale) + (rule.roughness ? ", roughness " + decimal(*rule.roughness) : "") +
                 (rule.metallic ? ", metallic " + decimal(*rule.metallic) : "") +
-                (rule.reflection_table ? described(*rule.reflection_table) : ""));
+                (rule.reflection_table ? described(*rule.reflection_table) : "") +
+                (rule.retroreflector ? ", retroreflection " + rule.retroreflector->name : ""));
     }
+    if (conversion.retroreflectors.size() > kMaxRetroreflectors)
+        throw Error(conversion.document.name() + ": " + std::to_string(conversion.retroreflectors.size()) +
+                    " kinds of retroreflection: " + std::to_string(kMaxRetroreflectors) + " are possible");
 }
 
 }  // namespace vesper

@@ -19,6 +19,8 @@ struct Conversion {
     ConversionReport& report;
     nlohmann::json lobes = nlohmann::json::array();  ///< of the extras block
     nlohmann::json reflection_tables = nlohmann::json::array(), roads = nlohmann::json::array();  ///< the same
+    nlohmann::json retroreflectors = nlohmann::json::array(), retroreflective = nlohmann::json::array();  ///< the same
+    nlohmann::json environment{};                                                                         ///< the same
     nlohmann::json openings = nlohmann::json::array();                                            ///< the same
     /// Light profile of EXT_lights_ies for a measured lamp and the length, width and roundness of its opening.
     std::map<std::tuple<uint32_t, double, double, bool>, size_t> profiles{};
@@ -36,6 +38,8 @@ std::string in_quotes(const std::string& name);
 
 /// Removes the lights there are, puts lamps on nodes.
 void convert_lamps(Conversion& conversion);
+/// Directional lights, the sky, and what of both is not stated.
+void convert_sky(Conversion& conversion);
 /// Emission and reflectance of materials.
 void convert_materials(Conversion& conversion);
 /// Warns of what cannot be right: sizes, lamps, things that look like lights and were not matched.

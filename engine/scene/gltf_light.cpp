@@ -114,7 +114,8 @@ void read_photometry_block(GltfReader& reader) {
     if (version.integer() != 1)
         version.fail("vesper extras of version " + std::to_string(version.integer()) +
                      ": this program reads version 1");
-    block->allow_only({"version", "transfer", "ambient", "sky", "lobes", "openings", "reflection_tables", "roads", "provenance"});
+    block->allow_only({"version", "transfer", "ambient", "sky", "environment", "lobes", "openings", "reflection_tables", "roads",
+                       "retroreflectors", "retroreflective", "provenance"});
     if (const auto transfer = block->find("transfer")) {
         transfer->allow_only({"kind", "gamma"});
         const std::string& kind = transfer->at("kind").text();
@@ -127,8 +128,10 @@ void read_photometry_block(GltfReader& reader) {
     if (const auto sky = block->find("sky"))
         read_uniform(*sky, "luminance_cd_m2", reader.scene.sky_luminance, reader.scene.sky_colour);
     for (const JsonValue& lobe : block->elements_of("lobes")) read_lobe(reader, lobe);
+    if (const auto environment = block->find("environment")) read_environment(reader, *environment);
     for (const JsonValue& opening : block->elements_of("openings")) read_opening(reader, opening);
     read_reflection_tables(reader, *block);
+    read_retroreflectors(reader, *block);
 }
 
 }  // namespace vesper

@@ -66,6 +66,10 @@ void read_animations(GltfReader& reader);
 void read_photometry_block(GltfReader& reader);
 /// "reflection_tables" and "roads" of that block.
 void read_reflection_tables(GltfReader& reader, const JsonValue& block);
+/// "retroreflectors" and "retroreflective".
+void read_retroreflectors(GltfReader& reader, const JsonValue& block);
+/// "environment".
+void read_environment(GltfReader& reader, const JsonValue& source);
 
 /// All of the above in order, and the checks that need the whole scene.
 void read_all(GltfReader& reader);

@@ -8,8 +8,9 @@
 #include "io/atomic_file.h"
 #include "scene/colour.h"
 #include "scene/json_value.h"
-#include "scene/reflection_json.h"
 #include "scene/photometry_measured.h"
+#include "scene/photometry_parts.h"
+#include "scene/reflection_json.h"
 
 namespace vesper {
 namespace {
@@ -22,8 +23,9 @@ glm::dvec3 read_vector(const JsonValue& value) {
     return {v[0], v[1], v[2]};
 }
 
-/// colour_temperature_K or colour_rgb, brought to luminance 1; white where neither is given.
-glm::dvec3 read_colour(const JsonValue& holder, double* kelvin = nullptr) {
+}  // namespace
+
+glm::dvec3 read_colour(const JsonValue& holder, double* kelvin) {
     const auto temperature = holder.find("colour_temperature_K"), rgb = holder.find("colour_rgb");
     if (temperature && rgb) rgb->fail("is given beside colour_temperature_K: one of them is wanted");
     if (temperature) {
@@ -37,6 +39,8 @@ glm::dvec3 read_colour(const JsonValue& holder, double* kelvin = nullptr) {
     if (!(luminance(colour) > 1e-6)) rgb->fail("must not be black");
     return colour / luminance(colour);
 }
+
+namespace {
 
 std::vector<std::string> read_patterns(const JsonValue& rule, const char* key) {
     const JsonValue value = rule.at(key);
@@ -158,7 +162,8 @@ EmitterRule read_emitter(const JsonValue& source, const Photometry& made) {
 }
 
 SurfaceRule read_surface(const JsonValue& source, const std::filesystem::path& folder) {
-    source.allow_only({"name", "materials", "reflectance_scale", "roughness", "metallic", "reflection_table", "q0"});
+    source.allow_only({"name", "materials", "reflectance_scale", "roughness", "metallic", "reflection_table", "q0",
+                       "retroreflection"});
     SurfaceRule rule;
     rule.materials = read_patterns(source, "materials");
     rule.name = source.text_or("name", rule.materials.front());
@@ -169,6 +174,10 @@ SurfaceRule read_surface(const JsonValue& source, const std::filesystem::path& f
         rule.reflection_table = read_named_table(source, folder);
     else if (const auto q0 = source.find("q0"))
         q0->fail("has a meaning only beside a reflection_table");
+    if (const auto retroreflection = source.find("retroreflection")) {
+        if (rule.reflection_table) retroreflection->fail("is given beside reflection_table: one of them is wanted");
+        rule.retroreflector = read_retroreflection(*retroreflection);
+    }
     return rule;
 }
 
@@ -219,13 +228,19 @@ bool matches(const char* pattern, const char* text, char barrier) {
 Photometry read_photometry(const std::filesystem::path& file) {
     const JsonFile json = parse_json(read_file(file, kMaxBytes), file.string());
     const JsonValue root(json);
-    root.allow_only({"$schema", "version", "textures", "ambient", "sky", "lights", "lamps", "emitters", "surfaces"});
+    root.allow_only({"$schema", "version", "textures", "ambient", "sky", "directional", "lights", "lamps", "emitters", "surfaces"});
     const JsonValue version = root.at("version");
     if (version.integer() != 1) version.fail("must be 1: this program knows no other");
     Photometry made;
     if (const auto textures = root.find("textures")) made.transfer = read_transfer(*textures);
     if (const auto ambient = root.find("ambient")) made.ambient = read_quantity(*ambient, "illuminance_lx", 2e5);
-    if (const auto sky = root.find("sky")) made.sky = read_quantity(*sky, "luminance_cd_m2", 1e6);
+    if (const auto sky = root.find("sky")) {
+        if (sky->find("image"))
+            made.sky_picture = read_sky_picture(*sky, file.parent_path());
+        else
+            made.sky = read_quantity(*sky, "luminance_cd_m2", 1e6);
+    }
+    for (const JsonValue& rule : root.elements_of("directional")) made.directional.push_back(read_directional(rule));
     if (const auto lights = root.find("lights")) {
         lights->allow_only({"keep"});
         made.keep_lights = lights->boolean_or("keep", false);

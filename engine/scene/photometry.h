@@ -47,6 +47,7 @@ struct SurfaceRule {
     double reflectance_scale = 1;
     std::optional<double> roughness, metallic;
     std::optional<ReflectionTable> reflection_table;
+    std::optional<Retroreflector> retroreflector;
 };
 
 /// A quantity with a colour of luminance 1.
@@ -55,10 +56,27 @@ struct ColouredQuantity {
     glm::dvec3 colour{1};
 };
 
+/// A picture for a sky.
+struct SkyPicture {
+    std::string file;  ///< as the photometry file has it
+    Environment environment{};
+    uint64_t cleaned = 0;  ///< pixels that were not finite or below 0
+};
+
+/// Light from one direction: the moon, dusk.
+struct DirectionalRule {
+    std::string name;
+    double illuminance = 0;          ///< on a surface facing it, lx
+    glm::dvec3 colour{1};            ///< linear, luminance 1
+    glm::dvec3 direction{0, -1, 0};  ///< in which the light goes, world frame, unit length
+};
+
 struct Photometry {
     Transfer transfer{Transfer::Kind::Gamma, 2.2f};
     std::optional<ColouredQuantity> ambient;  ///< illuminance, lx
     std::optional<ColouredQuantity> sky;      ///< luminance, cd/m^2
+    std::optional<SkyPicture> sky_picture;    ///< or this
+    std::vector<DirectionalRule> directional;
     bool keep_lights = false;
     std::vector<LampRule> lamps;
     std::vector<MeasuredLamp> measured;  ///< each once, however many rules name it

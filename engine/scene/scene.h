@@ -14,7 +14,9 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "photometry/distribution.h"
+#include "photometry/environment.h"
 #include "photometry/reflection_table.h"
+#include "photometry/retroreflection.h"
 
 namespace vesper {
 
@@ -68,6 +70,7 @@ struct Material {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     uint32_t reflection_table = kNone;  ///< index into Scene::reflection_tables
+    uint32_t retroreflector = kNone;    ///< index into Scene::retroreflectors; such a surface is no metal
 };
 
 struct Vertex {
@@ -134,6 +137,8 @@ struct Channel {
     std::vector<glm::vec4> values;  ///< xyz or quaternion xyzw; Cubic: in-tangent, value, out-tangent per key
 };
 
+constexpr size_t kMaxRetroreflectors = 8;  ///< what the shaders take
+
 struct Scene {
     std::string name;
     std::vector<Image> images;
@@ -142,6 +147,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Distribution> distributions;
     std::vector<ReflectionTable> reflection_tables;  ///< as published; extended() is for rendering
+    std::vector<Retroreflector> retroreflectors;     ///< at most kMaxRetroreflectors
     std::vector<Camera> cameras;
     std::vector<Node> nodes;        ///< parents before children
     std::vector<Channel> channels;  ///< of all animations, played together
@@ -150,6 +156,7 @@ struct Scene {
     glm::vec3 ambient_colour{1};    ///< linear, luminance 1
     float sky_luminance = 0;        ///< of the background, cd/m^2
     glm::vec3 sky_colour{1};        ///< linear, luminance 1
+    std::optional<Environment> environment;  ///< a picture of the sky, instead of the two above
 };
 
 /// Where every node stands at a time: node frame to world, one matrix per node. Channels hold their first and last

@@ -5,7 +5,8 @@
 SHARED_BEGIN
 
 // What the reflectance image holds in place of metallic where the surface is of another kind: -1 - k for a road with
-// table k. There, its colour is relative (mean luminance 1), and its roughness pi Q0.
+// table k. There, its colour is relative (mean luminance 1), and its roughness pi Q0. kRetroCode + k of shared/retro.h for a
+// retroreflective surface of class k, a dielectric otherwise.
 const float kRoadKind = -1.0;
 
 const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of blocks

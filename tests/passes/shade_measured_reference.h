@@ -7,6 +7,7 @@
 
 #include "photometry/distribution.h"
 #include "photometry/reflection_table.h"
+#include "photometry/retroreflection.h"
 
 namespace vesper::reference {
 
@@ -27,6 +28,7 @@ struct MeasuredLamp {
 struct Measurements {
     std::span<const MeasuredLamp> lamps;      ///< the maps of the light list, in its order
     std::span<const ReflectionTable> roads;   ///< extended()
+    std::span<const Retroreflector> sheets;   ///< classes of retroreflection
 };
 
 /// L / E of a road on the plane facing the lamp, sr^-1: r / cos^2(gamma) (CIE 144:2001), which beyond the table keeps its

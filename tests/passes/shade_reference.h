@@ -7,6 +7,8 @@
 
 #include "passes/cluster_reference.h"
 #include "passes/shade_measured_reference.h"
+#include "passes/shade_retro_reference.h"
+#include "shared/retro.h"
 #include "shared/shade.h"
 
 namespace vesper::reference {
@@ -71,11 +73,17 @@ struct Shaded {
     dvec3 rounding{0};   ///< cd/m^2, first order
 };
 
+/// A retroreflective surface: its class, if it is one, and its colour.
+struct Sheet {
+    const Retroreflector* retroreflector = nullptr;
+    dvec3 base{0};
+};
+
 /// Adds one light. A lamp counts where it gives at least `threshold` lx on a surface facing it, or, where the surface is
 /// matt, on the surface itself; a directional light always does. Light that arrives from below the surface does not count.
 inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
                       double roughness, double threshold, Shaded& sum, const MeasuredLamp* measured = nullptr,
-                      const ReflectionTable* road = nullptr) {
+                      const ReflectionTable* road = nullptr, const Sheet& sheet = {}) {
     const dvec3 v = glm::normalize(-point);
     const bool lamp = kind != LightKind::Directional;
     const dvec3 path = lamp ? dvec3(light.position) - point : -dvec3(light.axis);
@@ -107,6 +115,12 @@ inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, d
     const dvec3 reflected = dvec3(light.colour) * (rho_lambert + s.value);
     if (nl > 0 && (!lamp || e * arriving >= threshold)) sum.luminance += reflected * e * nl;
     const double brightest = std::max(more, less);
+    if (sheet.retroreflector && nl > 0) {
+        const Returned back = returned(*sheet.retroreflector, n, l, v, epsilon);
+        const dvec3 colour = sheet.base * dvec3(light.colour);
+        if (!lamp || e * arriving >= threshold) sum.luminance += colour * e * back.value;
+        sum.rounding += colour * ((uncertain ? brightest : std::abs(more - less)) * back.value + brightest * back.rounding);
+    }
     sum.rounding +=
         uncertain ? reflected * brightest * std::max(nl, 0.0) : reflected * std::abs(more - less) * std::max(nl, 0.0);
     sum.rounding += glm::abs(reflected) * brightest * epsilon +
@@ -121,8 +135,9 @@ inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<co
     const dvec3 point = view_position(p.grid, dvec2(pixel) + 0.5, depth);
     const dvec3 n = octahedral_decode(dvec2(texel.surface));
     const dvec3 base(texel.reflectance);
-    const double kind = texel.reflectance.w, metallic = std::max(kind, 0.0), roughness = texel.surface.w;
+    const double kind = texel.reflectance.w, metallic = kind >= shared::kRetroCode ? 0 : std::max(kind, 0.0), roughness = texel.surface.w;
     const ReflectionTable* road = kind < 0 ? &measurements.roads[size_t(-1 - kind)] : nullptr;
+    const Sheet sheet{kind >= shared::kRetroCode ? &measurements.sheets[size_t(kind - shared::kRetroCode)] : nullptr, base};
     const dvec3 rho_lambert = base * (1 - metallic) * double(p.lambert);
     const dvec3 f0 = normal_reflectance(base, metallic, roughness);
 
@@ -130,7 +145,7 @@ inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<co
     const size_t maps = size_t(p.lights.cones) + p.lights.powers, count = maps + p.lights.maps + p.lights.directional;
     for (size_t i = 0; i < count; ++i)
         add_light(lights[i], kind_of(i, p.lights), point, n, rho_lambert, f0, roughness, p.threshold, sum,
-                  kind_of(i, p.lights) == LightKind::Map ? &measurements.lamps[i - maps] : nullptr, road);
+                  kind_of(i, p.lights) == LightKind::Map ? &measurements.lamps[i - maps] : nullptr, road, sheet);
     // A metal reflects its base colour too; a road pi Q0, which its roughness holds.
     sum.luminance += dvec3(p.ambient) * base * double(p.lambert) * (road ? roughness : 1);
     sum.luminance += glm::min(texel.emission, dvec3(double(p.emission_limit)));

@@ -1,0 +1,48 @@
+// A whole frame of a scene with a picture of the sky and a retroreflective sign. SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "renderer.h"
+#include "support/scene_geometry.h"
+
+namespace vesper::test {
+namespace {
+
+// A white sign of class RA2 stands 100 m ahead under a uniform sky of 2 cd/m^2, lit by two lamps of 500 cd each, half a
+// degree from the eye as the sign sees them: 12.5 cd/m^2 would come back of white. Its base colour is 0.5: half of that, and
+// 1 cd/m^2 of the sky.
+TEST(RendererSky, ASignUnderThePictureOfASky) {
+    std::string complaints;
+    Device device({.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
+    Scene scene;
+    scene.environment = Environment{64, 32, std::vector<float>(64 * 32 * 3, 2)};
+    scene.retroreflectors = {retroreflective_class("RA1"), retroreflective_class("RA2")};
+    Material sign;
+    sign.base_colour = {0.5f, 0.5f, 0.5f, 1};
+    sign.metallic = 1;  // a sheet is no metal, whatever its material says
+    sign.retroreflector = 1;
+    scene.materials = {sign};
+    add_mesh(scene, rectangle({-10, -10, -100}, {20, 0, 0}, {0, 20, 0}), kRectangle, 0);
+    const float off = 100 * std::tan(glm::radians(0.5f));
+    scene.lights = {Light{.name = "lamp", .kind = Light::Kind::Point, .intensity = 500}};
+    for (float side : {-off, off}) {
+        Node node;
+        node.translation = {side, 0, 0}, node.light = 0;
+        scene.nodes.push_back(node);
+    }
+    Renderer renderer(device, scene);
+    const View view = View::symmetric({33, 33}, 0.4f, glm::mat4(1));
+    const auto at = [&](const RenderSettings& settings, int x, int y) {
+        const Frame frame = renderer.render(settings, view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
+        return frame.scene[size_t(y * 33 + x) * 4 + 1];
+    };
+    // 0.016: what 0.1 lx gives a matt surface of 0.5.
+    EXPECT_NEAR(at({}, 16, 16), 12.5 / 2 + 1 + 0.016, 0.1);
+    EXPECT_NEAR(at({}, 1, 1), 2, 1e-3) << "beside the sign";
+    // The baseline knows neither.
+    EXPECT_EQ(at({.tone_operator = Operator::Ldr}, 1, 1), 0);
+    EXPECT_LE(at({.tone_operator = Operator::Ldr}, 16, 16), 1);
+    EXPECT_EQ(complaints, "");
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "arguments.h"
 #include "base/error.h"
 #include "commands.h"
-#include "io/atomic_file.h"
 #include "road_report.h"
 #include "scene/road_file.h"
 
@@ -17,10 +17,6 @@ struct RoadArguments {
     RoadOverrides overrides;
     bool grid = false;
 };
-
-void write_text(const std::string& file, const std::string& text) {
-    replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));
-}
 
 void run(const RoadArguments& arguments) {
     const RoadFile file = read_road(arguments.layout, arguments.overrides);

@@ -1,21 +1,11 @@
 #include "road_report.h"
 
-#include <cstdarg>
-#include <cstdio>
-
 #include <nlohmann/json.hpp>
+
+#include "arguments.h"
 
 namespace vesper {
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-    char text[512];
-    va_list arguments;
-    va_start(arguments, pattern);
-    std::vsnprintf(text, sizeof text, pattern, arguments);
-    va_end(arguments);
-    return text;
-}
 
 const char* name_of(Arrangement arrangement) {
     switch (arrangement) {

@@ -168,6 +168,10 @@ std::vector<double> log_ticks(double low, double high) {
     return ticks;
 }
 
-std::string tick_label(double value) { return format("%.3g", std::abs(value) < 1e-12 ? 0.0 : value); }
+std::string tick_label(double value) {
+    const double size = std::abs(value);
+    if (size < 1e-12) return "0";
+    return size >= 100 && size < 1e6 ? format("%.0f", value) : format("%.3g", value);
+}
 
 }  // namespace vesper

@@ -54,7 +54,7 @@ private:
 std::vector<double> linear_ticks(double low, double high, int count);
 /// Powers of ten in [low, high], and 2 and 5 times those where there are few decades.
 std::vector<double> log_ticks(double low, double high);
-/// A value of a tick as short as possible: 0.05, 20, 1e6.
+/// A value of a tick as short as possible: 0.05, 20000, 1e+06.
 std::string tick_label(double value);
 
 }  // namespace vesper

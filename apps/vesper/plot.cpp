@@ -37,7 +37,7 @@ void draw_axes(Canvas& canvas, const Frame& frame, const std::string& x_name, co
         canvas.line({at, end.y}, {at, end.y + 5}, kInk);
         canvas.text({at, end.y + 15}, tick_label(x), 12, Canvas::Align::Centre);
     }
-    for (const double y : linear_ticks(frame.low_y, frame.high_y, 8)) {
+    for (const double y : linear_ticks(std::min(frame.low_y, frame.high_y), std::max(frame.low_y, frame.high_y), 8)) {
         const double at = frame.at(frame.low_x, y).y;
         if (grid) canvas.line({frame.corner.x, at}, {end.x, at}, kGrey);
         canvas.line({frame.corner.x - 5, at}, {frame.corner.x, at}, kInk);
@@ -45,7 +45,7 @@ void draw_axes(Canvas& canvas, const Frame& frame, const std::string& x_name, co
     }
     canvas.rectangle(frame.corner, frame.size, kInk);
     canvas.text({frame.corner.x + frame.size.x / 2, end.y + 36}, x_name, 13, Canvas::Align::Centre);
-    canvas.text({frame.corner.x - 52, frame.corner.y + frame.size.y / 2}, y_name, 13, Canvas::Align::Centre, kInk, false, true);
+    canvas.text({frame.corner.x - 56, frame.corner.y + frame.size.y / 2}, y_name, 13, Canvas::Align::Centre, kInk, false, true);
 }
 
 void draw_legend(Canvas& canvas, glm::dvec2 at, const std::vector<NamedCut>& cuts) {
@@ -56,6 +56,14 @@ void draw_legend(Canvas& canvas, glm::dvec2 at, const std::vector<NamedCut>& cut
     }
 }
 
+/// Whether type C has light above the horizontal that a diagram would show.
+bool shines_up(const Distribution& d, const BeamFigures& figures) {
+    for (size_t h = 0; h < d.horizontal.size(); ++h)
+        for (size_t v = 0; v < d.vertical.size(); ++v)
+            if (d.vertical[v] > 91 && d.at(h, v) > 0.005 * figures.largest) return true;
+    return false;
+}
+
 void draw_polar(Canvas& canvas, const Distribution& d, const BeamFigures& figures, glm::dvec2 corner, glm::dvec2 size) {
     std::vector<NamedCut> cuts{{"C0 \u2013 C180", plane_cut(d, 0)}, {"C90 \u2013 C270", plane_cut(d, 90)}};
     const double c = figures.largest_h;
@@ -63,9 +71,9 @@ void draw_polar(Canvas& canvas, const Distribution& d, const BeamFigures& figure
         cuts = {{"every plane", plane_cut(d, 0)}};
     else if (std::fmod(c, 90) != 0)
         cuts.push_back({format("C%g \u2013 C%g (max)", c, std::fmod(c + 180, 360)), plane_cut(d, c), true});
-    const bool up = d.vertical.back() > 90;
-    const double radius = up ? std::min(size.x / 2, size.y / 2) - 30 : std::min(size.x / 2 - 30, size.y - 60);
-    const glm::dvec2 centre = corner + glm::dvec2(size.x / 2, up ? size.y / 2 : 30);
+    const bool up = shines_up(d, figures);
+    const double radius = up ? std::min(size.x / 2, size.y / 2) - 30 : std::min(size.x / 2 - 30, size.y - 100);
+    const glm::dvec2 centre = corner + glm::dvec2(size.x / 2, up ? size.y / 2 : 90);
     const std::vector<double> rings = linear_ticks(0, figures.largest * 1.08, 5);
     const double full = std::max(figures.largest * 1.05, rings.empty() ? 1 : rings.back());
     const auto place = [&](double gamma, double candela) {
@@ -128,28 +136,38 @@ void draw_points(Canvas& canvas, const Distribution& d, const Frame& frame) {
         const glm::dvec2 at = frame.at(point.h, point.v);
         if (point.h < frame.low_x || point.h > frame.high_x || point.v < frame.low_y || point.v > frame.high_y) continue;
         const double candela = intensity_at(d, point.h, point.v);
+        const bool left = point.h < 0, below = point.h == 0;
         const bool holds = candela >= point.least && (point.most == 0 || candela <= point.most);
         canvas.disc(at, 3.5, Colour(1));
         canvas.disc(at, 2.5, holds ? Colour(0) : Colour(0.9, 0.1, 0.1));
-        canvas.text(at + glm::dvec2(5, -7), point.name, 9, Canvas::Align::Left, Colour(1), true);
+        canvas.text(at + glm::dvec2(left ? -6 : below ? 0 : 6, below ? 10 : 0), point.name, 10,
+                    left ? Canvas::Align::Right : below ? Canvas::Align::Centre : Canvas::Align::Left, Colour(1), true);
     }
+}
+
+/// What of a headlamp's grid is worth showing: where it holds more than 1.5 % of its greatest, and the points of UN R112.
+Frame headlamp_frame(const Distribution& d, const BeamFigures& figures, Frame frame) {
+    const glm::dvec2 first(d.horizontal.front(), d.vertical.front()), last(d.horizontal.back(), d.vertical.back());
+    glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+    const auto add = [&](double h, double v) { low = glm::min(low, {h, v}), high = glm::max(high, {h, v}); };
+    for (size_t h = 0; h < d.horizontal.size(); ++h)
+        for (size_t v = 0; v < d.vertical.size(); ++v)
+            if (d.at(h, v) > 0.015 * figures.largest) add(d.horizontal[h], d.vertical[v]);
+    for (const BeamPoint& point : passing_beam_points()) add(point.h, point.v);
+    low = glm::max(low - 1.0, first), high = glm::min(high + 1.0, last);
+    if (!(high.x > low.x) || !(high.y > low.y)) low = first, high = last;
+    frame.low_x = low.x, frame.high_x = high.x, frame.low_y = low.y, frame.high_y = high.y;
+    return frame;
 }
 
 void draw_map(Canvas& canvas, const Distribution& d, const BeamFigures& figures, glm::dvec2 corner, glm::dvec2 size) {
     const bool type_c = d.goniometry == Goniometry::CGamma;
-    // gamma grows downwards, as the light does; a headlamp's grid is shown where it holds more than 0.2 % of its greatest.
-    Frame frame{corner + glm::dvec2(70, 0), size - glm::dvec2(90 + kBarWidth, 20), 0, 360, d.vertical.back(), d.vertical.front()};
-    if (!type_c) {
-        frame = {frame.corner, frame.size, HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};
-        for (size_t h = 0; h < d.horizontal.size(); ++h)
-            for (size_t v = 0; v < d.vertical.size(); ++v) {
-                if (d.at(h, v) < 0.002 * figures.largest) continue;
-                frame.low_x = std::min(frame.low_x, d.horizontal[h]), frame.high_x = std::max(frame.high_x, d.horizontal[h]);
-                frame.low_y = std::min(frame.low_y, d.vertical[v]), frame.high_y = std::max(frame.high_y, d.vertical[v]);
-            }
-        if (!(frame.high_x > frame.low_x)) frame.low_x = d.horizontal.front(), frame.high_x = d.horizontal.back();
-        if (!(frame.high_y > frame.low_y)) frame.low_y = d.vertical.front(), frame.high_y = d.vertical.back();
-    }
+    // gamma grows downwards on the page, as the light goes up.
+    Frame frame{corner + glm::dvec2(70, 0), size - glm::dvec2(90 + kBarWidth, 20), 0, 360, 180, d.vertical.front()};
+    if (type_c)
+        frame.low_y = shines_up(d, figures) ? d.vertical.back() : std::min(90.0, d.vertical.back());
+    else
+        frame = headlamp_frame(d, figures, frame);
     const double top = figures.largest > 0 ? figures.largest : 1;
     const ColourScale scale{top / 1000, top};
     const ValuePicture picture = sampled(d, frame);

@@ -161,7 +161,7 @@ BeamFigures beam_figures(const Distribution& d) {
     figures.largest_v = d.vertical[index % d.vertical.size()];
     figures.symmetry = symmetry_of(d);
     if (d.goniometry != Goniometry::CGamma || !(figures.flux > 0)) return figures;
-    if (d.vertical.back() > 90) figures.upward_share = 1 - luminous_flux(lower_half(d)) / figures.flux;
+    if (d.vertical.back() > 90) figures.upward_share = std::max(0.0, 1 - luminous_flux(lower_half(d)) / figures.flux);
     if (d.vertical.front() >= 90) figures.upward_share = 1;
     find_cut_off(d, figures);
     return figures;

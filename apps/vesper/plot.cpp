@@ -45,7 +45,7 @@ void draw_axes(Canvas& canvas, const Frame& frame, const std::string& x_name, co
     }
     canvas.rectangle(frame.corner, frame.size, kInk);
     canvas.text({frame.corner.x + frame.size.x / 2, end.y + 36}, x_name, 13, Canvas::Align::Centre);
-    canvas.text({frame.corner.x - 56, frame.corner.y + frame.size.y / 2}, y_name, 13, Canvas::Align::Centre, kInk, false, true);
+    canvas.text({frame.corner.x - 64, frame.corner.y + frame.size.y / 2}, y_name, 13, Canvas::Align::Centre, kInk, false, true);
 }
 
 void draw_legend(Canvas& canvas, glm::dvec2 at, const std::vector<NamedCut>& cuts) {

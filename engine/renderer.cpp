@@ -35,6 +35,9 @@ Renderer::Renderer(Device& device, const Scene& scene)
     : kernels_(device),
       resident_(device, scene),
       lights_(placed_lights(scene)),
+      maps_(light_maps(scene)),
+      map_arena_(device),
+      map_texels_(upload_buffer(device, map_arena_, std::as_bytes(std::span(maps_.texels)), VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT)),
       ambient_illuminance_(scene.ambient_illuminance),
       sky_luminance_(scene.sky_luminance),
       ambient_colour_(scene.ambient_colour),
@@ -55,7 +58,9 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
         shading.ambient = ambient_illuminance_ * ambient_colour_, shading.sky = sky_luminance_ * sky_colour_;
 
     const GBuffer surfaces = add_gbuffer(graph, resident_, frame, view);
-    const Clusters clusters = add_clusters(graph, kernels_, lights, view, clustering);
+    const MapTexels maps{graph.external("maps", map_texels_.get(), maps_.texels.size() * sizeof(uint64_t), VK_FORMAT_R16G16B16A16_SFLOAT),
+                         maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};
+    const Clusters clusters = add_clusters(graph, kernels_, lights, maps, view, clustering);
     const Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
     const Pyramid luminance = add_pyramid(graph, kernels_, scene, view.extent);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
@@ -80,7 +85,7 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
 
 Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, Outputs outputs) {
     const auto start = std::chrono::steady_clock::now();
-    LightList lights = light_list(lights_, frame, view);
+    LightList lights = light_list(lights_, maps_, frame, view);
     if (settings.tone_operator == Operator::Ldr) set_to_one(lights, settings.ldr_reference_distance);
 
     FrameGraph graph;

@@ -75,7 +75,7 @@ public:
     /// Forgets what the eye was adapted to, as at a camera cut.
     void reset_adaptation();
     const ResidentScene& scene() const { return resident_; }
-    uint64_t device_bytes() const { return resident_.bytes() + executor_.heap_bytes(); }
+    uint64_t device_bytes() const { return resident_.bytes() + map_arena_.bytes() + executor_.heap_bytes(); }
 
 private:
     /// The frame's resources that the host reads.
@@ -90,6 +90,9 @@ private:
     Kernels kernels_;
     ResidentScene resident_;
     std::vector<PlacedLight> lights_;
+    LightMaps maps_;
+    Arena map_arena_;
+    OwnedBuffer map_texels_;
     float ambient_illuminance_, sky_luminance_;
     glm::vec3 ambient_colour_, sky_colour_;
     Executor executor_;

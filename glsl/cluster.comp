@@ -16,6 +16,7 @@ layout(binding = 2) uniform usamplerBuffer parent_indices;
 layout(binding = 3, r32ui) writeonly uniform uimageBuffer counts;
 layout(binding = 4, r32ui) writeonly uniform uimageBuffer indices;
 layout(binding = 5, scalar) buffer Report { ClusterReport report; };
+layout(binding = 6) uniform samplerBuffer maps;
 layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
 
 vec3 centre;
@@ -47,6 +48,13 @@ bool cone_reaches(int light) {
     return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
+bool map_reaches(int light) {
+    const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
+    const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
+    const float largest = a.w * largest_map(maps, b.w, nearest_cosine(a.xyz, b.xyz, centre, radius));
+    return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
+}
+
 bool power_reaches(int light) {
     const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
     const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
@@ -65,10 +73,10 @@ void main() {
                                cell.z * push.slices_per_cell / push.slices_per_parent);
     const uint parent_index = (parent.z * push.parents_y + parent.y) * push.parents_x + parent.x;
     const uint listed_cones = texelFetch(parent_counts, int(2u * parent_index)).r;
-    const uint listed_powers = texelFetch(parent_counts, int(2u * parent_index + 1u)).r;
+    const uint listed_others = texelFetch(parent_counts, int(2u * parent_index + 1u)).r;
     const bool all_of_them = listed_cones == kAllLights;
     const uint cones = all_of_them ? push.view.lights.cones : listed_cones;
-    const uint powers = all_of_them ? push.view.lights.powers : listed_powers;
+    const uint others = all_of_them ? push.view.lights.powers + push.view.lights.maps : listed_others;
     const uint list = all_of_them ? 0u : parent_index * push.parent_capacity;
 
     const uint base = index * push.capacity;
@@ -80,9 +88,10 @@ void main() {
         ++count;
     }
     const uint kept_cones = count;
-    for (uint i = 0u; i < powers; ++i) {
+    for (uint i = 0u; i < others; ++i) {
         const uint light = all_of_them ? cones + i : texelFetch(parent_indices, int(list + cones + i)).r;
-        if (!power_reaches(int(light))) continue;
+        const bool map = light >= push.view.lights.cones + push.view.lights.powers;
+        if (map ? !map_reaches(int(light)) : !power_reaches(int(light))) continue;
         if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
         ++count;
     }

@@ -22,6 +22,11 @@ float largest_cone(float lobe_a, float lobe_b, float cosine) {
 }
 float largest_power(float exponent, float cosine) { return cosine > 0.0 ? exp2(exponent * log2(cosine)) : 0.0; }
 
+// Beyond the angle of that cosine nothing of a map is brighter.
+float largest_map(samplerBuffer maps, float envelope, float cosine) {
+    return texelFetch(maps, int(envelope + min(floor(sqrt(max(0.5 - 0.5 * cosine, 0.0)) * float(kEnvelope)), float(kEnvelope) - 1.0))).r;
+}
+
 // Whether an intensity still gives the threshold at a distance, m.
 bool reaches(float intensity, float nearest, float threshold) {
     return nearest <= 0.0 ? intensity > 0.0 : kSlack * intensity >= threshold * nearest * nearest;

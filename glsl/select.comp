@@ -20,6 +20,7 @@ layout(binding = 2) uniform usamplerBuffer counts;
 layout(binding = 3) uniform usamplerBuffer indices;
 layout(binding = 4, r32ui) writeonly uniform uimageBuffer block_counts;
 layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
+layout(binding = 6) uniform samplerBuffer maps;
 layout(push_constant, scalar) uniform Push { SelectPush push; };
 
 const uint kMaxTurns = 7000u;  // of one invocation; a CPU device counts those of eight together
@@ -67,7 +68,7 @@ vec3 largest_product(vec3 a_low, vec3 a_high, vec3 b_low, vec3 b_high) {
     return max(max(a_low * b_low, a_low * b_high), max(a_high * b_low, a_high * b_high));
 }
 
-bool lights_block(uint light, bool power) {
+bool lights_block(uint light) {
     const int texel = int(light * kTexelsPerLight);
     const vec4 a = texelFetch(lights, texel), b = texelFetch(lights, texel + 1);
     const float lobe_b = texelFetch(lights, texel + 2).w;
@@ -75,7 +76,10 @@ bool lights_block(uint light, bool power) {
     const float radius = kSlack * 0.5 * distance(position_low, position_high);
     const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
     const float cosine = nearest_cosine(a.xyz, b.xyz, centre, radius);
-    const float largest = a.w * (power ? largest_power(b.w, cosine) : largest_cone(b.w, lobe_b, cosine));
+    float relative = largest_cone(b.w, lobe_b, cosine);
+    if (light >= push.view.lights.cones) relative = largest_power(b.w, cosine);
+    if (light >= push.view.lights.cones + push.view.lights.powers) relative = largest_map(maps, b.w, cosine);
+    const float largest = a.w * relative;
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);
     const float slack = 1e-5 * (abs(facing.x) + abs(facing.y) + abs(facing.z));
@@ -98,10 +102,10 @@ uint open_lists(uvec2 tile, inout uint slices) {
         const uint slice = any ? uint(findLSB(slices)) : 0u;
         const uint cell = (slice * grid.tiles_y + tile.y) * grid.tiles_x + tile.x;
         const uint cones = texelFetch(counts, int(2u * cell)).r;
-        const uint powers = texelFetch(counts, int(2u * cell + 1u)).r;
+        const uint others = texelFetch(counts, int(2u * cell + 1u)).r;
         const bool overflowed = cones == kAllLights;
         list_at[k] = cell * grid.capacity;
-        list_end[k] = list_at[k] + (any && !overflowed ? cones + powers : 0u);
+        list_end[k] = list_at[k] + (any && !overflowed ? cones + others : 0u);
         next_light[k] = read_list(k);
         fits = fits && !(any && overflowed);
         opened |= any ? 1u << slice : 0u;
@@ -125,7 +129,7 @@ void main() {
     if (any(greaterThanEqual(corner, push.size))) return;
     const uint block = gl_GlobalInvocationID.y * push.blocks_x + gl_GlobalInvocationID.x;
     const uint base = block * push.capacity;
-    uint cones = 0u, powers = 0u, turns = 0u;
+    uint cones = 0u, others = 0u, turns = 0u;
     bool fits = true;
     uint left = occupied_slices(corner);
     while (fits && left != 0u) {
@@ -137,15 +141,15 @@ void main() {
         // silently ends the loops of an invocation after 65,535 turns in all.
         for (uint light = fits ? take_light() : ~0u; light != ~0u && turns < kMaxTurns; light = take_light()) {
             ++turns;
-            const bool power = light >= push.view.lights.cones;
-            if (!lights_block(light, power)) continue;
-            const uint at = power ? push.capacity - 1u - powers : cones;
-            if (cones + powers < push.capacity) imageStore(entries, int(base + at), uvec4(light | first << kFirstSliceShift | last << kLastSliceShift));
-            powers += power ? 1u : 0u;
-            cones += power ? 0u : 1u;
+            const bool cone = light < push.view.lights.cones;
+            if (!lights_block(light)) continue;
+            const uint at = cone ? cones : push.capacity - 1u - others;
+            if (cones + others < push.capacity) imageStore(entries, int(base + at), uvec4(light | first << kFirstSliceShift | last << kLastSliceShift));
+            others += cone ? 0u : 1u;
+            cones += cone ? 1u : 0u;
         }
-        fits = fits && cones + powers <= push.capacity && turns < kMaxTurns;
+        fits = fits && cones + others <= push.capacity && turns < kMaxTurns;
     }
     imageStore(block_counts, int(2u * block), uvec4(fits ? cones : kAllLights));
-    imageStore(block_counts, int(2u * block + 1u), uvec4(fits ? powers : kAllLights));
+    imageStore(block_counts, int(2u * block + 1u), uvec4(fits ? others : kAllLights));
 }

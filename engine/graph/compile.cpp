@@ -55,7 +55,7 @@ void check_written(const FrameGraph& graph) {
             if (writes(use.access)) written[use.resource.index] = true;
     for (size_t i = 0; i < written.size(); ++i) {
         const ResourceInfo& r = graph.resources()[i];
-        if (written[i] || r.origin == Origin::Upload || r.origin == Origin::HistoryPrevious) continue;
+        if (written[i] || FrameGraph::is_filled(r.origin)) continue;
         if (r.origin == Origin::HistoryCurrent) throw Error("history '" + r.name + "' is written by no pass");
         if (r.kept) throw Error("resource '" + r.name + "' is kept but written by no pass");
     }
@@ -98,8 +98,7 @@ std::vector<Life> lay_out_steps(const FrameGraph& graph, Plan& plan) {
             const Use& use = pass.uses[i];
             Life& life = lives[use.resource.index];
             const ResourceInfo& r = resources[use.resource.index];
-            plan.steps.back().first_use.push_back(!life.used() && r.origin != Origin::Upload &&
-                                                  r.origin != Origin::HistoryPrevious);
+            plan.steps.back().first_use.push_back(!life.used() && !FrameGraph::is_filled(r.origin));
             life.first = std::min(life.first, step);
             life.last = step;
             life.accesses.add(stage_of(pass.kind), use.access);

@@ -161,6 +161,7 @@ void Executor::run(const FrameGraph& graph) {
     place(graph);
     realize_histories(graph);
     realize_uploads(graph);
+    realize_externals(graph);
     realize_readbacks(graph);
     record(graph);
     finish(graph);
@@ -239,6 +240,16 @@ void Executor::realize_uploads(const FrameGraph& graph) {
         offset += r.bytes;
     }
     if (total) uploads_.flush();
+}
+
+void Executor::realize_externals(const FrameGraph& graph) {
+    for (uint32_t i = 0; i < graph.resources().size(); ++i) {
+        const auto& info = graph.resources()[i];
+        if (info.origin != FrameGraph::Origin::External) continue;
+        Realized& r = resources_[i];
+        r.buffer = info.buffer, r.offset = 0, r.bytes = info.shape.bytes;
+        r.texels = is_texel(plan_.usage[i]) ? view_texels(device_, r.buffer, info.shape.format, 0, r.bytes) : OwnedBufferView();
+    }
 }
 
 void Executor::realize_readbacks(const FrameGraph& graph) {

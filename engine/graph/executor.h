@@ -53,6 +53,7 @@ private:
     void place(const FrameGraph& graph);
     void realize_histories(const FrameGraph& graph);
     void realize_uploads(const FrameGraph& graph);
+    void realize_externals(const FrameGraph& graph);
     void realize_readbacks(const FrameGraph& graph);
     void record(const FrameGraph& graph);
     void record_barriers(const std::vector<Plan::Barrier>& barriers) const;

@@ -90,6 +90,8 @@ void check_use(const PassInfo& pass, const Use& use, const ResourceInfo& r) {
     if (writes(use.access) && r.origin == Origin::HistoryPrevious)
         fail(pass, "writes " + quoted(r.name) + ", which the last frame left; write its current");
     if (writes(use.access) && r.origin == Origin::Upload) fail(pass, "writes the upload " + quoted(r.name));
+    if (writes(use.access) && r.origin == Origin::External)
+        fail(pass, "writes " + quoted(r.name) + ", which belongs to somebody else");
     if (use.access == Access::Vertices && r.shape.is_image())
         fail(pass, "reads vertices from the image " + quoted(r.name));
     if (!is_target(use.access)) return;
@@ -205,6 +207,12 @@ Resource FrameGraph::upload(std::string_view name, std::span<const std::byte> co
     return resource;
 }
 
+Resource FrameGraph::external(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel) {
+    const Resource resource = add(name, buffer_shape(bytes, texel), Origin::External);
+    resources_.back().buffer = buffer;
+    return resource;
+}
+
 Resource FrameGraph::readback(std::string_view name, uint64_t bytes) {
     const Resource resource = add(name, buffer_shape(bytes), Origin::Readback);
     keep(resource);
@@ -229,8 +237,7 @@ void FrameGraph::add_pass(PassInfo pass) {
         for (size_t j = 0; j < i; ++j)
             if (pass.uses[j].resource == use.resource && (writes(use.access) || writes(pass.uses[j].access)))
                 fail(pass, "uses " + quoted(r.name) + " twice and writes it");
-        // An upload or a previous has contents already; everything else has them from an earlier pass.
-        if (!is_read_first(use.access) || r.origin == Origin::Upload || r.origin == Origin::HistoryPrevious) continue;
+        if (!is_read_first(use.access) || is_filled(r.origin)) continue;
         const bool written = std::ranges::any_of(passes_, [&](const PassInfo& earlier) {
             return std::ranges::any_of(earlier.uses,
                                        [&](const Use& u) { return u.resource == use.resource && writes(u.access); });

@@ -79,7 +79,7 @@ using Record = std::function<void(const Recording&)>;
 /// Declares one frame. Throws Error, naming pass and resource, for every misuse that can be seen without a device.
 class FrameGraph {
 public:
-    enum class Origin : uint8_t { Transient, Upload, Readback, HistoryPrevious, HistoryCurrent };
+    enum class Origin : uint8_t { Transient, Upload, External, Readback, HistoryPrevious, HistoryCurrent };
     enum class PassKind : uint8_t { Dispatch, Raster, Transfer };
 
     struct ResourceInfo {
@@ -88,8 +88,13 @@ public:
         Origin origin = Origin::Transient;
         uint32_t partner = ~0u;               ///< of a history: the other half
         std::vector<std::byte> contents;      ///< of an upload
+        VkBuffer buffer = VK_NULL_HANDLE;     ///< of an external
         bool kept = false;
     };
+    /// Whether a resource of this origin holds something before any pass of the frame has written it.
+    static bool is_filled(Origin origin) {
+        return origin == Origin::Upload || origin == Origin::External || origin == Origin::HistoryPrevious;
+    }
     struct PassInfo {
         std::string name;
         PassKind kind = PassKind::Dispatch;
@@ -108,6 +113,8 @@ public:
     Resource upload(std::string_view name, const std::vector<T>& values, VkFormat texel = VK_FORMAT_UNDEFINED) {
         return upload(name, std::as_bytes(std::span(values)), texel);
     }
+    /// A buffer that belongs to somebody else and was filled long before the frame; passes may only read it.
+    Resource external(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED);
     /// A buffer the host can read when the frame is done. It is kept.
     Resource readback(std::string_view name, uint64_t bytes);
     /// A resource kept from frame to frame under its name; zero before the first frame.

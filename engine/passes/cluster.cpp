@@ -20,7 +20,7 @@ uint32_t divide_up(uint32_t a, uint32_t b) { return (a + b - 1) / b; }
 // The greatest depth at which any light still gives the threshold.
 float lit_depth(const LightList& list, float threshold) {
     float far = 2 * kNear;
-    for (uint32_t i = 0; i < list.counts.cones + list.counts.powers; ++i)
+    for (uint32_t i = 0; i < list.lamps(); ++i)
         far = std::max(far, std::sqrt(list.lights[i].intensity / threshold) - list.lights[i].position.z);
     return far;
 }
@@ -41,14 +41,15 @@ struct Lists {
 
 }  // namespace
 
-Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList& list, const View& view, const ClusterSettings& settings) {
-    const uint32_t lights = list.counts.cones + list.counts.powers;
+Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList& list, const MapTexels& maps, const View& view, const ClusterSettings& settings) {
+    const uint32_t lights = list.lamps();
     check_limits(lights, settings);
     float far = lit_depth(list, settings.threshold);
     if (settings.far > 0) far = std::max(2 * kNear, std::min(far, settings.far));
     const float slice_scale = float(settings.slices - 1) / std::log2(far / kNear);
 
     Clusters clusters;
+    clusters.maps = maps;
     clusters.push.grid = {divide_up(view.extent.width, shared::kTileSize),
                           divide_up(view.extent.height, shared::kTileSize),
                           settings.slices,
@@ -69,7 +70,7 @@ Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList
     // The root is one cell that lists every light; coarse cells choose from it, froxels from coarse cells.
     std::vector<uint32_t> every_light(std::max(1u, lights));
     std::iota(every_light.begin(), every_light.end(), 0u);
-    const Lists root{graph.upload("root counts", std::vector{list.counts.cones, list.counts.powers}, VK_FORMAT_R32_UINT),
+    const Lists root{graph.upload("root counts", std::vector{list.counts.cones, list.counts.powers + list.counts.maps}, VK_FORMAT_R32_UINT),
                      graph.upload("root indices", every_light, VK_FORMAT_R32_UINT)};
 
     clusters.report = graph.transient("cluster report", buffer_shape(sizeof(shared::ClusterReport)));
@@ -81,7 +82,7 @@ Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList
         const Lists lists{graph.transient(std::string(name) + " counts", buffer_shape(uint64_t(cells) * 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT)),
                           graph.transient(std::string(name) + " indices", buffer_shape(uint64_t(cells) * push.capacity * sizeof(uint32_t), VK_FORMAT_R32_UINT))};
         graph.dispatch(name, kernels.cluster,
-                       {sample(clusters.lights), sample(parents.counts), sample(parents.indices), store(lists.counts), store(lists.indices), update(clusters.report)},
+                       {sample(clusters.lights), sample(parents.counts), sample(parents.indices), store(lists.counts), store(lists.indices), update(clusters.report), sample(maps.texels)},
                        push, cover(cells, 1, kernels.cluster.group[0], 1));
         return lists;
     };

@@ -39,10 +39,18 @@ struct ClusterSettings {
     float far = 0;                 ///< m, where geometry ends; 0: unknown, lamps alone decide
 };
 
+/// The texels of LightMaps (rgba16f), and which of them is the first cell of the first road table.
+struct MapTexels {
+    Resource texels;
+    uint32_t roads = 0;
+    bool has_roads = false;
+};
+
 struct Clusters {
+    MapTexels maps;
     Resource lights;   ///< rgba32f texels, kTexelsPerLight per light
-    Resource counts;   ///< r32ui, two per froxel: cones, then powers; kAllLights if they did not fit
-    Resource indices;  ///< r32ui, grid.capacity per froxel: indices of cones, then of powers, each ascending
+    Resource counts;   ///< r32ui, two per froxel: cones, then cosine powers and maps; kAllLights if they did not fit
+    Resource indices;  ///< r32ui, grid.capacity per froxel: indices of cones, then of the others, each ascending
     Resource report;   ///< shared::ClusterReport
     shared::ClusterPush push;  ///< grid, counts, threshold, near and far
 };
@@ -50,7 +58,7 @@ struct Clusters {
 /// Lists for every froxel all cone and cosine-power lights that may give `threshold` lx somewhere in it. Exact or more,
 /// never less. Slices are of equal ratio from the nearest metre to the farthest depth any lamp reaches with `threshold`
 /// (d = sqrt(I / threshold)), or to `far` if that is nearer.
-Clusters add_clusters(FrameGraph&, const Kernels&, const LightList&, const View&, const ClusterSettings&);
+Clusters add_clusters(FrameGraph&, const Kernels&, const LightList&, const MapTexels&, const View&, const ClusterSettings&);
 
 struct ShadeSettings {
     float lambert = 1 / std::numbers::pi_v<float>;  ///< sr^-1: L = E reflectance / pi; 1: the paper's L = E R

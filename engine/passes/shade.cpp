@@ -18,7 +18,7 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
     const Resource counts = graph.transient("block counts", buffer_shape(blocks * 2 * kWord, VK_FORMAT_R32_UINT));
     const Resource entries = graph.transient("block entries", buffer_shape(blocks * kBlockCapacity * kWord, VK_FORMAT_R32_UINT));
     graph.dispatch("select", kernels.select,
-                   {load(g.surface), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(counts), store(entries)},
+                   {load(g.surface), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(counts), store(entries), sample(clusters.maps.texels)},
                    shared::SelectPush{clusters.push, pixels, block_grid.x, kBlockCapacity},
                    cover(block_grid.x, block_grid.y, kernels.select.group[0], kernels.select.group[1]));
 
@@ -32,11 +32,16 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
                                  .sky = settings.sky,
                                  .blocks_x = block_grid.x,
                                  .capacity = kBlockCapacity,
-                                 .groups_x = group_grid.x,
+                                 .roads = clusters.maps.roads,
                                  .group_rows = group_rows,
                                  .bands = kernels.shade_bands};
-    graph.dispatch("shade", settings.all_lights ? kernels.shade_every_light : kernels.shade,
-                   {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(counts), sample(entries)},
+    uint32_t variant = 0;
+    if (settings.all_lights) variant |= Kernels::kEveryLight;
+    if (push.lights.powers) variant |= Kernels::kPowers;
+    if (push.lights.maps) variant |= Kernels::kMaps;
+    if (clusters.maps.has_roads) variant |= Kernels::kRoads;
+    graph.dispatch("shade", kernels.shade(variant),
+                   {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(counts), sample(entries), sample(clusters.maps.texels)},
                    push, {group_grid.x, group_rows, 1});
     return g.emission;
 }

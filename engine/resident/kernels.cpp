@@ -40,8 +40,6 @@ Kernels::Kernels(const Device& device)
       shade_rows(device.is_cpu() ? 8 : 1),
       shade_bands(device.is_cpu() ? 16 : 1),
       select(device, "select.comp", select_comp),
-      shade(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 0}),
-      shade_every_light(device, "shade.comp", shade_comp, {shade_group.width, shade_group.height, shade_rows, 1}),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),
       histogram(device, "histogram.comp", histogram_comp),
@@ -49,6 +47,16 @@ Kernels::Kernels(const Device& device)
       bright(make_bright(device)),
       blur(device, "blur.comp", blur_comp),
       composite_rows(device.is_cpu() ? 4 : 1),
-      composite(make_composite(device, composite_rows)) {}
+      composite(make_composite(device, composite_rows)),
+      device_(device) {}
+
+const Kernel& Kernels::shade(uint32_t variant) const {
+    const auto found = shade_.find(variant);
+    if (found != shade_.end()) return found->second;
+    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
+    Kernel kernel(device_, "shade.comp", shade_comp,
+                  {shade_group.width, shade_group.height, shade_rows, has(kEveryLight), has(kPowers), has(kMaps), has(kRoads)});
+    return shade_.emplace(variant, std::move(kernel)).first->second;
+}
 
 }  // namespace vesper

@@ -1,6 +1,7 @@
 // The compute shaders of the frame, made once per device. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "gpu/kernel.h"
@@ -14,7 +15,10 @@ struct Kernels {
     uint32_t shade_rows;     ///< pixels of a column that one invocation shades; divides shared::kBlockSize
     uint32_t shade_bands;    ///< as shared::ShadePush::bands
     Kernel select;
-    Kernel shade, shade_every_light;
+    /// Bits of a shading kernel: what it has code for.
+    enum ShadeVariant : uint32_t { kEveryLight = 1, kPowers = 2, kMaps = 4, kRoads = 8 };
+    /// Made when it is first asked for.
+    const Kernel& shade(uint32_t variant) const;
     Kernel pyramid_first, pyramid;
     Kernel histogram, adapt;
     std::vector<Kernel> bright;     ///< by shared::kTone*
@@ -27,6 +31,10 @@ struct Kernels {
     static size_t composite_index(uint32_t tone, bool luminance_glare, bool ldr_glare) {
         return tone * 4 + (luminance_glare ? 2 : 0) + (ldr_glare ? 1 : 0);
     }
+
+private:
+    const Device& device_;
+    mutable std::map<uint32_t, Kernel> shade_;
 };
 
 }  // namespace vesper

@@ -27,7 +27,7 @@ struct ClusterPush {
     float near;           // depth where slice 0 begins for the bounding volume, m
     float far;            // depth where the last slice ends, m
 };
-SHARED_SIZE(ClusterPush, 64)
+SHARED_SIZE(ClusterPush, 68)
 
 // Cells are froxels, or blocks of them: lists are made from coarse to fine, each level from the lists of the one before.
 struct ClusterLevelPush {
@@ -40,7 +40,7 @@ struct ClusterLevelPush {
     uint parent_capacity;
     uint reports;                          // 1: this level's overflow is reported
 };
-SHARED_SIZE(ClusterLevelPush, 112)
+SHARED_SIZE(ClusterLevelPush, 116)
 
 // What clustering has to report; zeroed every frame.
 struct ClusterReport {

@@ -1,33 +1,37 @@
 // A lamp as the shaders see it, in the view frame (x right, y up, looking along -z). SPDX-License-Identifier: MIT
-// Lights are kept sorted by kind, so that every kind has its own loop: cones (points and spots), cosine powers,
-// directional lights. A later kind, measured distributions, takes `right` and `distribution`.
+// Lights are kept sorted by kind, so that every kind has its own loop: cones (points and spots), cosine powers, measured
+// distributions (maps), directional lights.
 #ifndef VESPER_SHARED_LIGHT_H
 #define VESPER_SHARED_LIGHT_H
-#include "types.h"
+#include "maps.h"
 SHARED_BEGIN
 
-// Read as a texel buffer of four rgba32f texels per light.
+// Read as a texel buffer of six rgba32f texels per light; the last three are for maps alone.
 struct Light {
     vec3 position;       // m; directional: unused
     float intensity;     // on the axis, cd; directional: illuminance facing the light, lx
     vec3 axis;           // unit vector along which the lamp shines
-    float lobe_a;        // cone: slope of the squared ramp in cos(angle); cosine power: exponent
+    float lobe_a;        // cone: slope of the squared ramp in cos(angle); cosine power: exponent; map: texel of the envelope
     vec3 colour;         // linear RGB of luminance 1
-    float lobe_b;        // cone: offset of the ramp, I = intensity * clamp(a cos + b, 0, 1)^2
-    vec3 right;          // unit vector, the horizontal of the lamp's own frame
-    float distribution;  // index of a measured distribution; -1 without
+    float lobe_b;        // cone: offset of the ramp, I = intensity * clamp(a cos + b, 0, 1)^2; map: last cell of the polar angle
+    vec3 start;          // unit vectors of the measurement: azimuth 0, and the pole; azimuth runs towards cross(start, pole)
+    float map;           // texel of the first cell, in the buffer of all maps
+    vec3 pole;
+    float last_azimuth;  // last cell of azimuth
+    vec4 grid;           // cell = angle * (x, z) + (y, w) for azimuth (-pi to pi) and polar angle (0 to pi), rad
 };
-SHARED_SIZE(Light, 64)
+SHARED_SIZE(Light, 96)
 
-const uint kTexelsPerLight = 4u;
+const uint kTexelsPerLight = 6u;
 
 // How many lights of each kind follow one another.
 struct LightCounts {
     uint cones;
     uint powers;
+    uint maps;
     uint directional;
 };
-SHARED_SIZE(LightCounts, 12)
+SHARED_SIZE(LightCounts, 16)
 
 SHARED_END
 #endif

@@ -4,6 +4,10 @@
 #include "cluster.h"
 SHARED_BEGIN
 
+// What the reflectance image holds in place of metallic where the surface is of another kind: -1 - k for a road with
+// table k. There, its colour is relative (mean luminance 1), and its roughness pi Q0.
+const float kRoadKind = -1.0;
+
 const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of blocks
 
 // A block of pixels has a list of its own: the lights of its froxels that can light what is drawn
@@ -15,9 +19,9 @@ struct SelectPush {
     ClusterPush view;
     uvec2 size;      // px
     uint blocks_x;   // blocks in a row
-    uint capacity;   // entries of a block: cones from the front, cosine powers from the back
+    uint capacity;   // entries of a block: cones from the front, cosine powers and maps from the back
 };
-SHARED_SIZE(SelectPush, 80)
+SHARED_SIZE(SelectPush, 84)
 
 struct ShadePush {
     uvec2 size;             // px
@@ -30,11 +34,11 @@ struct ShadePush {
     vec3 sky;               // luminance where nothing is drawn, cd/m^2 RGB
     uint blocks_x;          // as in SelectPush
     uint capacity;
-    uint groups_x;          // workgroups in a row
+    uint roads;             // texel of the first cell of the first road table
     uint group_rows;        // rows of workgroups, rounded up to a multiple of bands
     uint bands;             // consecutive rows of workgroups are `bands` rows apart in the image: spreads sky and road
 };
-SHARED_SIZE(ShadePush, 116)
+SHARED_SIZE(ShadePush, 120)
 
 SHARED_END
 #endif

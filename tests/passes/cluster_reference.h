@@ -17,12 +17,13 @@ namespace vesper::reference {
 
 using glm::dvec2, glm::dvec3, glm::dvec4;
 
-enum class LightKind { Cone, Power, Directional };
+enum class LightKind { Cone, Power, Map, Directional };
 
 /// Lights are sorted by kind (shared/light.h).
 inline LightKind kind_of(size_t index, const shared::LightCounts& counts) {
     if (index < counts.cones) return LightKind::Cone;
-    return index < size_t(counts.cones) + counts.powers ? LightKind::Power : LightKind::Directional;
+    if (index < size_t(counts.cones) + counts.powers) return LightKind::Power;
+    return index < size_t(counts.cones) + counts.powers + counts.maps ? LightKind::Map : LightKind::Directional;
 }
 
 /// Luminous intensity towards a direction at `cosine` to the axis, cd. Cone: the squared ramp of KHR_lights_punctual.
@@ -35,6 +36,7 @@ inline double intensity(const shared::Light& light, LightKind kind, double cosin
         case LightKind::Power:
             if (cosine <= 0) return 0;  // also for exponent 0: nothing goes backwards
             return light.intensity * std::pow(cosine, double(light.lobe_a));
+        case LightKind::Map:  // not by the cosine alone
         case LightKind::Directional:
             break;
     }

@@ -166,7 +166,7 @@ TEST(ClusterReference, BrightestFindsANarrowBeam) {
 // What clustering is for: wherever a lamp counts, it is listed; and a higher threshold lists no more.
 TEST(ClusterReference, ListsHoldEveryLampThatLightsAPointThere) {
     shared::ClusterPush p = grid_of(1, 100, 5);
-    p.lights = {6, 2, 0};
+    p.lights = {6, 2, 0, 0};
     std::mt19937 random(3);
     std::uniform_real_distribution<float> uniform(-1, 1);
     std::vector<shared::Light> lights;

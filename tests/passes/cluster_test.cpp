@@ -22,7 +22,7 @@ struct Lists {
 
 Lists cluster(PassRig& rig, const LightList& list, const View& view, const ClusterSettings& settings) {
     FrameGraph graph;
-    const Clusters clusters = add_clusters(graph, rig.kernels(), list, view, settings);
+    const Clusters clusters = add_clusters(graph, rig.kernels(), list, no_maps(graph), view, settings);
     const Resource counts = keep<uint32_t>(graph, clusters.counts), indices = keep<uint32_t>(graph, clusters.indices),
                    report = keep<shared::ClusterReport>(graph, clusters.report);
     rig.run(graph);
@@ -224,7 +224,7 @@ TEST(Cluster, GridMapsDepthsFromAMetreToTheEnd) {
     PassRig rig;
     FrameGraph graph;
     const Clusters c =
-        add_clusters(graph, rig.kernels(), street_lamps({3, 0, 0}, 100), view_of({1680, 1050}), {.far = 400});
+        add_clusters(graph, rig.kernels(), street_lamps({3, 0, 0}, 100), no_maps(graph), view_of({1680, 1050}), {.far = 400});
     EXPECT_EQ(c.push.grid.tiles_x, 27u);
     EXPECT_EQ(c.push.grid.tiles_y, 17u);
     EXPECT_EQ(reference::slice_of(c.push.grid, 0.01), 0u);
@@ -238,12 +238,13 @@ TEST(Cluster, RefusesImpossibleSettings) {
     PassRig rig;
     FrameGraph graph;
     const LightList list = street_lamps({3, 0, 0}, 100);
+    const MapTexels maps = no_maps(graph);
     for (const ClusterSettings& settings : {ClusterSettings{.slices = 0}, ClusterSettings{.slices = 1},
                                             ClusterSettings{.slices = 33}, ClusterSettings{.capacity = 0}})
-        EXPECT_THROW(add_clusters(graph, rig.kernels(), list, view_of({64, 64}), settings), Error);
+        EXPECT_THROW(add_clusters(graph, rig.kernels(), list, maps, view_of({64, 64}), settings), Error);
     LightList crowd;
     crowd.counts.cones = 1u << 20, crowd.lights.resize(1u << 20);
-    EXPECT_THROW(add_clusters(graph, rig.kernels(), crowd, view_of({64, 64}), {}), Error);
+    EXPECT_THROW(add_clusters(graph, rig.kernels(), crowd, maps, view_of({64, 64}), {}), Error);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "passes/cluster_reference.h"
+#include "passes/shade_measured_reference.h"
 #include "shared/shade.h"
 
 namespace vesper::reference {
@@ -73,7 +74,8 @@ struct Shaded {
 /// Adds one light. A lamp counts where it gives at least `threshold` lx on a surface facing it; a directional light
 /// always does. Light that arrives from below the surface does not count.
 inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
-                      double roughness, double threshold, Shaded& sum) {
+                      double roughness, double threshold, Shaded& sum, const MeasuredLamp* measured = nullptr,
+                      const ReflectionTable* road = nullptr) {
     const dvec3 v = glm::normalize(-point);
     const bool lamp = kind != LightKind::Directional;
     const dvec3 path = lamp ? dvec3(light.position) - point : -dvec3(light.axis);
@@ -83,12 +85,22 @@ inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, d
     // Positions are rounded relative to their distance from the eye, which weighs more the nearer the lamp is.
     const double epsilon = 3e-7 * (lamp ? 1 + (glm::length(point) + glm::length(dvec3(light.position))) / d : 1);
     const double cosine = glm::dot(dvec3(light.axis), -l), d2 = lamp ? d * d : 1.0;
-    const double e = intensity(light, kind, cosine) / d2;
-    const double more = intensity(light, kind, std::min(cosine + epsilon, 1.0)) / d2 * (1 + 3 * epsilon);
-    const double less = intensity(light, kind, cosine - epsilon) / d2 * (1 - 3 * epsilon);
+    const double e = (measured ? measured->intensity(-l) : intensity(light, kind, cosine)) / d2;
+    // Maps hold half floats: 2^-11, or 2^-25 of the largest; a step of their edge is a threshold's.
+    const double more = measured ? e * 1.0006 + light.intensity / d2 * std::exp2(-24) : intensity(light, kind, std::min(cosine + epsilon, 1.0)) / d2 * (1 + 3 * epsilon);
+    const double less = measured ? e * 0.9994 - light.intensity / d2 * std::exp2(-24) : intensity(light, kind, cosine - epsilon) / d2 * (1 - 3 * epsilon);
     const double nl = glm::dot(n, l);
     if (nl <= -epsilon || (lamp && std::max(more, less) < threshold)) return;
 
+    if (road) {
+        const dvec3 reflected = dvec3(light.colour) * rho_lambert * std::numbers::pi;
+        if (nl > 0 && (!lamp || e >= threshold)) sum.luminance += reflected * e * road_coefficient(*road, n, l, v);
+        const double largest = *std::max_element(road->r.begin(), road->r.end()) * 145;
+        const bool doubtful = lamp && (std::min(more, less) < threshold) != (std::max(more, less) < threshold);
+        const double value = nl > epsilon ? road_coefficient(*road, n, l, v) : largest;
+        sum.rounding += reflected * value * (doubtful ? std::max(more, less) : more - less + 0.001 * e + e * epsilon / std::max(nl * nl, epsilon));
+        return;
+    }
     const Specular s = specular(n, l, v, f0, roughness, epsilon);
     const dvec3 reflected = dvec3(light.colour) * (rho_lambert + s.value);
     if (nl > 0 && (!lamp || e >= threshold)) sum.luminance += reflected * e * nl;
@@ -102,21 +114,24 @@ inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, d
 
 /// One pixel, in the view frame with the eye at the origin. Lights sorted as p.lights counts them.
 inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<const shared::Light> lights,
-                    const shared::ShadePush& p) {
+                    const shared::ShadePush& p, const Measurements& measurements = {}) {
     const double depth = texel.surface.z;
     if (!(depth > 0)) return {dvec3(p.sky), dvec3(0)};
     const dvec3 point = view_position(p.grid, dvec2(pixel) + 0.5, depth);
     const dvec3 n = octahedral_decode(dvec2(texel.surface));
     const dvec3 base(texel.reflectance);
-    const double metallic = texel.reflectance.w, roughness = texel.surface.w;
+    const double kind = texel.reflectance.w, metallic = std::max(kind, 0.0), roughness = texel.surface.w;
+    const ReflectionTable* road = kind < 0 ? &measurements.roads[size_t(-1 - kind)] : nullptr;
     const dvec3 rho_lambert = base * (1 - metallic) * double(p.lambert);
     const dvec3 f0 = normal_reflectance(base, metallic, roughness);
 
     Shaded sum;
-    const size_t count = size_t(p.lights.cones) + p.lights.powers + p.lights.directional;
+    const size_t maps = size_t(p.lights.cones) + p.lights.powers, count = maps + p.lights.maps + p.lights.directional;
     for (size_t i = 0; i < count; ++i)
-        add_light(lights[i], kind_of(i, p.lights), point, n, rho_lambert, f0, roughness, p.threshold, sum);
-    sum.luminance += dvec3(p.ambient) * base * double(p.lambert);  // a metal reflects its base colour too
+        add_light(lights[i], kind_of(i, p.lights), point, n, rho_lambert, f0, roughness, p.threshold, sum,
+                  kind_of(i, p.lights) == LightKind::Map ? &measurements.lamps[i - maps] : nullptr, road);
+    // A metal reflects its base colour too; a road pi Q0, which its roughness holds.
+    sum.luminance += dvec3(p.ambient) * base * double(p.lambert) * (road ? roughness : 1);
     sum.luminance += glm::min(texel.emission, dvec3(double(p.emission_limit)));
     return sum;
 }

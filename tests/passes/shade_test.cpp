@@ -58,7 +58,7 @@ Shot shade(PassRig& rig, const Surfaces& s, const LightList& list, const Cluster
                     rig.image(graph, "surface", kSurfaceFormat, s.extent, s.surface),
                     rig.image(graph, "emission", kEmissionFormat, s.extent, s.emission),
                     {}};
-    const Clusters c = add_clusters(graph, rig.kernels(), list, view, clusters);
+    const Clusters c = add_clusters(graph, rig.kernels(), list, no_maps(graph), view, clusters);
     const Resource scene = keep<glm::vec4>(graph, add_shading(graph, rig.kernels(), g, c, view, settings)),
                    report = keep<shared::ClusterReport>(graph, c.report);
     rig.run(graph);

@@ -14,7 +14,7 @@ constexpr float kDegree = 3.14159265f / 180;
 shared::Light shine(const Light& light) {
     const SceneFrame frame{{glm::mat4(1)}};
     const View view;
-    return light_list({{light, 0}}, frame, view).lights.at(0);
+    return light_list({{light, 0}}, {}, frame, view).lights.at(0);
 }
 
 // KHR_lights_punctual: full intensity within the inner cone, none beyond the outer, the square of a ramp in the cosine
@@ -52,7 +52,7 @@ TEST(Lights, KindsFollowOneAnotherAndDarkLampsAreLeftOut) {
         scene.nodes.back().light = i;
     }
     const SceneFrame four{std::vector<glm::mat4>(4, glm::mat4(1))};
-    const LightList list = light_list(placed_lights(scene), four, View());
+    const LightList list = light_list(placed_lights(scene), {}, four, View());
     ASSERT_EQ(list.lights.size(), 3u);
     EXPECT_EQ(list.counts.cones, 1u);
     EXPECT_EQ(list.counts.powers, 1u);

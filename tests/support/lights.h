@@ -15,6 +15,11 @@ struct LampMix {
     uint32_t cones = 0, powers = 0, directional = 0;
 };
 
+/// For frames without measured lamps and roads.
+inline MapTexels no_maps(FrameGraph& graph) {
+    return {graph.upload("maps", std::vector<uint64_t>{0}, VK_FORMAT_R16G16B16A16_SFLOAT)};
+}
+
 /// Half of them points and spots, half of them cosine powers.
 inline LampMix half_and_half(uint32_t count) { return {(count + 1) / 2, count / 2, 0}; }
 
@@ -31,15 +36,13 @@ inline LightList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
         return c / glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
     };
     LightList list;
-    list.counts = {mix.cones, mix.powers, mix.directional};
+    list.counts = {mix.cones, mix.powers, 0, mix.directional};
     for (uint32_t i = 0; i < mix.cones + mix.powers; ++i) {
         shared::Light lamp{};
         lamp.position = {40 * unit(random) - 20, 8 * unit(random) - 1.2f, 20 - 400 * unit(random)};
         lamp.intensity = candela * std::pow(10.0f, 2 * unit(random) - 1);
         lamp.axis = direction({0, -1, 0});
         lamp.colour = colour();
-        lamp.right = {1, 0, 0};
-        lamp.distribution = -1;
         if (i >= mix.cones) {
             lamp.lobe_a = 1 + 60 * unit(random) * unit(random);
         } else if (i % 2 == 0) {
@@ -53,8 +56,7 @@ inline LightList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
     }
     for (uint32_t i = 0; i < mix.directional; ++i) {
         shared::Light moon{};
-        moon.intensity = 0.3f * unit(random), moon.axis = direction({0, -1, -1}), moon.colour = colour(),
-        moon.distribution = -1;
+        moon.intensity = 0.3f * unit(random), moon.axis = direction({0, -1, -1}), moon.colour = colour();
         list.lights.push_back(moon);
     }
     return list;

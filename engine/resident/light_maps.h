@@ -1,0 +1,34 @@
+// Measured intensities and road surfaces, laid out for the shaders (shared/maps.h). SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "photometry/distribution.h"
+#include "photometry/reflection_table.h"
+#include "scene/scene.h"
+
+namespace vesper {
+
+/// Every map of a scene, in one buffer of texels. Maps are shared: a thousand lamps of one make need one.
+struct LightMaps {
+    struct Intensities {
+        float largest = 0;          ///< cd, what the values are relative to
+        Goniometry goniometry = Goniometry::CGamma;
+        uint32_t first = 0;         ///< texel of the first cell
+        uint32_t envelope = 0;      ///< texel of the first value of the envelope
+        glm::uvec2 cells{0};        ///< of azimuth and of the angle from the pole, those outside the range included
+        glm::dvec2 low{0}, step{1}; ///< angles of the first node, rad, and between nodes
+        bool exact = true;          ///< every angle of the file is a node; otherwise the nodes lie between, step apart
+    };
+    std::vector<Intensities> intensities;  ///< as Scene::distributions
+    std::vector<uint32_t> roads;           ///< as Scene::reflection_tables: texel of the first cell
+    std::vector<uint64_t> texels{0};       ///< four half floats each; never empty
+};
+
+/// Grids whose nodes include every angle of the file, so that the interpolation between them is the file's own, and the
+/// rounding to half floats (0.05 %) the only loss. A file whose angles have no common divisor of at least 0.02 degrees gets
+/// nodes 0.1 degrees apart.
+LightMaps light_maps(const Scene& scene);
+
+}  // namespace vesper

@@ -1,0 +1,60 @@
+// The reference of measured lamps and roads against what CIE 144 and the square law say. SPDX-License-Identifier: MIT
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "passes/shade_reference.h"
+
+namespace vesper::reference {
+namespace {
+
+const dvec3 kUp(0, 1, 0);
+
+/// The direction at which an observer sees the road `degrees` below the horizon, looking along -Z: from the point to the eye.
+dvec3 sight(double degrees) { return {0, std::sin(glm::radians(degrees)), std::cos(glm::radians(degrees))}; }
+
+TEST(ShadeMeasuredReference, ARoadSeenAtOneDegreeHasTheTablesLuminance) {
+    const ReflectionTable table = find_reflection_table("R3");
+    const double height = 8, candela = 3000;
+    for (dvec3 lamp : {dvec3(0, height, 0), {3, height, -20}, {-6, height, -40}, {2, height, 25}}) {
+        const double d2 = glm::dot(lamp, lamp), tan_gamma = std::hypot(lamp.x, lamp.z) / height;
+        // From the observer on is -Z, so a lamp beyond the point is at beta 0.
+        const double beta = glm::degrees(std::atan2(std::abs(lamp.x), -lamp.z));
+        const double luminance = candela / d2 * road_coefficient(extended(table), kUp, glm::normalize(lamp), sight(1));
+        EXPECT_NEAR(luminance, reduced_luminance_coefficient(table, tan_gamma, beta) * candela / (height * height), 1e-9);
+    }
+}
+
+TEST(ShadeMeasuredReference, BeyondTheTableItsLastValueStays) {
+    const ReflectionTable table = extended(find_reflection_table("R3"));
+    const auto at = [&](double tan_gamma) { return road_coefficient(table, kUp, glm::normalize(dvec3(0, 1, -tan_gamma)), sight(1)); };
+    EXPECT_NEAR(at(12), reduced_luminance_coefficient(table, 12, 0) * 145, 1e-6);
+    EXPECT_NEAR(at(40), at(12), 1e-9);
+}
+
+TEST(ShadeMeasuredReference, SheenIsGoneAtTenDegrees) {
+    const ReflectionTable table = extended(find_reflection_table("W4"));
+    const auto at = [&](double degrees, double beta) {
+        const double b = glm::radians(beta);
+        return road_coefficient(table, kUp, glm::normalize(dvec3(5 * std::sin(b), 1, -5 * std::cos(b))), sight(degrees));
+    };
+    EXPECT_GT(at(1, 0), 10 * at(1, 90));
+    EXPECT_NEAR(at(1.5, 0), at(0.6, 0), 1e-12);
+    EXPECT_NEAR(at(10, 0), at(1, 90), 1e-9);
+    EXPECT_NEAR(at(30, 180), at(1, 90), 1e-9);
+    EXPECT_LT(at(4, 0), at(2, 0));
+}
+
+TEST(ShadeMeasuredReference, ALampsFrameTurnsWithIt) {
+    Distribution d;
+    d.horizontal = {0, 180, 360}, d.vertical = {0, 90}, d.candela = {10, 20, 10, 40, 10, 20};
+    // Its nadir looks along the view, its C0 up.
+    const MeasuredLamp lamp{&d, glm::dmat3(dvec3(0, 1, 0), dvec3(-1, 0, 0), dvec3(0, 0, 1)), 2};
+    EXPECT_NEAR(lamp.intensity({0, 0, -1}), 20, 1e-12);
+    EXPECT_NEAR(lamp.intensity({0, 1, 0}), 40, 1e-9);
+    EXPECT_NEAR(lamp.intensity({0, -1, 0}), 80, 1e-9);
+    EXPECT_NEAR(lamp.intensity({0, 0, 1}), 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace vesper::reference

@@ -1,0 +1,150 @@
+// Shading by measured lamps, and of roads with a table: against the reference. SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <random>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "passes/shade_reference.h"
+#include "resident/light_maps.h"
+#include "support/compare.h"
+#include "support/lights.h"
+#include "support/texels.h"
+
+namespace vesper::test {
+namespace {
+
+const std::filesystem::path kData = std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry";
+
+/// A luminaire, two beams and a floodlight of type B, on nodes of every pose; and some lamps of other kinds.
+struct Street {
+    Scene scene;
+    SceneFrame frame;
+    LightMaps maps;
+    LightList list;
+    std::vector<reference::MeasuredLamp> measured;
+    std::vector<ReflectionTable> roads;
+
+    explicit Street(VkExtent2D extent, uint32_t lamps, uint32_t seed, LampMix others = {}) {
+        for (const char* file : {"street-lamp.ies", "low-beam.csv", "high-beam.csv"})
+            scene.distributions.push_back(read_distribution(kData / file));
+        Distribution flood;
+        flood.goniometry = Goniometry::TypeB;
+        flood.horizontal = {-60, -30, 0, 30, 60}, flood.vertical = {-90, -20, 5, 90};
+        for (size_t i = 0; i < 20; ++i) flood.candela.push_back(double(100 + 37 * i % 400));
+        scene.distributions.push_back(flood);
+        scene.reflection_tables = {find_reflection_table("R3"), find_reflection_table("W4")};
+        for (const ReflectionTable& table : scene.reflection_tables) roads.push_back(extended(table));
+
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> unit(0, 1);
+        std::normal_distribution<float> normal;
+        for (uint32_t i = 0; i < lamps; ++i) {
+            Light light{.kind = Light::Kind::Measured, .intensity = 0.2f + unit(random), .distribution = i % 4};
+            scene.lights.push_back(light);
+            Node node;
+            node.light = i;
+            scene.nodes.push_back(node);
+            glm::mat4 pose = glm::translate(glm::mat4(1), glm::vec3(40 * unit(random) - 20, 8 * unit(random) - 1, 10 - 300 * unit(random)));
+            pose = glm::rotate(pose, 6.28f * unit(random), glm::normalize(glm::vec3(normal(random), normal(random), normal(random))));
+            if (i % 3 == 0) pose = glm::scale(pose, glm::vec3(-2, 2, 2));  // mirrored
+            frame.world.push_back(pose);
+        }
+        maps = light_maps(scene);
+        const View view = View::symmetric(extent, 0.7f, glm::mat4(1));
+        list = light_list(placed_lights(scene), maps, frame, view);
+        for (uint32_t i = 0; i < lamps; ++i) {
+            glm::dmat3 axes(frame.world[i]);
+            for (int c = 0; c < 3; ++c) axes[c] = glm::normalize(axes[c]);
+            measured.push_back({&scene.distributions[i % 4], axes, double(scene.lights[i].intensity)});
+        }
+        // Maps come third in the list.
+        const LightList more = street_lamps(others, 300, seed);
+        list.lights.insert(list.lights.begin(), more.lights.begin(), more.lights.begin() + others.cones + others.powers);
+        list.lights.insert(list.lights.end(), more.lights.end() - others.directional, more.lights.end());
+        list.counts.cones = others.cones, list.counts.powers = others.powers, list.counts.directional = others.directional;
+    }
+
+    MapTexels texels(FrameGraph& graph) const {
+        return {graph.upload("maps", maps.texels, VK_FORMAT_R16G16B16A16_SFLOAT), maps.roads.front(), true};
+    }
+};
+
+struct Pixels {
+    std::vector<glm::vec4> reflectance, surface, emission;
+};
+
+/// Every surface: roads seen flat and steep, matt and glossy ones, sky.
+Pixels noise(VkExtent2D extent, uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(0, 1);
+    std::normal_distribution<double> normal;
+    Pixels p;
+    for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
+        const auto value = [&] { return std::floor(unit(random) * 1024) / 1024; };  // exact in a half float
+        const bool road = i % 3 != 0, sky = unit(random) < 0.05f;
+        const float kind = road ? (i % 2 ? -1.0f : -2.0f) : i % 5 == 0 ? value() : 0.0f;
+        p.reflectance.emplace_back(value(), value(), value(), kind);
+        const glm::dvec3 up = glm::normalize(glm::dvec3(0.05 * normal(random), 1, 0.02 + 0.3 * unit(random) * unit(random)));
+        const glm::dvec3 wall = glm::normalize(glm::dvec3(normal(random), normal(random), std::abs(normal(random)) + 0.1));
+        p.surface.emplace_back(glm::vec2(reference::octahedral_encode(road ? up : wall)), sky ? 0 : 2 * std::pow(60.0f, unit(random)),
+                               road ? 0.22f : i % 4 == 0 ? 1.0f : 0.2f + 0.8f * unit(random));
+        p.emission.emplace_back(0);
+    }
+    return p;
+}
+
+void expect_reference(PassRig& rig, VkExtent2D extent, const Street& street, const Pixels& s, const ShadeSettings& settings) {
+    FrameGraph graph;
+    const View view = View::symmetric(extent, 0.7f, glm::mat4(1));
+    const GBuffer g{rig.image(graph, "reflectance", kReflectanceFormat, extent, to_halves(s.reflectance)),
+                    rig.image(graph, "surface", kSurfaceFormat, extent, s.surface),
+                    rig.image(graph, "emission", kEmissionFormat, extent, s.emission), {}};
+    const Clusters c = add_clusters(graph, rig.kernels(), street.list, street.texels(graph), view, {});
+    const Resource scene = keep<glm::vec4>(graph, add_shading(graph, rig.kernels(), g, c, view, settings));
+    rig.run(graph);
+    const auto got = rig.got<glm::vec4>(scene);
+
+    shared::ShadePush p{};
+    p.size = {extent.width, extent.height}, p.grid = c.push.grid, p.lights = c.push.lights, p.threshold = c.push.threshold;
+    p.lambert = settings.lambert, p.emission_limit = settings.emission_limit, p.ambient = settings.ambient, p.sky = settings.sky;
+    Picture have(extent.width, extent.height, 3), want = have, rounding = have;
+    for (size_t i = 0; i < got.size(); ++i) {
+        const auto shaded = reference::shade({glm::dvec4(s.reflectance[i]), glm::dvec4(s.surface[i]), glm::dvec3(s.emission[i])},
+                                             {i % extent.width, i / extent.width}, street.list.lights, p, {street.measured, street.roads});
+        for (int k = 0; k < 3; ++k)
+            have.values[3 * i + size_t(k)] = got[i][k], want.values[3 * i + size_t(k)] = shaded.luminance[k],
+                            rounding.values[3 * i + size_t(k)] = shaded.rounding[k];
+    }
+    // `rounding` holds what half floats take. 2e-3 more for steep edges: at the cut-off of a low
+    // beam intensity changes by a factor of e within 0.12 degrees, 480 per rad, and directions are known to some 1e-6 rad.
+    EXPECT_TRUE(same_light("scene", have, want, {2e-3, 1e-7}, rounding));
+}
+
+TEST(ShadeMeasured, MatchesTheReferenceAtEverySize) {
+    PassRig rig;
+    ShadeSettings settings;
+    settings.ambient = {0.2f, 0.3f, 0.4f}, settings.sky = {0.01f, 0.02f, 0.03f};
+    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {67, 65}}) {
+        SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
+        expect_reference(rig, extent, Street(extent, 24, extent.height), noise(extent, extent.width), settings);
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(ShadeMeasured, MatchesTheReferenceBesideEveryOtherKind) {
+    PassRig rig;
+    const VkExtent2D extent{64, 40};
+    for (LampMix others : {LampMix{20, 0, 0}, {0, 20, 0}, {10, 10, 2}})
+        expect_reference(rig, extent, Street(extent, 20, 5, others), noise(extent, 6), {});
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(ShadeMeasured, AThousandLampsOnRoadsEqualTheReference) {
+    PassRig rig;
+    const VkExtent2D extent{48, 30};
+    expect_reference(rig, extent, Street(extent, 1000, 9), noise(extent, 10), {});
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -1,0 +1,122 @@
+// Maps of measured intensities and of roads against the tables they were made from. SPDX-License-Identifier: MIT
+#include "resident/light_maps.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <glm/gtc/packing.hpp>
+#include <gtest/gtest.h>
+
+#include "shared/maps.h"
+
+namespace vesper {
+namespace {
+
+const std::filesystem::path kData = std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry";
+
+Scene with(Distribution d) {
+    Scene scene;
+    scene.distributions.push_back(std::move(d));
+    return scene;
+}
+
+glm::vec4 cell(const LightMaps& maps, const LightMaps::Intensities& map, uint32_t i, uint32_t j) {
+    return glm::unpackHalf4x16(maps.texels.at(map.first + size_t(i) * map.cells.y + j));
+}
+
+/// Every tabulated value is a corner of a cell, within the rounding of half floats: 2^-11, or 2^-25 of the largest.
+void expect_every_value(const std::string& file) {
+    const Distribution d = read_distribution(kData / file);
+    const LightMaps maps = light_maps(with(d));
+    const auto& map = maps.intensities.at(0);
+    EXPECT_TRUE(map.exact);
+    for (size_t h = 0; h < d.horizontal.size(); ++h)
+        for (size_t v = 0; v < d.vertical.size(); ++v) {
+            double azimuth = d.horizontal[h], polar = d.vertical[v];
+            if (d.goniometry == Goniometry::CGamma && azimuth > 180) azimuth -= 360;
+            if (d.goniometry == Goniometry::TypeA) polar = 90 - polar;
+            const glm::dvec2 at = (glm::radians(glm::dvec2(azimuth, polar)) - map.low) / map.step;
+            ASSERT_LT(glm::length(at - glm::round(at)), 1e-6);
+            const glm::uvec2 node(glm::round(at));
+            const bool first = node.x == 0;  // the cell before the first nodes may be dark
+            const glm::vec4 corners = cell(maps, map, std::max(node.x, 1u), std::max(node.y, 1u));
+            const double value = double(node.y == 0 ? (first ? corners.x : corners.y) : (first ? corners.z : corners.w)) * double(map.largest);
+            ASSERT_NEAR(value, d.at(h, v), d.at(h, v) * std::exp2(-11) + double(map.largest) * std::exp2(-24)) << azimuth << " " << polar;
+        }
+}
+
+TEST(LightMaps, KeepEveryValueOfTheRoadLuminaire) { expect_every_value("street-lamp.ies"); }
+TEST(LightMaps, KeepEveryValueOfTheLowBeam) { expect_every_value("low-beam.csv"); }
+TEST(LightMaps, KeepEveryValueOfTheHighBeam) { expect_every_value("high-beam.csv"); }
+
+TEST(LightMaps, GoOnAroundStayAtThePolesAndEndWhereTheTableEnds) {
+    Distribution d;
+    d.horizontal = {0, 90, 180, 270, 360}, d.vertical = {0, 45, 90};
+    for (double plane : {1.0, 2.0, 3.0, 4.0, 1.0}) d.candela.insert(d.candela.end(), {10, 10 * plane, 10});
+    const LightMaps maps = light_maps(with(d));
+    const auto& map = maps.intensities.at(0);
+    ASSERT_EQ(map.cells, glm::uvec2(6, 4));  // four azimuths and two angles, and one cell before and behind each
+    for (uint32_t j = 0; j < 4; ++j) {
+        EXPECT_EQ(cell(maps, map, 0, j), cell(maps, map, 4, j));
+        EXPECT_EQ(cell(maps, map, 5, j), cell(maps, map, 1, j));
+    }
+    EXPECT_EQ(cell(maps, map, 2, 0), glm::vec4(0.25f));  // before gamma 0: the value there
+    EXPECT_EQ(cell(maps, map, 2, 3), glm::vec4(0));      // beyond gamma 90: nothing
+}
+
+TEST(LightMaps, AnEnvelopeIsNeverBelowAnyValue) {
+    for (const char* file : {"street-lamp.ies", "low-beam.csv", "high-beam.csv"}) {
+        const Distribution d = read_distribution(kData / file);
+        const LightMaps maps = light_maps(with(d));
+        const auto& map = maps.intensities.at(0);
+        double last = 1e30;
+        for (uint32_t k = 0; k < shared::kEnvelope; ++k) {
+            const double bound = double(glm::unpackHalf4x16(maps.texels[map.envelope + k]).x) * double(map.largest);
+            EXPECT_LE(bound, last);
+            last = bound;
+            // Directions in this ring.
+            const double angle = 2 * std::asin((k + 0.5) / shared::kEnvelope);
+            for (double turn = 0; turn < 6.28; turn += 0.01)
+                ASSERT_LE(intensity(d, {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), -std::cos(angle)}), bound)
+                    << file << ", " << glm::degrees(angle) << " degrees off the axis";
+        }
+    }
+}
+
+TEST(LightMaps, OddAnglesGetNodesATenthOfADegreeApart) {
+    Distribution d;
+    d.horizontal = {0}, d.vertical = {0, 10.0037, 90}, d.candela = {100, 80, 20};
+    const LightMaps maps = light_maps(with(d));
+    EXPECT_FALSE(maps.intensities[0].exact);
+    EXPECT_NEAR(glm::degrees(maps.intensities[0].step.y), 0.1, 1e-9);
+}
+
+TEST(LightMaps, ADarkLampAndNoLampAreNothing) {
+    EXPECT_FALSE(light_maps({}).texels.empty());
+    Distribution d;
+    d.horizontal = {0}, d.vertical = {0, 90}, d.candela = {0, 0};
+    EXPECT_EQ(light_maps(with(d)).intensities.at(0).largest, 0.0f);
+}
+
+TEST(LightMaps, RoadsKeepEveryTabulatedValue) {
+    Scene scene;
+    for (const std::string& name : standard_reflection_tables()) scene.reflection_tables.push_back(find_reflection_table(name));
+    const LightMaps maps = light_maps(scene);
+    for (size_t k = 0; k < scene.reflection_tables.size(); ++k) {
+        const ReflectionTable& table = scene.reflection_tables[k];
+        const glm::vec4 head = glm::unpackHalf4x16(maps.texels.at(maps.roads[k] - 1));
+        EXPECT_EQ(head.x * head.y, float(shared::kRoadTanCells));
+        for (size_t t = 1; t < table.tan_gamma.size(); ++t)
+            for (size_t b = 1; b < table.beta.size(); ++b) {
+                if (table.at(t, b) == 0) continue;
+                const double at = table.tan_gamma[t] * double(head.x);
+                ASSERT_EQ(at, std::round(at));
+                const size_t cell = (size_t(at) - 1) * shared::kRoadBetaCells + size_t(table.beta[b]) - 1;
+                const double value = 1e-4 * double(glm::unpackHalf4x16(maps.texels.at(maps.roads[k] + cell)).w);
+                ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-11)) << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
+            }
+    }
+}
+
+}  // namespace
+}  // namespace vesper

@@ -60,14 +60,16 @@ void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, co
     const double tall = static_cast<double>(kPanelHeight) / (seen.view.tangent_high.y - seen.view.tangent_low.y) /
                         (kPanelWidth / static_cast<double>(seen.view.tangent_high.x - seen.view.tangent_low.x));
     canvas.text(corner + glm::dvec2(0, -14),
-                format("Observer of lane %d: Lav %.3f calculated, %.3f rendered; points differ by %.2f %% at most (heights \u00d7 %.1f)", observer.lane,
-                       observer.average_luminance, seen.average_luminance, std::abs(seen.largest_difference), tall), 13);
+                format("Observer of lane %d: Lav %.3f cd/m\u00b2 calculated, %.3f rendered; points differ by %.2f %% at most", observer.lane,
+                       observer.average_luminance, seen.counted.average_luminance, std::abs(seen.counted.largest_difference)),
+                13);
+    canvas.text(corner + glm::dvec2(kPanelWidth, -14), format("heights \u00d7 %.1f", tall), 13, Canvas::Align::Right);
 }
 
 void write_false_colours(const std::string& file, const RoadLayout& road, const RoadResult& result, const RenderedRoad& rendered) {
     std::vector<float> all;
     for (const RenderedObserver& seen : rendered.observers)
-        for (const double value : seen.luminance) all.push_back(static_cast<float>(value));
+        for (const double value : seen.every.luminance) all.push_back(static_cast<float>(value));
     const ColourScale scale = scale_of(all);
     const ValuePicture overview = luminances_of(rendered.overview.extent, rendered.overview_rgba);
     const double top = 96, tall = overview.height + kGap + static_cast<double>(rendered.observers.size()) * (kPanelHeight + kGap);

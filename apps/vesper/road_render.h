@@ -9,15 +9,22 @@
 
 namespace vesper {
 
-/// What an observer sees in the picture.
-struct RenderedObserver {
-    View view;
-    std::vector<float> rgba;         ///< cd/m^2 RGB
-    std::vector<double> luminance;   ///< read off at each point of the grid, cd/m^2
+/// What was read off pictures at the points of the grid, beside the calculation.
+struct RoadReading {
+    std::vector<double> luminance;   ///< at each point, cd/m^2
     double average_luminance = 0, overall_uniformity = 0, lengthwise_uniformity = 0;
     /// (picture - calculation) / calculation, %: of the average, of all points (root of the mean square), and the largest.
     double average_difference = 0, mean_difference = 0, largest_difference = 0;
     size_t largest_at = 0;           ///< index into RoadResult::points
+};
+
+/// What an observer sees in the picture.
+struct RenderedObserver {
+    View view;
+    std::vector<float> rgba;         ///< cd/m^2 RGB, by every luminaire of the scene
+    /// The standard leaves out luminaires more than 5H before, 12H beyond or 5H beside a point; so each point is read off a
+    /// picture with the luminaires that count for it. And off the picture above, for what that leaves out.
+    RoadReading counted, every;
     double longest_pixel = 0;        ///< m of road in a pixel, at the far end of the field
 };
 

@@ -62,6 +62,15 @@ bool holds(const Figure& figure, const LightingClass& wanted) {
     return figure.limit == &LightingClass::increment ? figure.value <= limit : figure.value >= limit;
 }
 
+nlohmann::ordered_json json_of(const RoadReading& reading) {
+    return {{"average_luminance_cd_m2", reading.average_luminance},
+            {"overall_uniformity", reading.overall_uniformity},
+            {"lengthwise_uniformity", reading.lengthwise_uniformity},
+            {"average_difference_percent", reading.average_difference},
+            {"rms_difference_percent", reading.mean_difference},
+            {"largest_difference_percent", reading.largest_difference}};
+}
+
 }  // namespace
 
 std::string text_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted) {
@@ -120,7 +129,7 @@ std::string csv_of(const RoadLayout& road, const RoadResult& result, const Rende
         text += format("\n%.4f,%.4f,%.6g", point.x, point.y, point.illuminance);
         for (const double luminance : point.luminance) text += format(",%.6g", luminance);
         if (!rendered) continue;
-        for (const RenderedObserver& seen : rendered->observers) text += format(",%.6g", seen.luminance[i]);
+        for (const RenderedObserver& seen : rendered->observers) text += format(",%.6g", seen.counted.luminance[i]);
     }
     return text + "\n";
 }
@@ -151,14 +160,12 @@ std::string json_of(const RoadLayout& road, const RoadResult& result, const Ligh
         json["rendered_on"] = rendered->device;
         for (size_t o = 0; o < rendered->observers.size(); ++o) {
             const RenderedObserver& seen = rendered->observers[o];
-            json["observers"][o]["rendered"] = {{"average_luminance_cd_m2", seen.average_luminance},
-                                                {"overall_uniformity", seen.overall_uniformity},
-                                                {"lengthwise_uniformity", seen.lengthwise_uniformity},
-                                                {"average_difference_percent", seen.average_difference},
-                                                {"rms_difference_percent", seen.mean_difference},
-                                                {"largest_difference_percent", seen.largest_difference}};
-            for (size_t i = 0; i < seen.luminance.size(); ++i)
-                json["points"][i]["luminance_rendered_cd_m2"].push_back(seen.luminance[i]);
+            json["observers"][o]["rendered"] = json_of(seen.counted);
+            json["observers"][o]["rendered_every_luminaire"] = json_of(seen.every);
+            for (size_t i = 0; i < result.points.size(); ++i) {
+                json["points"][i]["luminance_rendered_cd_m2"].push_back(seen.counted.luminance[i]);
+                json["points"][i]["luminance_every_luminaire_cd_m2"].push_back(seen.every.luminance[i]);
+            }
         }
     }
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

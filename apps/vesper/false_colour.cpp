@@ -102,7 +102,7 @@ void draw_contours(Canvas& canvas, const ValuePicture& picture, std::span<const 
                 size_t found = 0;
                 for (size_t i = 0; i < 4; ++i) {
                     const double a = v[i], b = v[(i + 1) % 4];
-                    if ((a < level) != (b < level) && std::isfinite(a) && std::isfinite(b))
+                    if ((a < level) != (b < level) && a > 0 && b > 0 && std::isfinite(a) && std::isfinite(b))
                         crossing[found++] = glm::mix(place[i], place[(i + 1) % 4], (level - a) / (b - a));
                 }
                 for (size_t i = 0; i + 1 < found; i += 2)

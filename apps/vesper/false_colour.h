@@ -33,7 +33,7 @@ ValuePicture resized(const ValuePicture&, uint32_t width, uint32_t height);
 /// RGBA: map_colour of each value; black for 0 and less, magenta for what is not finite.
 std::vector<uint8_t> false_colours(const ValuePicture&, const ColourScale&);
 
-/// Where the picture goes through any of the levels, drawn in white on colours at (x, y).
+/// Where the picture goes through any of the levels, white, over a picture at a corner; not along the edges of black.
 void draw_contours(Canvas&, const ValuePicture&, std::span<const double> levels, glm::dvec2 corner);
 
 /// A bar of the scale, `height` px high, with labelled ticks on its right, 90 px wide in all; `unit` above it.

@@ -96,7 +96,9 @@ TEST(Statistics, CountsWhatIsNoLuminance) {
     EXPECT_NEAR(s.minimum, -5, 1e-5);
     EXPECT_NEAR(s.maximum, 100, 1e-4);
     for (const auto& [percent, value] : s.percentiles)
-        if (percent == 50) EXPECT_NEAR(value, 50, 1.01);
+        if (percent == 50) {
+            EXPECT_NEAR(value, 50, 1.01);
+        }
     std::vector<float> rgba;
     for (int i = 1; i <= 100; ++i) rgba.insert(rgba.end(), {float(i), float(i), float(i), 7.0f});
     EXPECT_NEAR(luminance_statistics(rgba).mean, 50.5, 1e-4);

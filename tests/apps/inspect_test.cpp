@@ -132,12 +132,12 @@ TEST_F(Inspect, RefusesInOneLine) {
     folder.write("bad.exr", "\x76\x2f\x31\x01 not really");
     folder.write("bad.gltf", "{");
     folder.write("a.txt", "text");
-    for (const std::string arguments :
+    for (const char* arguments :
          {"", "none.gltf", "none.exr", "none.csv", "bad.exr", "bad.gltf", "a.txt", "a.exr --probe 40,0", "a.exr --probe 1,2,3", "a.exr --probe x",
           "a.exr --probe=-1,0", "a.exr -o a.jpg", "a.exr -o none/a.png", "a.exr --json none/a.json", "a.exr --low 5 --high 1 -o a.png",
-          "a.exr --low nan -o a.png", "'" + std::string(VESPER_SOURCE_DIR) + "/data/road/R3.csv' -o a.png",
-          "'" + std::string(VESPER_SOURCE_DIR) + "/data/road/luminaire.ldt' --probe 1,1",
-          "'" + std::string(VESPER_SOURCE_DIR) + "/data/road/luminaire.ldt' --contours"}) {
+          "a.exr --low nan -o a.png", "'" VESPER_SOURCE_DIR "/data/road/R3.csv' -o a.png",
+          "'" VESPER_SOURCE_DIR "/data/road/luminaire.ldt' --probe 1,1",
+          "'" VESPER_SOURCE_DIR "/data/road/luminaire.ldt' --contours"}) {
         EXPECT_EQ(inspect(arguments), 2) << arguments;
         EXPECT_TRUE(said.starts_with("vesper: ")) << arguments << ": " << said;
         EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << arguments << ": " << said;

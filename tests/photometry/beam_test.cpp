@@ -78,7 +78,9 @@ TEST(Beam, OurLowBeamHoldsTheLimitsOfR112) {
     for (const BeamPoint& point : passing_beam_points()) {
         const double candela = intensity_at(beam, point.h, point.v);
         EXPECT_GE(candela, point.least) << point.name;
-        if (point.most > 0) EXPECT_LE(candela, point.most) << point.name;
+        if (point.most > 0) {
+            EXPECT_LE(candela, point.most) << point.name;
+        }
     }
     const BeamFigures f = beam_figures(beam);
     EXPECT_NEAR(f.largest, 28150, 50);

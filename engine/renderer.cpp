@@ -58,7 +58,7 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
         shading.ambient = ambient_illuminance_ * ambient_colour_, shading.sky = sky_luminance_ * sky_colour_;
 
     const GBuffer surfaces = add_gbuffer(graph, resident_, frame, view);
-    const MapTexels maps{graph.external("maps", map_texels_.get(), maps_.texels.size() * sizeof(uint64_t), VK_FORMAT_R16G16B16A16_SFLOAT),
+    const MapTexels maps{graph.external("maps", map_texels_.get(), maps_.texels.size() * sizeof(glm::vec4), VK_FORMAT_R32G32B32A32_SFLOAT),
                          maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};
     const Clusters clusters = add_clusters(graph, kernels_, lights, maps, view, clustering);
     const Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);

@@ -102,7 +102,7 @@ struct Loop {
 };
 
 // Intensity in a direction relative to the largest. `cosine` to the axis; `from` the lamp, of any length.
-float relative_intensity(Lamp lamp, float cosine, vec3 from, bool cone) {
+float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool cone) {
     if (cone) {
         const float ramp = clamp(lamp.lobe_a * cosine + lamp.lobe_b, 0.0, 1.0);
         return ramp * ramp;
@@ -111,7 +111,7 @@ float relative_intensity(Lamp lamp, float cosine, vec3 from, bool cone) {
     if (kPowers != 0u) relative = cosine > 0.0 ? exp2(lamp.lobe_a * log2(cosine)) : 0.0;
     if (kMaps != 0u) {
         const vec3 d = vec3(dot(lamp.start, from), dot(lamp.turn, from), dot(lamp.pole, from));
-        const float mapped = map_intensity(d, lamp.grid, lamp.first, vec2(lamp.last_azimuth, lamp.lobe_b));
+        const float mapped = map_intensity(d, inverse, lamp.grid, lamp.first, vec2(lamp.last_azimuth, lamp.lobe_b));
         relative = lamp.measured ? mapped : relative;
     }
     return relative;
@@ -123,7 +123,7 @@ void add_lamp(Lamp lamp, uint slices, Loop loop) {
         const vec3 to = lamp.position - position[r];
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
         const float normal_light = dot(normal[r], to) * inverse;
-        const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, loop.cones);
+        const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, loop.cones);
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
         const bool counts_here = facing >= push.threshold && (slice_bit[r] & slices) != 0u;
         const bool road = kRoads != 0u && loop.paved && tan_cells[r] > 0.0;

@@ -39,7 +39,7 @@ struct ClusterSettings {
     float far = 0;                 ///< m, where geometry ends; 0: unknown, lamps alone decide
 };
 
-/// The texels of LightMaps (rgba16f), and which of them is the first cell of the first road table.
+/// The texels of LightMaps (rgba32f), and which of them is the first cell of the first road table.
 struct MapTexels {
     Resource texels;
     uint32_t roads = 0;

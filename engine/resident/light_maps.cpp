@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include <glm/gtc/packing.hpp>
-
 #include "base/error.h"
 #include "shared/maps.h"
 
@@ -112,7 +110,7 @@ private:
 // sin(a / 2) of the angle between a direction and the axis -Z.
 double sin_half(glm::dvec3 d) { return std::sqrt(std::max(0.0, (1 + d.z / glm::length(d)) / 2)); }
 
-LightMaps::Intensities add_intensities(const Distribution& d, std::vector<uint64_t>& texels) {
+LightMaps::Intensities add_intensities(const Distribution& d, std::vector<glm::vec4>& texels) {
     LightMaps::Intensities map;
     const double largest = largest_intensity(d);
     map.largest = float(largest), map.goniometry = d.goniometry;
@@ -127,11 +125,11 @@ LightMaps::Intensities add_intensities(const Distribution& d, std::vector<uint64
 
     const Grid grid(d, range, largest);
     std::array<float, shared::kEnvelope> envelope{};
-    std::vector<uint64_t> cells;
+    std::vector<glm::vec4> cells;
     for (int64_t i = 0; i < map.cells.x; ++i)
         for (int64_t j = 0; j < map.cells.y; ++j) {
             const glm::vec4 corners = grid.cell(i, j);
-            cells.push_back(glm::packHalf4x16(corners));
+            cells.push_back(corners);
             const float value = std::max({corners.x, corners.y, corners.z, corners.w});
             if (!(value > 0)) continue;
             double farthest = 0;
@@ -145,22 +143,22 @@ LightMaps::Intensities add_intensities(const Distribution& d, std::vector<uint64
     for (uint32_t bin = shared::kEnvelope - 1; bin-- > 0;) envelope[bin] = std::max(envelope[bin], envelope[bin + 1]);
 
     map.envelope = uint32_t(texels.size());
-    for (const float value : envelope) texels.push_back(glm::packHalf4x16(glm::vec4(value * 1.002f)));
+    for (const float value : envelope) texels.emplace_back(value * 1.001f);
     map.first = uint32_t(texels.size());
     texels.insert(texels.end(), cells.begin(), cells.end());
     return map;
 }
 
-uint32_t add_road(const ReflectionTable& table, std::vector<uint64_t>& texels) {
+uint32_t add_road(const ReflectionTable& table, std::vector<glm::vec4>& texels) {
     const double last = table.tan_gamma.back();
     const auto value = [&](uint32_t t, uint32_t b) {
         return float(1e4 * reduced_luminance_coefficient(table, last * t / shared::kRoadTanCells, 180.0 * b / shared::kRoadBetaCells));
     };
-    texels.push_back(glm::packHalf4x16({float(shared::kRoadTanCells / last), float(last), 0.0f, 0.0f}));
+    texels.emplace_back(float(shared::kRoadTanCells / last), float(last), 0.0f, 0.0f);
     const auto first = uint32_t(texels.size());
     for (uint32_t t = 0; t < shared::kRoadTanCells; ++t)
         for (uint32_t b = 0; b < shared::kRoadBetaCells; ++b)
-            texels.push_back(glm::packHalf4x16({value(t, b), value(t + 1, b), value(t, b + 1), value(t + 1, b + 1)}));
+            texels.emplace_back(value(t, b), value(t + 1, b), value(t, b + 1), value(t + 1, b + 1));
     return first;
 }
 

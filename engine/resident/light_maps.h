@@ -23,11 +23,11 @@ struct LightMaps {
     };
     std::vector<Intensities> intensities;  ///< as Scene::distributions
     std::vector<uint32_t> roads;           ///< as Scene::reflection_tables: texel of the first cell
-    std::vector<uint64_t> texels{0};       ///< four half floats each; never empty
+    std::vector<glm::vec4> texels{glm::vec4(0)};  ///< never empty
 };
 
-/// Grids whose nodes include every angle of the file, so that the interpolation between them is the file's own, and the
-/// rounding to half floats (0.05 %) the only loss. A file whose angles have no common divisor of at least 0.02 degrees gets
+/// Grids whose nodes include every angle of the file, so that the interpolation between them is the file's own and nothing
+/// is lost but what floats round. A file whose angles have no common divisor of at least 0.02 degrees gets
 /// nodes 0.1 degrees apart.
 LightMaps light_maps(const Scene& scene);
 

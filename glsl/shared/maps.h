@@ -1,5 +1,5 @@
 // Measured intensities and road surfaces as the shaders read them. SPDX-License-Identifier: MIT
-// One texel buffer of rgba16f holds them all. A texel is a cell of a grid: the values at its four corners (low, low),
+// One texel buffer of rgba32f holds them all. A texel is a cell of a grid: the values at its four corners (low, low),
 // (high, low), (low, high), (high, high) of the first and the second coordinate; cells are stored row by row of the first.
 #ifndef VESPER_SHARED_MAPS_H
 #define VESPER_SHARED_MAPS_H

@@ -65,7 +65,7 @@ struct Street {
     }
 
     MapTexels texels(FrameGraph& graph) const {
-        return {graph.upload("maps", maps.texels, VK_FORMAT_R16G16B16A16_SFLOAT), maps.roads.front(), true};
+        return {graph.upload("maps", maps.texels, VK_FORMAT_R32G32B32A32_SFLOAT), maps.roads.front(), true};
     }
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
 #include "shared/maps.h"
@@ -21,7 +20,7 @@ Scene with(Distribution d) {
 }
 
 glm::vec4 cell(const LightMaps& maps, const LightMaps::Intensities& map, uint32_t i, uint32_t j) {
-    return glm::unpackHalf4x16(maps.texels.at(map.first + size_t(i) * map.cells.y + j));
+    return maps.texels.at(map.first + size_t(i) * map.cells.y + j);
 }
 
 /// Every tabulated value is a corner of a cell, within the rounding of half floats: 2^-11, or 2^-25 of the largest.
@@ -71,7 +70,7 @@ TEST(LightMaps, AnEnvelopeIsNeverBelowAnyValue) {
         const auto& map = maps.intensities.at(0);
         double last = 1e30;
         for (uint32_t k = 0; k < shared::kEnvelope; ++k) {
-            const double bound = double(glm::unpackHalf4x16(maps.texels[map.envelope + k]).x) * double(map.largest);
+            const double bound = double(maps.texels[map.envelope + k].x) * double(map.largest);
             EXPECT_LE(bound, last);
             last = bound;
             // Directions in this ring.
@@ -104,7 +103,7 @@ TEST(LightMaps, RoadsKeepEveryTabulatedValue) {
     const LightMaps maps = light_maps(scene);
     for (size_t k = 0; k < scene.reflection_tables.size(); ++k) {
         const ReflectionTable& table = scene.reflection_tables[k];
-        const glm::vec4 head = glm::unpackHalf4x16(maps.texels.at(maps.roads[k] - 1));
+        const glm::vec4 head = maps.texels.at(maps.roads[k] - 1);
         EXPECT_EQ(head.x * head.y, float(shared::kRoadTanCells));
         for (size_t t = 1; t < table.tan_gamma.size(); ++t)
             for (size_t b = 1; b < table.beta.size(); ++b) {
@@ -112,7 +111,7 @@ TEST(LightMaps, RoadsKeepEveryTabulatedValue) {
                 const double at = table.tan_gamma[t] * double(head.x);
                 ASSERT_EQ(at, std::round(at));
                 const size_t cell = (size_t(at) - 1) * shared::kRoadBetaCells + size_t(table.beta[b]) - 1;
-                const double value = 1e-4 * double(glm::unpackHalf4x16(maps.texels.at(maps.roads[k] + cell)).w);
+                const double value = 1e-4 * double(maps.texels.at(maps.roads[k] + cell).w);
                 ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-11)) << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
             }
     }

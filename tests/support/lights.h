@@ -17,7 +17,7 @@ struct LampMix {
 
 /// For frames without measured lamps and roads.
 inline MapTexels no_maps(FrameGraph& graph) {
-    return {graph.upload("maps", std::vector<uint64_t>{0}, VK_FORMAT_R16G16B16A16_SFLOAT)};
+    return {graph.upload("maps", std::vector<glm::vec4>(1), VK_FORMAT_R32G32B32A32_SFLOAT)};
 }
 
 /// Half of them points and spots, half of them cosine powers.

@@ -48,6 +48,7 @@ struct GlareClass {
     std::array<double, 4> limits;  // cd/klm at 70, 80, 90 deg and from 95 deg up
 };
 constexpr double kAny = HUGE_VAL;
+constexpr double kNothing = 0.5;  // cd/klm: rounds to 0
 constexpr GlareClass kGlareClasses[] = {  // EN 13201-2:2015, table A.1, strictest first; G*6 asks 0 from 90 deg up
     {"G*6", {350, 100, 0, 0}},   {"G*5", {350, 100, 10, 0}},       {"G*4", {500, 100, 10, 0}},
     {"G*3", {kAny, 100, 20, kAny}}, {"G*2", {kAny, 150, 30, kAny}}, {"G*1", {kAny, 200, 50, kAny}}};
@@ -61,7 +62,7 @@ void find_cut_off(const Distribution& d, BeamFigures& figures) {
         if (gamma > 95) figures.at_70_80_90_95[3] = std::max(figures.at_70_80_90_95[3], greatest_at(d, gamma) * per_klm);
     for (const GlareClass& c : kGlareClasses) {
         bool holds = true;
-        for (size_t i = 0; i < 4; ++i) holds &= figures.at_70_80_90_95[i] <= c.limits[i] + 1e-9;
+        for (size_t i = 0; i < 4; ++i) holds &= figures.at_70_80_90_95[i] <= std::max(c.limits[i], kNothing);
         if (!holds) continue;
         figures.glare_class = c.name;
         return;

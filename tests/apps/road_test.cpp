@@ -101,8 +101,8 @@ TEST_F(Road, OtherRoadsAgreeToo) {
         std::ofstream(folder / "r.json") << R"({"version": 1, "name": "made", )" << road << "\"file\": \"" << luminaire << "\"}}";
         ASSERT_EQ(run("--render a.png --json a.json", "r.json"), 0) << text_of("err.txt");
         const Differences found = differences_in(text_of("a.json"));
-        EXPECT_LT(found.point, 2) << road;
-        EXPECT_LT(found.average, 0.3) << road;
+        EXPECT_LT(found.point, 0.5) << road;
+        EXPECT_LT(found.average, 0.1) << road;
         EXPECT_GT(found.observers, 0u);
     }
 }

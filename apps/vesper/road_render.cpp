@@ -41,17 +41,23 @@ void summarise(const RoadLayout& road, const RoadResult& result, size_t index, R
     reading.lengthwise_uniformity = lane_greatest > 0 ? lane_least / lane_greatest : 0;
 }
 
-/// Points of the grid by the luminaires of the scene that count for them.
-using Groups = std::map<std::vector<bool>, std::vector<size_t>>;
+/// Points of the grid of one observer.
+struct Wanted {
+    size_t observer, point;
+};
+/// By the luminaires of the scene that light them in the calculation.
+using Groups = std::map<std::vector<bool>, std::vector<Wanted>>;
 
-Groups groups_of(const std::vector<RoadLuminaire>& lamps, const RoadResult& result) {
+Groups groups_of(const RoadLayout& road, const std::vector<RoadLuminaire>& lamps, const RoadResult& result) {
     Groups groups;
-    for (size_t i = 0; i < result.points.size(); ++i) {
-        std::vector<bool> counted;
-        for (const RoadLuminaire& lamp : lamps)
-            counted.push_back(counts_for_luminance(lamp, {result.points[i].x, result.points[i].y}));
-        groups[counted].push_back(i);
-    }
+    for (size_t o = 0; o < result.observers.size(); ++o)
+        for (size_t i = 0; i < result.points.size(); ++i) {
+            const glm::dvec2 point(result.points[i].x, result.points[i].y);
+            std::vector<bool> counted;
+            for (const RoadLuminaire& lamp : lamps)
+                counted.push_back(reflected_towards(road, lamp, point, result.observers[o].eye) > 0);
+            groups[counted].push_back({o, i});
+        }
     return groups;
 }
 
@@ -119,11 +125,14 @@ RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const
         made.observers.push_back(std::move(seen));
         if (result.observers[i].average_luminance < result.observers[made.darkest].average_luminance) made.darkest = i;
     }
-    for (const auto& [counted, points] : groups_of(road_scene_luminaires(road), result)) {
+    for (const auto& [counted, wanted] : groups_of(road, road_scene_luminaires(road), result)) {
         RoadPictures some(device, with_luminaires(scene, counted));
-        for (RenderedObserver& seen : made.observers) {
-            const std::vector<float> rgba = some.render(seen.view);
-            for (const size_t i : points) seen.counted.luminance[i] = read_point(rgba, seen.view, result.points[i]);
+        std::vector<float> rgba;
+        for (size_t i = 0; i < wanted.size(); ++i) {  // observer by observer
+            const auto [observer, point] = wanted[i];
+            RenderedObserver& seen = made.observers[observer];
+            if (i == 0 || wanted[i - 1].observer != observer) rgba = some.render(seen.view);
+            seen.counted.luminance[point] = read_point(rgba, seen.view, result.points[point]);
         }
     }
     for (size_t i = 0; i < made.observers.size(); ++i) {

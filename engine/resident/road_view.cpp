@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDepth = 0.05;    // m of road in a pixel
 constexpr double kAcross = 0.02;   // m
-constexpr uint32_t kFewest = 256, kMostColumns = 2048;
+constexpr uint32_t kFewest = 256, kMostColumns = 1024;
 constexpr float kNear = 1;         // m
 
 /// The world from an eye that looks along the road, level.

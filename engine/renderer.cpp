@@ -35,6 +35,7 @@ Renderer::Renderer(Device& device, const Scene& scene)
     : kernels_(device),
       resident_(device, scene),
       lights_(placed_lights(scene)),
+      sources_(placed_sources(scene)),
       maps_(light_maps(scene)),
       map_arena_(device),
       map_texels_(upload_buffer(device, map_arena_, std::as_bytes(std::span(maps_.texels)), VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT)),
@@ -45,7 +46,7 @@ Renderer::Renderer(Device& device, const Scene& scene)
       executor_(device) {}
 
 Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
-                                     const LightList& lights, float seconds, Outputs outputs) const {
+                                     const LightList& lights, const SourceList& sources, float seconds, Outputs outputs) const {
     const bool ldr = settings.tone_operator == Operator::Ldr;
     const uint32_t tone = tone_of(settings.tone_operator);
     ClusterSettings clustering = settings.clusters;
@@ -61,7 +62,8 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
     const MapTexels maps{graph.external("maps", map_texels_.get(), maps_.texels.size() * sizeof(glm::vec4), VK_FORMAT_R32G32B32A32_SFLOAT),
                          maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};
     const Clusters clusters = add_clusters(graph, kernels_, lights, maps, view, clustering);
-    const Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
+    const Resource shaded = add_shading(graph, kernels_, surfaces, clusters, view, shading);
+    const Resource scene = add_sources(graph, kernels_, shaded, surfaces.surface, sources, view);
     const Pyramid luminance = add_pyramid(graph, kernels_, scene, view.extent);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
     const Resource histogram = add_histogram(graph, kernels_, luminance, level, view.extent, settings.histogram);
@@ -85,11 +87,13 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
 
 Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, Outputs outputs) {
     const auto start = std::chrono::steady_clock::now();
+    const bool ldr = settings.tone_operator == Operator::Ldr;
     LightList lights = light_list(lights_, maps_, frame, view);
-    if (settings.tone_operator == Operator::Ldr) set_to_one(lights, settings.ldr_reference_distance);
+    if (ldr) set_to_one(lights, settings.ldr_reference_distance);
+    const SourceList sources = source_list(sources_, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
 
     FrameGraph graph;
-    const Declared declared = declare(graph, settings, view, frame, lights, seconds, outputs);
+    const Declared declared = declare(graph, settings, view, frame, lights, sources, seconds, outputs);
     executor_.run(graph);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     plan_ = graph.describe(executor_.plan());
@@ -110,6 +114,7 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     result.clusters = read_one<shared::ClusterReport>(executor_, declared.clusters);
     result.foveal_level = declared.foveal_level;
     result.lights = uint32_t(lights.lights.size());
+    result.sources = uint32_t(sources.sources.size());
     result.far = declared.far;
     result.timings = executor_.timings();
     result.milliseconds = elapsed.count();

@@ -11,6 +11,7 @@
 #include "resident/kernels.h"
 #include "resident/lights.h"
 #include "resident/resident_scene.h"
+#include "resident/sources.h"
 
 namespace vesper {
 
@@ -56,6 +57,7 @@ struct Frame {
     shared::ClusterReport clusters{};
     uint32_t foveal_level = 0;
     uint32_t lights = 0;            ///< lamps that shine
+    uint32_t sources = 0;           ///< of their openings, those in view
     float far = 0;                  ///< m: the far limit of the clusters
     std::vector<Timing> timings;
     double milliseconds = 0;        ///< from declaring the frame to the device being done, on the host's clock
@@ -85,11 +87,12 @@ private:
         float far;
     };
     Declared declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
-                     const LightList& lights, float seconds, Outputs outputs) const;
+                     const LightList& lights, const SourceList& sources, float seconds, Outputs outputs) const;
 
     Kernels kernels_;
     ResidentScene resident_;
     std::vector<PlacedLight> lights_;
+    SourceSet sources_;
     LightMaps maps_;
     Arena map_arena_;
     OwnedBuffer map_texels_;

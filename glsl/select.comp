@@ -27,6 +27,7 @@ const uint kMaxTurns = 7000u;  // of one invocation; a CPU device counts those o
 const uint kTogether = 3u;     // slices that share a box
 
 vec3 position_low, position_high, normal_low, normal_high;
+bool matt;  // all of what is drawn in the slices
 
 // The slice of a pixel as a bit; 0 where nothing is drawn.
 uint slice_bit(float depth) {
@@ -49,12 +50,14 @@ void bound_slices(uvec2 corner, uint slices) {
     const ClusterGrid grid = push.view.grid;
     const uvec2 end = min(corner + kBlockSize, push.size);
     position_low = vec3(1e30), position_high = vec3(-1e30), normal_low = vec3(2.0), normal_high = vec3(-2.0);
+    matt = true;
     for (uint y = corner.y; y < end.y; ++y) {
         for (uint x = corner.x; x < end.x; ++x) {
             const vec4 surface = imageLoad(surface_image, ivec2(x, y));
             const bool here = (slice_bit(surface.z) & slices) != 0u;
             const vec3 position = vec3(grid.ray_scale * (vec2(x, y) + 0.5) + grid.ray_offset, -1.0) * surface.z;
             const vec3 normal = decode_normal(surface.xy);
+            matt = matt && (!here || surface.w >= 1.0);
             position_low = here ? min(position_low, position) : position_low;
             position_high = here ? max(position_high, position) : position_high;
             normal_low = here ? min(normal_low, normal) : normal_low;
@@ -83,7 +86,10 @@ bool lights_block(uint light) {
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);
     const float slack = 1e-5 * (abs(facing.x) + abs(facing.y) + abs(facing.z));
-    return facing.x + facing.y + facing.z > -slack && reaches(largest, nearest, push.view.threshold);
+    // What a matt surface gets is less by a cosine, at most that product over the distance.
+    const float product = facing.x + facing.y + facing.z + slack;
+    const float cosine_here = matt ? min(kSlack * product / max(nearest, 1e-6), 1.0) : 1.0;
+    return product > 0.0 && reaches(largest * cosine_here, nearest, push.view.threshold);
 }
 
 // The ascending lists of several froxels, read as one without repetitions.

@@ -38,6 +38,7 @@ bool shiny, paved;            // whether any of the pixels has a specular lobe, 
 vec3 sum[kRows];              // shiny: luminance, cd/m^2 RGB; otherwise what `diffuse` makes luminance
 
 // What the luminance coefficient of a pixel needs.
+float least_cosine[kRows];       // with which the threshold is taken: 0 of a matt pixel, 1 of others
 vec3 diffuse[kRows], f0[kRows];  // luminance coefficient rho lambert, sr^-1; reflectance facing the surface
 float f90[kRows];                // and at grazing incidence
 float a2[kRows];                 // GGX alpha^2
@@ -125,7 +126,7 @@ void add_lamp(Lamp lamp, uint slices, Loop loop) {
         const float normal_light = dot(normal[r], to) * inverse;
         const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, loop.cones);
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
-        const bool counts_here = facing >= push.threshold && (slice_bit[r] & slices) != 0u;
+        const bool counts_here = facing * max(normal_light, least_cosine[r]) >= push.threshold && (slice_bit[r] & slices) != 0u;
         const bool road = kRoads != 0u && loop.paved && tan_cells[r] > 0.0;
         float weight = max(normal_light, 0.0);
         if (kRoads != 0u && loop.paved) weight = road && normal_light > 0.0 ? road_coefficient(r, to, inverse, normal_light) : weight;
@@ -229,6 +230,7 @@ void main() {
         base[r] = reflectance.rgb;
         prepare_lobe(r, base[r], max(reflectance.a, 0.0), surface.w);
         prepare_road(r, reflectance.a);
+        least_cosine[r] = surface.w < 1.0 ? 1.0 : 0.0;
         const bool road = tan_cells[r] > 0.0;
         shiny = shiny || (drawn && !road && (surface.w < 1.0 || reflectance.a > 0.0));
         paved = paved || (drawn && road);

@@ -207,7 +207,7 @@ void add_render(CLI::App& program) {
     command->add_flag("--plan", a->plan, "Print the plan of the frame: passes, barriers, memory");
     command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     command->add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")->check(CLI::IsMember({"physical", "paper"}))->capture_default_str();
-    command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance facing a lamp below which it counts as dark, lx")->check(between(1e-9, 1e3))->capture_default_str();
+    command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")->check(between(1e-9, 1e3))->capture_default_str();
     command->add_option("--bins", a->settings.histogram.bins, "Bins of the histogram")->check(CLI::Range(1u, shared::kMaxBins))->capture_default_str();
     command->add_option("--foveal-level", a->foveal_level, "Pyramid level of the histogram (default: 1 degree per texel; the paper: 5)")->check(CLI::Range(1, 14));
     command->add_option("--key", a->settings.tone.key, "Reinhard: what the log average is shown as, relative to white")->check(between(1e-4, 10.0))->capture_default_str();

@@ -12,11 +12,13 @@
 #include "resident/formats.h"
 #include "resident/kernels.h"
 #include "resident/lights.h"
+#include "resident/sources.h"
 #include "resident/view.h"
 #include "shared/cluster.h"
 #include "shared/composite.h"
 #include "shared/light.h"
 #include "shared/shade.h"
+#include "shared/source.h"
 #include "shared/tone.h"
 
 namespace vesper {
@@ -33,7 +35,7 @@ struct GBuffer {
 GBuffer add_gbuffer(FrameGraph&, const ResidentScene&, const SceneFrame&, const View&);
 
 struct ClusterSettings {
-    float threshold = 0.001f;      ///< lx: a lamp counts where it gives at least this on a surface facing it
+    float threshold = 0.001f;      ///< lx: a lamp counts where it gives at least this, on matt surfaces, or on a plane facing it, elsewhere
     uint32_t slices = 32;
     uint32_t capacity = 512;       ///< lights a froxel lists before it falls back to all lights
     float far = 0;                 ///< m, where geometry ends; 0: unknown, lamps alone decide
@@ -70,10 +72,16 @@ struct ShadeSettings {
 
 /// Turns the emission of a G-buffer, in place, into scene luminance, rgba32f, cd/m^2 RGB (alpha 1):
 /// L = sum_k E_k (rho lambert + specular) + ambient rho lambert + emission, E_k = I_k(direction) cos / d^2, counted where
-/// I_k / d^2 >= threshold. rho = base colour (1 - metallic). Specular: GGX (Walter et al. 2007, a = roughness^2) with
+/// E_k (on surfaces of roughness 1) or I_k / d^2 (on others) >= threshold. A road with a table reflects after CIE 144 (see
+/// shared/shade.h); it is no specular surface of ours. rho = base colour (1 - metallic). Specular: GGX (Walter et al. 2007, a = roughness^2) with
 /// height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel; F0 is the base colour of a metal and
 /// 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert.
 Resource add_shading(FrameGraph&, const Kernels&, const GBuffer&, const Clusters&, const View&, const ShadeSettings&);
+
+/// Adds to the scene image, in place, the lamps of `list` seen directly: their luminance times the part of each pixel that
+/// their outline covers, exactly, where no `surface` (GBuffer::surface) lies before them. However small a lamp is, the sum
+/// over the image of luminance times solid angle is I / d^2. Without anything to see there is no pass.
+Resource add_sources(FrameGraph&, const Kernels&, Resource scene, Resource surface, const SourceList& list, const View&);
 
 /// Luminance at halving resolutions, see shared::PyramidPush. Level 0 is the scene image itself and is not stored.
 struct Pyramid {

@@ -9,6 +9,7 @@
 #include "shaders/pyramid.comp.inc"
 #include "shaders/select.comp.inc"
 #include "shaders/shade.comp.inc"
+#include "shaders/sources.comp.inc"
 #include "shared/tone.h"
 
 namespace vesper {
@@ -40,6 +41,7 @@ Kernels::Kernels(const Device& device)
       shade_rows(device.is_cpu() ? 8 : 1),
       shade_bands(device.is_cpu() ? 16 : 1),
       select(device, "select.comp", select_comp),
+      sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),
       histogram(device, "histogram.comp", histogram_comp),

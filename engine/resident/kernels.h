@@ -19,6 +19,7 @@ struct Kernels {
     enum ShadeVariant : uint32_t { kEveryLight = 1, kPowers = 2, kMaps = 4, kRoads = 8 };
     /// Made when it is first asked for.
     const Kernel& shade(uint32_t variant) const;
+    Kernel sources;
     Kernel pyramid_first, pyramid;
     Kernel histogram, adapt;
     std::vector<Kernel> bright;     ///< by shared::kTone*

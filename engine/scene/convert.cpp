@@ -36,6 +36,7 @@ json block_of(const Conversion& conversion, const std::filesystem::path& input,
     if (p.ambient) block["ambient"] = quantity_of("illuminance_lx", *p.ambient);
     if (p.sky) block["sky"] = quantity_of("luminance_cd_m2", *p.sky);
     if (!conversion.lobes.empty()) block["lobes"] = conversion.lobes;
+    if (!conversion.openings.empty()) block["openings"] = conversion.openings;
     if (!conversion.roads.empty()) {
         block["reflection_tables"] = conversion.reflection_tables;
         block["roads"] = conversion.roads;

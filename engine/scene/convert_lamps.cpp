@@ -6,6 +6,7 @@
 
 #include "photometry/ies.h"
 #include "scene/convert_rules.h"
+#include "scene/light.h"
 #include "scene/photometry_measured.h"
 #include "scene/uri.h"
 
@@ -93,9 +94,18 @@ struct Reference {
     json use;
 };
 
+/// The opening of a light or a light profile, for the extras block.
+void add_opening(Conversion& conversion, const char* of, size_t index, const LuminousOpening& opening) {
+    if (!(opening.area() > 0)) return;
+    conversion.openings.push_back({{of, index}, {"width_m", opening.length}, {"height_m", opening.width}});
+    if (opening.round) conversion.openings.back()["round"] = true;
+}
+
 /// Puts the file of a measured lamp into the document, once for all rules that name it.
 size_t profile_of(Conversion& conversion, const LampRule& rule) {
-    const auto [known, is_new] = conversion.profiles.try_emplace(rule.light.distribution);
+    const LuminousOpening& opening = rule.light.opening;
+    const auto [known, is_new] =
+        conversion.profiles.try_emplace({rule.light.distribution, opening.length, opening.width, opening.round});
     if (!is_new) return known->second;
     json& root = conversion.document.edit();
     json& extension =
@@ -112,7 +122,9 @@ size_t profile_of(Conversion& conversion, const LampRule& rule) {
     extension["lights"].push_back({{"name", distribution.name},
                                    {"bufferView", root["bufferViews"].size() - 1},
                                    {"mimeType", "application/x-ies-lm-63"}});
-    return known->second = extension["lights"].size() - 1;
+    known->second = extension["lights"].size() - 1;
+    add_opening(conversion, "profile", known->second, opening);
+    return known->second;
 }
 
 void add_profile_buffer(Conversion& conversion) {
@@ -141,6 +153,7 @@ Reference reference_of(Conversion& conversion, const LampRule& rule) {
     use_extension(root, kLights);
     if (rule.light.kind == Light::Kind::CosinePower)
         conversion.lobes.push_back({{"light", light}, {"type", "cosine_power"}, {"exponent", rule.light.exponent}});
+    add_opening(conversion, "light", light, rule.light.opening);
     return {kLights, {{"light", light}}};
 }
 
@@ -165,6 +178,13 @@ void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& ref
     root["nodes"].push_back(std::move(child));
 }
 
+/// What the opening of a lamp shows on its axis.
+std::string seen(Light light, const Distribution& distribution) {
+    if (!(light.opening.area() > 0)) return "";
+    light.distribution = 0;
+    return ", " + decimal(axis_luminance(light, {&distribution, 1})) + " cd/m^2 over " + decimal(light.opening.area()) + " m^2";
+}
+
 std::string describe(const Conversion& conversion, const LampRule& rule, size_t nodes) {
     const Light& light = rule.light;
     if (light.kind == Light::Kind::Measured) {
@@ -172,7 +192,7 @@ std::string describe(const Conversion& conversion, const LampRule& rule, size_t 
         return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + in_quotes(lamp.file) +
                (lamp.mirror ? " mirrored, " : ", ") + decimal(light.intensity * largest_intensity(lamp.distribution)) +
                " cd at most, " + (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
-               decimal(light.intensity * luminous_flux(lamp.distribution)) + " lm each";
+               decimal(light.intensity * luminous_flux(lamp.distribution)) + " lm each" + seen(light, lamp.distribution);
     }
     const double degrees = 180 / std::numbers::pi;
     std::string lobe = "point";
@@ -181,7 +201,7 @@ std::string describe(const Conversion& conversion, const LampRule& rule, size_t 
     if (light.kind == Light::Kind::CosinePower) lobe = "cosine power " + decimal(light.exponent);
     return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + lobe + ", " +
            decimal(light.intensity) + " cd, " + (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
-           decimal(luminous_flux(light)) + " lm each";
+           decimal(luminous_flux(light)) + " lm each" + seen(light, {});
 }
 
 void warn_of_instances(Conversion& conversion, const JsonValue& node, const LampRule& rule) {
@@ -239,6 +259,7 @@ void convert_lamps(Conversion& conversion) {
         conversion.report.changes.push_back(describe(conversion, rule, matched[r].size()));
     }
     add_profile_buffer(conversion);
+    conversion.lamp_nodes = std::move(matched);
 }
 
 }  // namespace vesper

@@ -70,6 +70,17 @@ std::pair<json, const Image*> emission_texture(const Conversion& conversion, con
     return {source["pbrMetallicRoughness"]["baseColorTexture"], image};
 }
 
+/// The glass of a lamp whose opening is drawn: it does not emit besides.
+void leave_to_lamp(Conversion& conversion, uint32_t index) {
+    json& material = conversion.document.edit()["materials"][index];
+    material.erase("emissiveTexture");
+    material.erase("emissiveFactor");
+    const auto extensions = material.find("extensions");
+    if (extensions == material.end() || !extensions->is_object()) return;
+    extensions->erase(kStrength);
+    if (extensions->empty()) material.erase("extensions");
+}
+
 void make_emit(Conversion& conversion, const EmitterRule& rule, uint32_t index) {
     json& root = conversion.document.edit();
     json& material = root["materials"][index];
@@ -157,6 +168,7 @@ void convert_materials(Conversion& conversion) {
     const Photometry& photometry = conversion.photometry;
     const auto emitting = assign(conversion, photometry.emitters, "emitter");
     const auto surfaces = assign(conversion, photometry.surfaces, "surface");
+    check_sources(conversion, emitting);
     std::set<uint32_t> emitters;
     for (const auto& materials : emitting) emitters.insert(materials.begin(), materials.end());
     for (uint32_t m = 0; m < conversion.document.list("materials").size(); ++m) {
@@ -172,8 +184,17 @@ void convert_materials(Conversion& conversion) {
     }
     for (size_t r = 0; r < emitting.size(); ++r) {
         const EmitterRule& rule = photometry.emitters[r];
-        for (const uint32_t material : emitting[r]) make_emit(conversion, rule, material);
-        if (!emitting[r].empty())
+        for (const uint32_t material : emitting[r]) {
+            if (rule.lamps.empty())
+                make_emit(conversion, rule, material);
+            else
+                leave_to_lamp(conversion, material);
+        }
+        if (!emitting[r].empty() && !rule.lamps.empty())
+            conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " + count_of(emitting[r].size()) +
+                                                ", seen as the opening of lamp " + in_quotes(rule.lamps.front()) +
+                                                (rule.lamps.size() > 1 ? " and others" : ""));
+        else if (!emitting[r].empty())
             conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " +
                                                 count_of(emitting[r].size()) + ", " + decimal(rule.luminance) +
                                                 " cd/m^2" + (rule.modulate ? " at most" : ""));

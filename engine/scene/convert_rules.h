@@ -3,6 +3,7 @@
 
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "scene/convert.h"
 #include "scene/gltf_reader.h"
@@ -18,8 +19,11 @@ struct Conversion {
     ConversionReport& report;
     nlohmann::json lobes = nlohmann::json::array();  ///< of the extras block
     nlohmann::json reflection_tables = nlohmann::json::array(), roads = nlohmann::json::array();  ///< the same
-    std::map<uint32_t, size_t> profiles{};  ///< light profile of EXT_lights_ies for a measured lamp
+    nlohmann::json openings = nlohmann::json::array();                                            ///< the same
+    /// Light profile of EXT_lights_ies for a measured lamp and the length, width and roundness of its opening.
+    std::map<std::tuple<uint32_t, double, double, bool>, size_t> profiles{};
     std::vector<uint8_t> profile_bytes{};   ///< a new buffer
+    std::vector<std::vector<uint32_t>> lamp_nodes{};  ///< nodes of the file that each lamp rule matches
 };
 
 /// The object member of that name, made when missing. Throws Error when it is something else.
@@ -36,6 +40,10 @@ void convert_lamps(Conversion& conversion);
 void convert_materials(Conversion& conversion);
 /// Warns of what cannot be right: sizes, lamps, things that look like lights and were not matched.
 void check_plausibility(Conversion& conversion, const std::set<size_t>& lamp_nodes);
+
+/// Warns of sources whose two descriptions, intensity of the lamp and luminance of the surface, disagree by more than
+/// 10 %, and of those that would be seen twice. `emitting`: the materials of every emitter rule.
+void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_t>>& emitting);
 
 /// Warns of surfaces of a converted scene that reflect more than there are.
 void check_reflectances(const Scene& converted, ConversionReport& report);

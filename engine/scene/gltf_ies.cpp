@@ -58,6 +58,7 @@ uint32_t read_measured_light(GltfReader& reader, const JsonValue& use) {
     light.kind = Light::Kind::Measured;
     light.distribution = index;
     light.name = reader.scene.distributions[index].name;
+    if (index < reader.profile_openings.size()) light.opening = reader.profile_openings[index];
     const double y = luminance(colour);
     light.intensity = static_cast<float>(multiplier * y);
     if (y > 0) light.colour = glm::vec3(colour / y);

@@ -64,6 +64,24 @@ void read_lobe(GltfReader& reader, const JsonValue& lobe) {
     light.exponent = static_cast<float>(lobe.at("exponent").number(0, 1e5));
 }
 
+/// Where the light of a punctual light, or of all uses of a light profile, comes out.
+void read_opening(GltfReader& reader, const JsonValue& source) {
+    source.allow_only({"light", "profile", "width_m", "height_m", "round"});
+    LuminousOpening opening;
+    opening.length = source.at("width_m").number(1e-4, 100);
+    opening.width = source.at("height_m").number(1e-4, 100);
+    opening.round = source.boolean_or("round", false);
+    if (const auto profile = source.find("profile")) {
+        if (source.find("light")) profile->fail("is given beside light: one of them is wanted");
+        reader.profile_openings.resize(reader.scene.distributions.size());
+        reader.profile_openings[profile->index(reader.scene.distributions.size(), "profiles")] = opening;
+        return;
+    }
+    Light& light = reader.scene.lights[source.at("light").index(reader.scene.lights.size(), "lights")];
+    if (light.kind == Light::Kind::Directional) source.at("light").fail("a directional light has no opening");
+    light.opening = opening;
+}
+
 /// {"<quantity>": number, "colour": [r, g, b]}; the colour is brought to luminance 1.
 void read_uniform(const JsonValue& source, const char* quantity, float& value, glm::vec3& colour) {
     source.allow_only({quantity, "colour"});
@@ -96,7 +114,7 @@ void read_photometry_block(GltfReader& reader) {
     if (version.integer() != 1)
         version.fail("vesper extras of version " + std::to_string(version.integer()) +
                      ": this program reads version 1");
-    block->allow_only({"version", "transfer", "ambient", "sky", "lobes", "reflection_tables", "roads", "provenance"});
+    block->allow_only({"version", "transfer", "ambient", "sky", "lobes", "openings", "reflection_tables", "roads", "provenance"});
     if (const auto transfer = block->find("transfer")) {
         transfer->allow_only({"kind", "gamma"});
         const std::string& kind = transfer->at("kind").text();
@@ -109,6 +127,7 @@ void read_photometry_block(GltfReader& reader) {
     if (const auto sky = block->find("sky"))
         read_uniform(*sky, "luminance_cd_m2", reader.scene.sky_luminance, reader.scene.sky_colour);
     for (const JsonValue& lobe : block->elements_of("lobes")) read_lobe(reader, lobe);
+    for (const JsonValue& opening : block->elements_of("openings")) read_opening(reader, opening);
     read_reflection_tables(reader, *block);
 }
 

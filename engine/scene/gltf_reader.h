@@ -45,6 +45,7 @@ struct GltfReader {
     uint32_t punctual_lights = 0;  ///< those of KHR_lights_punctual, the first of the scene's
     /// Scene light of a distribution, with its multiplier and colour.
     std::map<std::tuple<uint32_t, float, float, float, float>, uint32_t> measured_lights{};
+    std::vector<LuminousOpening> profile_openings{};  ///< of distributions, from the extras block; may be shorter
     uint64_t vertices = 0, indices = 0, texels = 0, keys = 0;  ///< kept so far
     uint64_t decoded = 0;                                      ///< vertices read so far, also those not kept
 };

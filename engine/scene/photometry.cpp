@@ -54,11 +54,12 @@ std::vector<std::string> read_patterns(const JsonValue& rule, const char* key) {
 void read_lobe(Light& light, const JsonValue& rule) {
     const JsonValue type = rule.at("type");
     if (type.text() == "point") {
-        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m"});
+        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
+                         "opening"});
         light.kind = Light::Kind::Point;
     } else if (type.text() == "spot") {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
-                         "aim", "inner_cone_deg", "outer_cone_deg"});
+                         "opening", "aim", "inner_cone_deg", "outer_cone_deg"});
         light.kind = Light::Kind::Spot;
         const double outer = rule.at("outer_cone_deg").number(0.1, 90);
         const double inner = rule.number_or("inner_cone_deg", 0, 0, 90);
@@ -68,7 +69,7 @@ void read_lobe(Light& light, const JsonValue& rule) {
         light.inner_cone = static_cast<float>(std::min(inner, outer * 0.9999) * kRadians);
     } else if (type.text() == "cosine_power") {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
-                         "aim", "exponent"});
+                         "opening", "aim", "exponent"});
         light.kind = Light::Kind::CosinePower;
         light.exponent = static_cast<float>(rule.at("exponent").number(0, 1e5));
         // For viewers that know only spots: the cone ends where the lobe has fallen to a thousandth.
@@ -92,6 +93,26 @@ void read_shape(LampRule& rule, const JsonValue& source) {
     }
 }
 
+/// Where the light comes out: {"width_m", "height_m", "round"}, or "file".
+LuminousOpening read_opening(const JsonValue& source, const LampRule& rule, const Photometry& made) {
+    constexpr double kSmallest = 1e-4, kLargest = 100;
+    if (source.json().is_string()) {
+        if (source.text() != "file") source.fail("is neither an object nor \"file\"");
+        if (rule.light.kind != Light::Kind::Measured) source.fail("\"file\" is for lamps of type distribution");
+        const LuminousOpening& stated = made.measured[rule.light.distribution].distribution.opening;
+        if (std::min(stated.length, stated.width) < kSmallest || std::max(stated.length, stated.width) > kLargest)
+            source.fail("the file states no luminous area that can be seen");
+        return {.length = stated.length, .width = stated.width, .height = 0, .round = stated.round};
+    }
+    source.allow_only({"width_m", "height_m", "round"});
+    LuminousOpening opening;
+    opening.round = source.boolean_or("round", false);
+    opening.length = source.at("width_m").number(kSmallest, kLargest);
+    opening.width = opening.round ? source.number_or("height_m", opening.length, kSmallest, kLargest)
+                                  : source.at("height_m").number(kSmallest, kLargest);
+    return opening;
+}
+
 LampRule read_lamp(const JsonValue& source, const std::filesystem::path& folder, Photometry& made) {
     LampRule rule;
     if (source.at("type").text() == "distribution")
@@ -103,14 +124,33 @@ LampRule read_lamp(const JsonValue& source, const std::filesystem::path& folder,
     rule.light.name = rule.name;
     rule.light.colour = glm::vec3(read_colour(source, &rule.kelvin));
     if (const auto offset = source.find("offset_m")) rule.offset = read_vector(*offset);
+    if (const auto opening = source.find("opening")) rule.light.opening = read_opening(*opening, rule, made);
     return rule;
 }
 
-EmitterRule read_emitter(const JsonValue& source) {
-    source.allow_only({"name", "materials", "luminance_cd_m2", "colour_temperature_K", "colour_rgb", "modulate"});
+/// The lamps whose glass a material is: their openings are what is seen.
+std::vector<std::string> read_lamp_names(const JsonValue& source, const Photometry& made) {
+    for (const char* key : {"colour_temperature_K", "colour_rgb", "modulate"})
+        if (const auto other = source.find(key)) other->fail("follows from the lamp: leave it out");
+    const std::vector<std::string> names = read_patterns(source, "lamp");
+    for (const std::string& name : names) {
+        const auto found = std::find_if(made.lamps.begin(), made.lamps.end(), [&](const LampRule& r) { return r.name == name; });
+        if (found == made.lamps.end()) source.at("lamp").fail("there is no lamp rule of the name '" + name + "'");
+        if (!(found->light.opening.area() > 0)) source.at("lamp").fail("the lamp rule '" + name + "' has no opening");
+    }
+    return names;
+}
+
+EmitterRule read_emitter(const JsonValue& source, const Photometry& made) {
+    source.allow_only({"name", "materials", "luminance_cd_m2", "colour_temperature_K", "colour_rgb", "modulate", "lamp"});
     EmitterRule rule;
     rule.materials = read_patterns(source, "materials");
     rule.name = source.text_or("name", rule.materials.front());
+    if (source.find("lamp")) {
+        rule.lamps = read_lamp_names(source, made);
+        rule.luminance = source.number_or("luminance_cd_m2", 0, 0, 1e10);
+        return rule;
+    }
     rule.luminance = source.at("luminance_cd_m2").number(0, 1e10);
     rule.colour = read_colour(source);
     rule.modulate = source.boolean_or("modulate", false);
@@ -192,7 +232,7 @@ Photometry read_photometry(const std::filesystem::path& file) {
     }
     for (const JsonValue& rule : root.elements_of("lamps"))
         made.lamps.push_back(read_lamp(rule, file.parent_path(), made));
-    for (const JsonValue& rule : root.elements_of("emitters")) made.emitters.push_back(read_emitter(rule));
+    for (const JsonValue& rule : root.elements_of("emitters")) made.emitters.push_back(read_emitter(rule, made));
     for (const JsonValue& rule : root.elements_of("surfaces")) made.surfaces.push_back(read_surface(rule, file.parent_path()));
     return made;
 }

@@ -15,7 +15,7 @@ namespace vesper {
 struct LampRule {
     std::string name;
     std::vector<std::string> nodes;  ///< patterns
-    Light light;                     ///< intensity, lobe and colour; Measured: the factor, an index into measured
+    Light light;                     ///< intensity, lobe, colour, opening; Measured: the factor, an index into measured
     double kelvin = 0;               ///< colour temperature, K; 0 where a colour was given
     std::optional<glm::dvec3> aim;   ///< axis of the lobe in the node's frame, unit length; -Z where missing
     std::optional<glm::dquat> turn;  ///< Measured: from the luminaire's frame to the node's, where they differ
@@ -34,7 +34,8 @@ struct MeasuredLamp {
 struct EmitterRule {
     std::string name;
     std::vector<std::string> materials;  ///< patterns
-    double luminance = 0;                ///< cd/m^2
+    double luminance = 0;                ///< cd/m^2; with lamps: only to be checked, 0 where not given
+    std::vector<std::string> lamps;      ///< names of lamp rules whose glass this is: their openings are drawn instead
     glm::dvec3 colour{1};                ///< linear, luminance 1
     bool modulate = false;  ///< the material's texture times the above; its brightest texel has `luminance`
 };

@@ -100,7 +100,7 @@ glm::dquat turn_to(glm::dvec3 axis) {
 void read_measured(const JsonValue& source, const std::filesystem::path& folder, Photometry& made, LampRule& rule) {
     source.allow_only({"name", "nodes", "type", "file", "lamp_set", "mirror", "flux_lm", "flux_scale",
                        "maintenance_factor", "dimming", "colour_temperature_K", "colour_rgb", "offset_m", "aim", "up",
-                       "c0", "rotation_deg", "pitch_deg", "yaw_deg"});
+                       "c0", "rotation_deg", "pitch_deg", "yaw_deg", "opening"});
     rule.light.kind = Light::Kind::Measured;
     rule.light.distribution = measured_lamp(source, folder, made);
     const Distribution& distribution = made.measured[rule.light.distribution].distribution;

@@ -103,6 +103,8 @@ struct Light {
     float outer_cone = 0.785f;  ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
     float exponent = 1;         ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
     uint32_t distribution = kNone;  ///< Measured: index into Scene::distributions
+    LuminousOpening opening;    ///< seen directly: at the lamp, facing its axis (of a Point: facing the eye); m, whatever
+                                ///< the node's scale. Length along its X, width along its Y. Without area it is not drawn
 };
 
 struct Camera {

@@ -52,6 +52,22 @@ TEST_F(Program, WritesBothKindsOfPictures) {
     EXPECT_NE(text_of(folder / "out.txt").find("gbuffer"), std::string::npos);
 }
 
+TEST_F(Program, DrawsLampsThatHaveAnOpening) {
+    for (const bool opening : {true, false}) {
+        std::ofstream(folder / "empty.gltf")
+            << R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],)"
+            << R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":20}]}},)"
+            << R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],)"
+            << R"("nodes":[{"name":"eye","camera":0},)"
+            << R"({"translation":[0,0,-10],"extensions":{"KHR_lights_punctual":{"light":0}}}],)"
+            << R"("extras":{"vesper":{"version":1,"openings":[)"
+            << (opening ? R"({"light":0,"width_m":0.1,"height_m":0.1})" : "") << "]}}}";
+        ASSERT_EQ(render("--plan"), 0) << said;
+        EXPECT_EQ(text_of(folder / "out.txt").find("\nsources\n") != std::string::npos, opening);
+        for (const char* tone : {"ward", "ldr"}) EXPECT_EQ(render("-o a.png --operator " + std::string(tone)), 0) << said;
+    }
+}
+
 TEST_F(Program, RefusesWhatCannotBeInOneLine) {
     for (const char* arguments : {"", "-o a.tiff", "-o none/a.png", "-o a.png --stats-json none/a.json", "-o a.png --operator foo", "-o a.exr --operator ldr",
                                   "-o a.png --threshold nan", "-o a.png --dt nan", "-o a.png --frames 0", "-o a.png --frames 2 -o b%99d.png",

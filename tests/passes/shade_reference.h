@@ -71,8 +71,8 @@ struct Shaded {
     dvec3 rounding{0};   ///< cd/m^2, first order
 };
 
-/// Adds one light. A lamp counts where it gives at least `threshold` lx on a surface facing it; a directional light
-/// always does. Light that arrives from below the surface does not count.
+/// Adds one light. A lamp counts where it gives at least `threshold` lx on a surface facing it, or, where the surface is
+/// matt, on the surface itself; a directional light always does. Light that arrives from below the surface does not count.
 inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
                       double roughness, double threshold, Shaded& sum, const MeasuredLamp* measured = nullptr,
                       const ReflectionTable* road = nullptr) {
@@ -90,21 +90,22 @@ inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, d
     const double more = measured ? e * 1.0006 + light.intensity / d2 * std::exp2(-24) : intensity(light, kind, std::min(cosine + epsilon, 1.0)) / d2 * (1 + 3 * epsilon);
     const double less = measured ? e * 0.9994 - light.intensity / d2 * std::exp2(-24) : intensity(light, kind, cosine - epsilon) / d2 * (1 - 3 * epsilon);
     const double nl = glm::dot(n, l);
-    if (nl <= -epsilon || (lamp && std::max(more, less) < threshold)) return;
+    const double arriving = roughness < 1 ? 1 : std::max(nl, 0.0), blur = roughness < 1 ? 0 : epsilon;
+    const bool may_count = !lamp || std::max(more, less) * (arriving + blur) >= threshold;
+    const bool uncertain = lamp && std::min(more, less) * (arriving - blur) < threshold;
+    if (nl <= -epsilon || !may_count) return;
 
     if (road) {
         const dvec3 reflected = dvec3(light.colour) * rho_lambert * std::numbers::pi;
-        if (nl > 0 && (!lamp || e >= threshold)) sum.luminance += reflected * e * road_coefficient(*road, n, l, v);
+        if (nl > 0 && (!lamp || e * arriving >= threshold)) sum.luminance += reflected * e * road_coefficient(*road, n, l, v);
         const double largest = *std::max_element(road->r.begin(), road->r.end()) * 145;
-        const bool doubtful = lamp && (std::min(more, less) < threshold) != (std::max(more, less) < threshold);
         const double value = nl > epsilon ? road_coefficient(*road, n, l, v) : largest;
-        sum.rounding += reflected * value * (doubtful ? std::max(more, less) : more - less + 0.001 * e + e * epsilon / std::max(nl * nl, epsilon));
+        sum.rounding += reflected * value * (uncertain ? std::max(more, less) : more - less + 0.001 * e + e * epsilon / std::max(nl * nl, epsilon));
         return;
     }
     const Specular s = specular(n, l, v, f0, roughness, epsilon);
     const dvec3 reflected = dvec3(light.colour) * (rho_lambert + s.value);
-    if (nl > 0 && (!lamp || e >= threshold)) sum.luminance += reflected * e * nl;
-    const bool uncertain = lamp && (std::min(more, less) < threshold) != (std::max(more, less) < threshold);
+    if (nl > 0 && (!lamp || e * arriving >= threshold)) sum.luminance += reflected * e * nl;
     const double brightest = std::max(more, less);
     sum.rounding +=
         uncertain ? reflected * brightest * std::max(nl, 0.0) : reflected * std::abs(more - less) * std::max(nl, 0.0);

@@ -61,10 +61,16 @@ TEST(ShadeReference, LampsAddAndScale) {
 }
 
 TEST(ShadeReference, ALampBelowTheThresholdIsDark) {
-    // 0.1 cd from 10 m: 0.001 lx on a facing surface, whatever the angle of this one.
+    // 0.1 cd from 10 m: 0.001 lx on a facing surface, whatever the angle of a glossy one.
     for (float candela : {0.0999f, 0.1001f}) {
-        const auto got = shade_one(wall(10, {0, 1, 0.01}), {point_lamp({0, 0, 0}, candela)}, ahead(1));
-        EXPECT_EQ(got.luminance.y > 0, candela > 0.1f);
+        SurfaceTexel glossy = wall(10, {0, 1, 0.01});
+        glossy.surface.w = 0.9;
+        EXPECT_EQ(shade_one(glossy, {point_lamp({0, 0, 0}, candela)}, ahead(1)).luminance.y > 0, candela > 0.1f);
+    }
+    // A matt one at 60 degrees needs twice as much.
+    for (float candela : {0.1999f, 0.2001f}) {
+        const auto got = shade_one(wall(10, {0, std::sqrt(3), 1}), {point_lamp({0, 0, 0}, candela)}, ahead(1));
+        EXPECT_EQ(got.luminance.y > 0, candela > 0.2f);
     }
     const auto at_the_edge = shade_one(wall(10), {point_lamp({0, 0, 0}, 0.1f)}, ahead(1));
     EXPECT_GE(at_the_edge.rounding.y, 0.5 * 0.001 / kPi) << "rounding decides here: all of it is in doubt";

@@ -3,6 +3,8 @@
 import json
 
 _SODIUM, _HALOGEN = 2400, 3800  # K
+_HEADLAMP, _TAIL = {"width_m": 0.265, "height_m": 0.14}, {"width_m": 0.2, "height_m": 0.26}  # their glasses, cars.py
+_SIGNAL = {"width_m": 0.193, "round": True}  # of the area of the ten-sided lens, furniture.py
 _TAIL_RED, _SIGNAL_RED, _SIGNAL_GREEN = [1.0, 0.02, 0.01], [1.0, 0.05, 0.02], [0.05, 1.0, 0.55]
 
 
@@ -20,14 +22,14 @@ def photometry():
             # What their glass lets out above the reflector, on facades and trees.
             _spot("street lamp glass", "street_lamp_*/light", 700, (72, 89), _SODIUM, aim=[0, 0, 1]),
             _spot("arcade lantern", "arcade_lamp_*/light", 250, (45, 80), 2700),
-            _spot("ego low beam", "car_ego/headlamp_*", 9000, (1.5, 17), _HALOGEN),
-            _spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 10), _HALOGEN),
+            _spot("ego low beam", "car_ego/headlamp_*", 9000, (1.5, 17), _HALOGEN, opening=_HEADLAMP),
+            _spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 10), _HALOGEN, opening=_HEADLAMP),
             # Parked cars show their parking lamps: UN Regulation 77 asks for at least 2 cd.
-            _spot("parking lamp", "car_parked_*/headlamp_*", 2, (10, 45), 3000),
-            _coloured("tail lamp", ["car_traffic_*/tail_*", "car_ego/tail_*"], 5, (10, 55), _TAIL_RED),
-            _coloured("rear parking lamp", "car_parked_*/tail_*", 2, (10, 45), _TAIL_RED),
-            _coloured("red signal", "signal_*/red", 100, (5, 40), _SIGNAL_RED),
-            _coloured("green signal", "signal_*/green", 100, (5, 40), _SIGNAL_GREEN),
+            _spot("parking lamp", "car_parked_*/headlamp_*", 2, (10, 45), 3000, opening=_HEADLAMP),
+            _coloured("tail lamp", ["car_traffic_*/tail_*", "car_ego/tail_*"], 5, (10, 55), _TAIL_RED, opening=_TAIL),
+            _coloured("rear parking lamp", "car_parked_*/tail_*", 2, (10, 45), _TAIL_RED, opening=_TAIL),
+            _coloured("red signal", "signal_*/red", 100, (5, 40), _SIGNAL_RED, opening=_SIGNAL),
+            _coloured("green signal", "signal_*/green", 100, (5, 40), _SIGNAL_GREEN, opening=_SIGNAL),
         ],
         "emitters": [
             {
@@ -36,32 +38,13 @@ def photometry():
                 "luminance_cd_m2": 8000,
                 "colour_temperature_K": _SODIUM,
             },
-            {
-                "name": "headlamp",
-                "materials": "headlamp_glass",
-                "luminance_cd_m2": 20000,
-                "colour_temperature_K": _HALOGEN,
-            },
-            {
-                "name": "parking lamp",
-                "materials": "headlamp_glass_parked",
-                "luminance_cd_m2": 250,
-                "colour_temperature_K": 3000,
-            },
-            {"name": "tail lamp", "materials": "tail_glass", "luminance_cd_m2": 100, "colour_rgb": _TAIL_RED},
-            {
-                "name": "rear parking lamp",
-                "materials": "tail_glass_parked",
-                "luminance_cd_m2": 45,
-                "colour_rgb": _TAIL_RED,
-            },
-            {"name": "red signal", "materials": "signal_red", "luminance_cd_m2": 2200, "colour_rgb": _SIGNAL_RED},
-            {
-                "name": "green signal",
-                "materials": "signal_green",
-                "luminance_cd_m2": 2200,
-                "colour_rgb": _SIGNAL_GREEN,
-            },
+            # Seen as their lamps' openings: what they show follows from the candela.
+            {"name": "headlamp", "materials": "headlamp_glass", "lamp": ["low beam", "ego low beam"]},
+            {"name": "parking lamp", "materials": "headlamp_glass_parked", "lamp": "parking lamp"},
+            {"name": "tail lamp", "materials": "tail_glass", "lamp": "tail lamp"},
+            {"name": "rear parking lamp", "materials": "tail_glass_parked", "lamp": "rear parking lamp"},
+            {"name": "red signal", "materials": "signal_red", "lamp": "red signal"},
+            {"name": "green signal", "materials": "signal_green", "lamp": "green signal"},
             {
                 "name": "warm room",
                 "materials": "window_lit_warm",
@@ -103,9 +86,9 @@ def photometry():
     }
 
 
-def _spot(name, nodes, candela, cones, kelvin, aim=(0, 0, -1)):
+def _spot(name, nodes, candela, cones, kelvin, aim=(0, 0, -1), opening=None):
     """A lamp of full intensity within the first half angle (degrees) that fades to nothing at the second."""
-    return {
+    lamp = {
         "name": name,
         "nodes": nodes,
         "type": "spot",
@@ -115,10 +98,11 @@ def _spot(name, nodes, candela, cones, kelvin, aim=(0, 0, -1)):
         "aim": list(aim),
         "colour_temperature_K": kelvin,
     }
+    return lamp | ({"opening": opening} if opening else {})
 
 
-def _coloured(name, nodes, candela, cones, colour):
-    lamp = _spot(name, nodes, candela, cones, None)
+def _coloured(name, nodes, candela, cones, colour, opening):
+    lamp = _spot(name, nodes, candela, cones, None, opening=opening)
     del lamp["colour_temperature_K"]
     return lamp | {"colour_rgb": colour}
 

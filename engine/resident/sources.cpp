@@ -1,0 +1,161 @@
+#include "resident/sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "resident/outline.h"
+#include "scene/light.h"
+
+namespace vesper {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+
+// The shortest turn from one unit vector to another; half a turn about `spare` where they are opposite.
+glm::dquat turn(dvec3 from, dvec3 to, dvec3 spare) {
+    const double cosine = glm::dot(from, to);
+    if (cosine < -1 + 1e-9) return {0, spare.x, spare.y, spare.z};
+    const dvec3 normal = glm::cross(from, to);
+    return glm::normalize(glm::dquat(1 + cosine, normal.x, normal.y, normal.z));
+}
+
+// The normal a flat opening is drawn with, so that the eye sees at least kGrazing of it. A point lamp faces the eye.
+dvec3 seen_normal(const Light& light, dvec3 normal, dvec3 up, dvec3 to_eye) {
+    if (light.kind == Light::Kind::Point) return to_eye;
+    const double cosine = glm::dot(normal, to_eye);
+    if (cosine >= kGrazing) return normal;
+    const dvec3 sideways = normal - cosine * to_eye;
+    const dvec3 edge = glm::length(sideways) > 1e-6 ? glm::normalize(sideways) : up;
+    return kGrazing * to_eye + std::sqrt(1 - kGrazing * kGrazing) * edge;
+}
+
+struct Seen {
+    Outline outline;
+    double luminance;  // cd/m^2
+    double hidden;     // m
+};
+
+Seen look_at(const Light& light, const std::vector<Distribution>& distributions, const glm::mat4& m, const View& view) {
+    const Seen nothing{{}, 0, 0};
+    const dvec3 centre(m[3]);
+    const dvec3 columns[] = {dvec3(m[0]), dvec3(m[1]), dvec3(m[2])};
+    for (const dvec3& column : columns)
+        if (!(glm::length(column) > 0)) return nothing;  // a node squeezed flat has no direction left
+    const dvec3 right = glm::normalize(columns[0]), up = glm::normalize(columns[1]), back = glm::normalize(columns[2]);
+    const double distance = glm::length(centre);
+    const double reach = std::hypot(light.opening.length, light.opening.width) / 2;
+    if (!(distance > 1e-6) || -centre.z + reach < view.near) return nothing;
+    const dvec3 to_eye = -centre / distance;
+    const dvec3 direction(glm::dot(right, to_eye), glm::dot(up, to_eye), glm::dot(back, to_eye));
+    const double candela = luminous_intensity(light, distributions, direction);
+    if (!(candela > 0)) return nothing;
+
+    const dvec3 normal = seen_normal(light, -back, up, to_eye);
+    const glm::dquat turned = turn(-back, normal, up);
+    // Axes of a sheared node are not at right angles; those of the opening are.
+    const dvec3 across = turned * glm::normalize(right - glm::dot(right, back) * back), along = glm::cross(normal, across);
+    const LuminousOpening& o = light.opening;
+    const Opening opening{centre, 0.5 * o.length * across, 0.5 * o.width * along, o.round};
+    Outline outline = project(opening, view, kSmallest);
+    const double luminance = candela / (light.opening.area() * glm::dot(normal, to_eye) * outline.widening);
+    return {std::move(outline), luminance, -centre.z * 0.999 - kHousing - reach - double(shared::kSourceEdge)};
+}
+
+// Where a convex polygon crosses a horizontal line: empty (low > high) outside it.
+struct Span {
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+    void add(double x) { low = std::min(low, x), high = std::max(high, x); }
+};
+
+Span span_at(const std::vector<dvec2>& polygon, double y) {
+    Span span;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        if (std::min(a.y, b.y) > y || std::max(a.y, b.y) < y) continue;
+        span.add(a.y == b.y ? a.x : a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
+        if (a.y == b.y) span.add(b.x);
+    }
+    return span;
+}
+
+// Calls touch(column, row, whole) for every tile the polygon touches.
+template <class Touch>
+void for_each_tile(const std::vector<dvec2>& polygon, VkExtent2D image, Touch touch) {
+    constexpr double kTile = shared::kSourceTile;
+    const auto higher = [](dvec2 a, dvec2 b) { return a.y < b.y; };
+    const auto [top, bottom] = std::minmax_element(polygon.begin(), polygon.end(), higher);
+    const uint32_t columns = (image.width + shared::kSourceTile - 1) / shared::kSourceTile;
+    const uint32_t rows = (image.height + shared::kSourceTile - 1) / shared::kSourceTile;
+    const uint32_t last_row = std::min(rows - 1, uint32_t(bottom->y / kTile));
+    for (uint32_t row = uint32_t(top->y / kTile); row <= last_row; ++row) {
+        const double y0 = row * kTile, y1 = y0 + kTile;
+        const Span above = span_at(polygon, y0), below = span_at(polygon, y1);
+        Span touched{std::min(above.low, below.low), std::max(above.high, below.high)};
+        for (const dvec2& v : polygon)
+            if (v.y >= y0 && v.y <= y1) touched.add(v.x);
+        if (touched.low > touched.high) continue;
+        const double whole_low = std::max(above.low, below.low), whole_high = std::min(above.high, below.high);
+        const uint32_t last = std::min(columns - 1, uint32_t(touched.high / kTile));
+        for (uint32_t column = uint32_t(touched.low / kTile); column <= last; ++column)
+            touch(column, row, whole_low <= column * kTile && whole_high >= (column + 1) * kTile);
+    }
+}
+
+// A tile (row, column), and an entry of it.
+struct Touched {
+    uint64_t tile;
+    uint32_t entry;
+};
+
+void add(SourceList& list, std::vector<Touched>& touched, const Seen& seen, glm::vec3 luminance, VkExtent2D image) {
+    const std::vector<dvec2>& polygon = seen.outline.vertices;
+    dvec2 low = polygon.front();
+    for (const dvec2& v : polygon) low = glm::min(low, v);
+    const dvec2 origin = glm::floor(low);
+    const auto source = uint32_t(list.sources.size());
+    list.sources.push_back(
+        {luminance, float(seen.hidden), glm::vec2(origin), float(list.outline.size()), float(polygon.size())});
+    for (const dvec2& v : polygon) list.outline.emplace_back(v - origin);
+    for_each_tile(polygon, image, [&](uint32_t column, uint32_t row, bool whole) {
+        touched.push_back({uint64_t(row) << 32 | column, source | (whole ? shared::kCoversTile : 0)});
+    });
+}
+
+}  // namespace
+
+SourceSet placed_sources(const Scene& scene) {
+    SourceSet set;
+    for (const PlacedLight& placed : placed_lights(scene))
+        if (placed.light.kind != Light::Kind::Directional && placed.light.opening.area() > 0)
+            set.lamps.push_back(placed);
+    if (!set.lamps.empty()) set.distributions = scene.distributions;
+    return set;
+}
+
+SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View& view, std::optional<float> white) {
+    SourceList list;
+    std::vector<Touched> touched;
+    for (const auto& [light, node] : set.lamps) {
+        const Seen seen = look_at(light, set.distributions, view.world_to_view * frame.world[node], view);
+        if (seen.outline.vertices.empty()) continue;
+        const glm::vec3 c = light.colour;
+        const double largest = std::max({c.r, c.g, c.b, 1e-6f});
+        const double scale = white ? *white / (largest * seen.outline.widening) : seen.luminance;
+        const glm::vec3 luminance(scale * dvec3(c));
+        if (std::isfinite(luminance.r + luminance.g + luminance.b)) add(list, touched, seen, luminance, view.extent);
+    }
+    std::stable_sort(touched.begin(), touched.end(), [](const Touched& a, const Touched& b) { return a.tile < b.tile; });
+    for (const Touched& t : touched) {
+        const uint32_t row = uint32_t(t.tile >> 32), column = uint32_t(t.tile);
+        if (list.tiles.empty() || list.tiles.back().x != column || list.tiles.back().y != row)
+            list.tiles.emplace_back(column, row, list.entries.size(), 0);
+        list.entries.push_back(t.entry);
+        ++list.tiles.back().w;
+    }
+    return list;
+}
+
+}  // namespace vesper

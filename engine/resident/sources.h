@@ -1,0 +1,42 @@
+// Lamps seen directly: where their openings lie in the image, and how bright they are. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "resident/lights.h"
+#include "shared/source.h"
+
+namespace vesper {
+
+/// The lamps of a scene that have an opening. Keeps no reference to the Scene.
+struct SourceSet {
+    std::vector<PlacedLight> lamps;
+    std::vector<Distribution> distributions;
+};
+SourceSet placed_sources(const Scene& scene);
+
+/// A flat opening seen at less than this angle to its plane is drawn as if turned to it: its intensity there comes from
+/// what is not flat, and would be of infinite luminance.
+constexpr double kGrazing = 0.0871557427476582;  // sin 5 deg
+/// How far in front of a lamp a surface must lie to hide it, besides half the opening's diagonal and 0.1 % of the
+/// distance: its own glass and housing do not. m
+constexpr double kHousing = 0.25;
+/// Half the width of the smallest outline that is drawn, px. Smaller openings are widened to it, their luminance
+/// lowered by as much: so their light moves from pixel to pixel without a step, and its centre is where the lamp is.
+constexpr double kSmallest = 0.5;
+
+/// Outlines in the image, and which squares of kSourceTile px they touch.
+struct SourceList {
+    std::vector<shared::Source> sources;
+    std::vector<glm::vec2> outline;    ///< px from the source's origin, x right and y down, of positive area
+    std::vector<glm::uvec4> tiles;     ///< column, row, first entry, entries; row by row
+    std::vector<uint32_t> entries;     ///< a source, ascending in a tile, and kCoversTile
+};
+
+/// The openings a view sees, with the luminance L = I(towards the eye) / projected area, I / d^2 being what arrives at
+/// the eye. `white` is what the largest component of each is instead: the LDR baseline.
+SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View& view,
+                       std::optional<float> white = {});
+
+}  // namespace vesper

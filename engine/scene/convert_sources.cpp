@@ -1,0 +1,163 @@
+// Sources are described twice, by candela and by cd/m^2: L = I / A must hold. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "io/atomic_file.h"
+#include "scene/convert_rules.h"
+#include "scene/light.h"
+
+namespace vesper {
+namespace {
+
+using glm::dvec3;
+constexpr double kAgreement = 1.1;  // ratio of the two luminances from which they disagree
+constexpr double kReach = 1;        // m: a surface farther from a lamp than this is not its glass
+
+/// A lamp of a rule at a node of the scene.
+struct Placed {
+    uint32_t node;
+    dvec3 position, axis;             // world; m, unit length
+    double front = 0, back = 0;       // emitting area towards the axis and away from it, m^2
+};
+
+double axis_intensity(const Conversion& conversion, const LampRule& rule) {
+    Light light = rule.light;
+    if (light.kind != Light::Kind::Measured) return luminous_intensity(light, {}, {0, 0, -1});
+    light.distribution = 0;
+    const Distribution& distribution = conversion.photometry.measured[rule.light.distribution].distribution;
+    return luminous_intensity(light, {&distribution, 1}, {0, 0, -1});
+}
+
+std::vector<Placed> placed_lamps(const Conversion& conversion, const std::vector<glm::mat4>& world, size_t rule_index) {
+    const LampRule& rule = conversion.photometry.lamps[rule_index];
+    const dvec3 aim = rule.turn ? *rule.turn * dvec3(0, 0, -1) : rule.aim.value_or(dvec3(0, 0, -1));
+    std::vector<Placed> lamps;
+    for (const uint32_t file_node : conversion.lamp_nodes[rule_index]) {
+        const uint32_t node = conversion.original.node_of[file_node];
+        if (node == kNone) continue;
+        const glm::dmat4 m(world[node]);
+        dvec3 position(m[3]);
+        for (int axis = 0; axis < 3; ++axis)
+            if (glm::length(dvec3(m[axis])) > 0) position += rule.offset[axis] * glm::normalize(dvec3(m[axis]));
+        const dvec3 direction = glm::dmat3(m) * aim;
+        if (glm::length(direction) > 0) lamps.push_back({node, position, glm::normalize(direction)});
+    }
+    return lamps;
+}
+
+/// Lamps at a node's own place in the tree: on it, on its parent, on its children, on its siblings.
+class Neighbours {
+public:
+    Neighbours(const Scene& scene, std::vector<Placed>& lamps) : scene_(scene) {
+        for (Placed& lamp : lamps) {
+            at_[lamp.node].push_back(&lamp);
+            if (scene.nodes[lamp.node].parent != kNone) below_[scene.nodes[lamp.node].parent].push_back(&lamp);
+        }
+    }
+    std::vector<Placed*> of(uint32_t node) const {
+        const uint32_t parent = scene_.nodes[node].parent;
+        std::vector<Placed*> found;
+        const auto take = [&](const auto& map, uint32_t key) {
+            if (const auto lamps = map.find(key); lamps != map.end())
+                found.insert(found.end(), lamps->second.begin(), lamps->second.end());
+        };
+        take(at_, node), take(below_, node);
+        if (parent != kNone) take(at_, parent), take(below_, parent);
+        return found;
+    }
+
+private:
+    const Scene& scene_;
+    std::map<uint32_t, std::vector<Placed*>> at_, below_;
+};
+
+/// Adds the triangles of a primitive to the lamps they are nearest to.
+void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_sided,
+              const std::vector<Placed*>& lamps) {
+    const double side = glm::determinant(glm::dmat3(world)) < 0 ? -1 : 1;
+    for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+        dvec3 p[3];
+        for (size_t c = 0; c < 3; ++c)
+            p[c] = dvec3(world * glm::dvec4(primitive.vertices[primitive.indices[i + c]].position, 1));
+        const dvec3 centre = (p[0] + p[1] + p[2]) / 3.0, area = 0.5 * side * glm::cross(p[1] - p[0], p[2] - p[0]);
+        Placed* const nearest = *std::min_element(lamps.begin(), lamps.end(), [&](const Placed* a, const Placed* b) {
+            return glm::distance(a->position, centre) < glm::distance(b->position, centre);
+        });
+        if (glm::distance(nearest->position, centre) > kReach) continue;
+        const double seen = glm::dot(area, nearest->axis);
+        (seen > 0 ? nearest->front : nearest->back) += seen > 0 ? seen : double_sided ? -seen : 0;
+    }
+}
+
+std::string disagreement(const EmitterRule& emitter, const LampRule& lamp, double intensity, double area) {
+    return "emitter " + in_quotes(emitter.name) + ": " + decimal(emitter.luminance) + " cd/m^2 given, " +
+           decimal(intensity) + " cd of lamp " + in_quotes(lamp.name) + " over " + decimal(area) + " m^2 is " + decimal(intensity / area) +
+           " cd/m^2 (" + deviation(intensity / area / emitter.luminance) + ")";
+}
+
+bool disagree(double a, double b) { return a > kAgreement * b || b > kAgreement * a; }
+
+/// Emitters that name their lamps.
+void check_named(Conversion& conversion, const EmitterRule& emitter) {
+    for (const LampRule& lamp : conversion.photometry.lamps) {
+        if (std::find(emitter.lamps.begin(), emitter.lamps.end(), lamp.name) == emitter.lamps.end()) continue;
+        const double intensity = axis_intensity(conversion, lamp), area = lamp.light.opening.area();
+        if (emitter.luminance > 0 && area > 0 && disagree(intensity / area, emitter.luminance))
+            conversion.report.warnings.push_back(disagreement(emitter, lamp, intensity, area));
+    }
+}
+
+/// One emitter against one lamp rule, by the meshes beside its lamps; one line for all nodes.
+void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining,
+                size_t rule_index, const std::vector<glm::mat4>& world) {
+    const Scene& scene = conversion.original.scene;
+    const LampRule& rule = conversion.photometry.lamps[rule_index];
+    const auto shines = [&](const Primitive& p) {
+        return std::find(shining.begin(), shining.end(), p.material) != shining.end();
+    };
+    std::vector<Placed> lamps = placed_lamps(conversion, world, rule_index);
+    const Neighbours neighbours(scene, lamps);
+    for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
+        if (scene.nodes[node].mesh == kNone) continue;
+        const std::vector<Primitive>& primitives = scene.meshes[scene.nodes[node].mesh].primitives;
+        if (std::none_of(primitives.begin(), primitives.end(), shines)) continue;
+        const std::vector<Placed*> beside = neighbours.of(node);
+        if (beside.empty()) continue;
+        for (const Primitive& p : primitives)
+            if (shines(p)) add_area(p, glm::dmat4(world[node]), scene.materials[p.material].double_sided, beside);
+    }
+    const double intensity = axis_intensity(conversion, rule);
+    size_t glazed = 0, wrong = 0;
+    double worst = 0, its_area = 0;
+    for (const Placed& lamp : lamps) {
+        const double area = lamp.front > 0 ? lamp.front : lamp.back;
+        if (!(area > 0) || !(intensity > 0)) continue;
+        ++glazed;
+        const double off = std::abs(std::log(intensity / area / emitter.luminance));
+        if (disagree(intensity / area, emitter.luminance)) ++wrong;
+        if (off > worst) worst = off, its_area = area;
+    }
+    if (glazed > 0 && rule.light.opening.area() > 0)
+        conversion.report.warnings.push_back("emitter " + in_quotes(emitter.name) + ": lies where lamp " +
+                                             in_quotes(rule.name) + " shows its opening and would be seen twice: give it \"lamp\": \"" +
+                                             one_line(rule.name) + "\"");
+    if (wrong > 0)
+        conversion.report.warnings.push_back(disagreement(emitter, rule, intensity, its_area) +
+                                             (wrong > 1 ? ", the most of " + std::to_string(wrong) + " nodes" : ""));
+}
+
+}  // namespace
+
+void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_t>>& emitting) {
+    const Photometry& photometry = conversion.photometry;
+    const std::vector<glm::mat4> world = world_transforms(conversion.original.scene, 0);
+    for (size_t e = 0; e < photometry.emitters.size(); ++e) {
+        const EmitterRule& emitter = photometry.emitters[e];
+        if (!emitter.lamps.empty()) check_named(conversion, emitter);
+        // A texture's mean is not known here, and what is off is meant to be.
+        if (!emitter.lamps.empty() || emitter.modulate || !(emitter.luminance > 0) || emitting[e].empty()) continue;
+        for (size_t r = 0; r < photometry.lamps.size(); ++r) check_pair(conversion, emitter, emitting[e], r, world);
+    }
+}
+
+}  // namespace vesper

@@ -1,0 +1,201 @@
+// Openings of lamps in the image: what the host works out for the pass. SPDX-License-Identifier: MIT
+#include "resident/sources.h"
+
+#include <map>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "passes/sources_reference.h"
+#include "scene/light.h"
+#include "support/sources.h"
+
+namespace vesper::test {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+constexpr double kPi = std::numbers::pi;
+
+const View kView = View::symmetric({1680, 1050}, 0.6f, glm::mat4(1));
+
+std::vector<dvec2> outline_of(const SourceList& list, size_t source = 0) {
+    const shared::Source& s = list.sources.at(source);
+    std::vector<dvec2> outline;
+    for (size_t i = 0; i < size_t(s.vertices); ++i)
+        outline.push_back(dvec2(s.origin) + dvec2(list.outline[size_t(s.first) + i]));
+    return outline;
+}
+
+/// Illuminance at the eye of one lamp: luminance times solid angle, lx.
+double at_eye(const Light& light, const glm::mat4& world, std::vector<Distribution> distributions = {}) {
+    Lamps lamps;
+    lamps.set.distributions = std::move(distributions);
+    lamps.add(light, world);
+    const SourceList list = lamps.seen(kView);
+    if (list.sources.empty()) return 0;
+    const double luminance = glm::dot(dvec3(list.sources[0].luminance), dvec3(0.2126, 0.7152, 0.0722));
+    return luminance * reference::solid_angle(kView, outline_of(list));
+}
+
+TEST(Source, LuminanceIsIntensityOverArea) {
+    Lamps lamps;
+    lamps.add(lamp_with_opening(900, 0.3, 0.2), aimed({0, 0, -5}, {0, 0, 1}));
+    lamps.add(lamp_with_opening(900, 0.3, 0.2, true), aimed({0, 0, -5}, {0, 0, 1}));
+    lamps.add(lamp_with_opening(900, 0.3, 0.2), aimed({0, 0, -5}, {std::sqrt(3.0f), 0, 1}));  // cos 60 over cos 60
+    const SourceList list = lamps.seen(kView);
+    EXPECT_NEAR(list.sources.at(0).luminance.g, 900 / 0.06, 0.01);
+    EXPECT_NEAR(list.sources.at(1).luminance.g, 900 / (0.06 * kPi / 4), 0.01);
+    EXPECT_NEAR(list.sources.at(2).luminance.g, 900 / 0.06, 0.01);
+    EXPECT_NEAR(list.sources.at(0).hidden, 5 * 0.999 - 0.25 - std::hypot(0.3, 0.2) / 2 - 0.1, 1e-5);
+}
+
+// I(direction) / d^2 for every kind of lamp, turned any way, near and far; the lamp is small against its distance.
+TEST(Source, HoldsTheIlluminanceOfEveryKind) {
+    Distribution beam;
+    beam.goniometry = Goniometry::TypeA;
+    beam.horizontal = {-90, 0, 90}, beam.vertical = {-90, 0, 90};
+    beam.candela = {0, 10, 5, 100, 2000, 50, 0, 30, 0};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit(0, 1);
+    std::normal_distribution<float> normal;
+    int drawn = 0;
+    for (int k = 0; k < 400; ++k) {
+        Light light = lamp_with_opening(300, 0.02 + 0.2 * unit(random), 0.02 + 0.2 * unit(random), k % 2 == 0, Light::Kind(k % 5));
+        if (light.kind == Light::Kind::Directional) continue;
+        light.inner_cone = 0.3f, light.outer_cone = 1.2f, light.distribution = 0, light.exponent = 2.5f;
+        const float depth = 10 * std::pow(200.0f, unit(random));
+        const glm::vec3 position(depth * 0.4f * (unit(random) - 0.5f), depth * 0.25f * (unit(random) - 0.5f), -depth);
+        const glm::mat4 placed = aimed(position, {normal(random), normal(random), normal(random)});
+        const glm::mat4 world = glm::scale(placed, glm::vec3(1 + 3 * unit(random)));
+        const dvec3 eye = -dvec3(position);
+        const glm::dmat3 axes(glm::normalize(dvec3(world[0])), glm::normalize(dvec3(world[1])), glm::normalize(dvec3(world[2])));
+        const std::vector<Distribution> distributions{beam};
+        const double wanted = luminous_intensity(light, distributions, glm::transpose(axes) * eye) / glm::dot(eye, eye);
+        const double got = at_eye(light, world, distributions);
+        drawn += got > 0;
+        // Of second order in size over distance; a widened outline lies a little off the centre's solid angle.
+        EXPECT_NEAR(got, wanted, 5e-4 * wanted) << "kind " << k % 5 << " at " << depth << " m";
+    }
+    EXPECT_GT(drawn, 150);
+}
+
+TEST(Source, GrazingViewsStayFinite) {
+    for (const float angle : {84.0f, 85.5f, 89.0f, 90.0f, 91.0f, 120.0f, 180.0f}) {
+        Lamps lamps;
+        Light light = lamp_with_opening(50, 0.2, 0.1, false, Light::Kind::Spot);
+        light.inner_cone = 2.9f, light.outer_cone = 3.1f;  // shines backwards too, as light from a diffuse dome does
+        const float a = glm::radians(angle);
+        const glm::mat4 world = aimed({0, 0, -10}, {std::sin(a), 0.01f, std::cos(a)});
+        lamps.add(light, world);
+        const SourceList list = lamps.seen(kView);
+        if (angle < 165) {
+            EXPECT_NEAR(at_eye(light, world), 0.5, 2e-3) << angle;
+            const double seen = std::max(double(std::cos(a)), kGrazing);
+            EXPECT_NEAR(list.sources.at(0).luminance.g / (50 / (0.02 * seen)), 1, 1e-3) << angle;
+        } else {
+            EXPECT_TRUE(list.sources.empty()) << "nothing shines there";
+        }
+    }
+}
+
+TEST(Source, PointLampsFaceTheEye) {
+    for (const glm::vec3 axis : {glm::vec3(0, 0, 1), {0, 0, -1}, {1, 0, 0}, {0, -1, 0.2f}}) {
+        Lamps lamps;
+        lamps.add(lamp_with_opening(80, 0.3, 0.3, true, Light::Kind::Point), aimed({1, 0.5f, -20}, axis));
+        EXPECT_NEAR(lamps.seen(kView).sources.at(0).luminance.g, 80 / (0.09 * kPi / 4), 0.01);
+    }
+}
+
+TEST(Source, SmallOnesAreWidenedToAPixel) {
+    Lamps lamps;
+    lamps.add(lamp_with_opening(80, 0.1, 0.1), aimed({0, 0, -1000}, {0, 0, 1}));
+    lamps.add(lamp_with_opening(80, 3, 0.01), aimed({0, 0, -100}, {0, 0, 1}));
+    const SourceList list = lamps.seen(kView);
+    const auto extent = [&](size_t source) {
+        dvec2 low(1e9), high(-1e9);
+        for (const dvec2 v : outline_of(list, source)) low = glm::min(low, v), high = glm::max(high, v);
+        return high - low;
+    };
+    EXPECT_NEAR(extent(0).x, 1, 1e-5);
+    EXPECT_NEAR(extent(0).y, 1, 1e-5);
+    EXPECT_NEAR(extent(1).x, 0.03 / double(kView.ray_scale().x), 1e-3);
+    EXPECT_NEAR(extent(1).y, 1, 1e-5);
+}
+
+TEST(Source, WhatCannotBeSeenIsLeftOut) {
+    const auto sources = [](const Light& light, const glm::mat4& world) {
+        Lamps lamps;
+        lamps.add(light, world);
+        return lamps.seen(kView).sources.size();
+    };
+    const Light light = lamp_with_opening(80, 0.2, 0.2);
+    EXPECT_EQ(sources(light, aimed({0, 0, -10}, {0, 0, 1})), 1u);
+    EXPECT_EQ(sources(light, aimed({0, 0, -10}, {0, 0, -1})), 0u) << "it shines away";
+    EXPECT_EQ(sources(light, aimed({0, 0, 10}, {0, 0, -1})), 0u) << "it is behind the eye";
+    EXPECT_EQ(sources(light, aimed({20, 0, -10}, {0, 0, 1})), 0u) << "it is beside the image";
+    EXPECT_EQ(sources(light, aimed({0, 0, -0.05f}, {0, 0, 1})), 0u) << "it is nearer than the near plane";
+    EXPECT_EQ(sources(light, glm::mat4(0)), 0u) << "it has no place";
+    EXPECT_EQ(sources(light, glm::scale(aimed({0, 0, -10}, {0, 0, 1}), {1, 0, 1})), 0u) << "its node is flat";
+
+    Scene scene;
+    scene.lights = {light, lamp_with_opening(80, 0, 0), lamp_with_opening(80, 1, 1, false, Light::Kind::Directional)};
+    for (uint32_t i = 0; i < 3; ++i) scene.nodes.emplace_back().light = i;
+    EXPECT_EQ(placed_sources(scene).lamps.size(), 1u);
+}
+
+TEST(Source, TheLdrBaselineDrawsWhite) {
+    Lamps lamps;
+    Light red = lamp_with_opening(80, 0.4, 0.4);
+    red.colour = {4, 0.2f, 0.1f};
+    lamps.add(red, aimed({0, 0, -10}, {0, 0, 1}));
+    EXPECT_NEAR(lamps.seen(kView, 1.0f).sources.at(0).luminance.r, 1, 1e-6);
+    EXPECT_NEAR(lamps.seen(kView, 1.0f).sources.at(0).luminance.g, 0.05, 1e-6);
+}
+
+// Every tile that an outline touches lists it, in order; those it covers say so.
+TEST(Source, TilesListWhatTouchesThem) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> unit(0, 1);
+    std::normal_distribution<float> normal;
+    Lamps lamps;
+    for (int i = 0; i < 60; ++i) {
+        const float depth = 0.3f * std::pow(500.0f, unit(random));
+        lamps.add(lamp_with_opening(80, unit(random), unit(random), i % 2 == 0, Light::Kind(i % 2 ? 2 : 0)),
+                  aimed({0.6f * depth * (unit(random) - 0.5f), 0.4f * depth * (unit(random) - 0.5f), -depth},
+                        {normal(random), normal(random), 1 + normal(random)}));
+    }
+    const View view = View::symmetric({203, 121}, 0.4f, glm::mat4(1));
+    const SourceList list = lamps.seen(view);
+    ASSERT_GT(list.sources.size(), 20u);
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> lists;
+    for (const glm::uvec4& tile : list.tiles)
+        lists[{tile.x, tile.y}].assign(list.entries.begin() + tile.z, list.entries.begin() + tile.z + tile.w);
+    constexpr uint32_t kTile = shared::kSourceTile;
+    size_t covered = 0;
+    for (uint32_t row = 0; row * kTile < view.extent.height; ++row)
+        for (uint32_t column = 0; column * kTile < view.extent.width; ++column) {
+            const auto& entries = lists[{column, row}];
+            for (size_t i = 1; i < entries.size(); ++i)
+                EXPECT_LT(entries[i - 1] & ~shared::kCoversTile, entries[i] & ~shared::kCoversTile);
+            for (uint32_t s = 0; s < list.sources.size(); ++s) {
+                double area = 0;
+                for (uint32_t y = 0; y < kTile; ++y)
+                    for (uint32_t x = 0; x < kTile; ++x)
+                        area += reference::area_within(outline_of(list, s), column * kTile + x, row * kTile + y);
+                const bool plain = std::count(entries.begin(), entries.end(), s);
+                const bool whole = std::count(entries.begin(), entries.end(), s | shared::kCoversTile);
+                if (area > 1e-6) {
+                    EXPECT_TRUE(plain || whole) << column << ", " << row;
+                }
+                if (whole) {
+                    EXPECT_NEAR(area, kTile * kTile, 1e-3);
+                }
+                covered += whole;
+            }
+        }
+    EXPECT_GT(covered, 100u);
+}
+
+}  // namespace
+}  // namespace vesper::test

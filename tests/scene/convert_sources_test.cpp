@@ -1,0 +1,213 @@
+// Openings from the photometry file to the scene, and the two descriptions of a source compared.
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+
+#include "photometry/ies.h"
+#include "scene/convert.h"
+#include "scene/light.h"
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+using nlohmann::json;
+
+/// Two cars: a mesh with the glass of a lamp, 0.3 x 0.2 m facing +X, and a node for the lamp in its middle.
+class ConvertSourcesTest : public testing::Test {
+protected:
+    ConvertSourcesTest() {
+        street_.root["materials"] = {{{"name", "glass"}, {"emissiveFactor", {1, 1, 1}}}, {{"name", "body"}}};
+        const size_t glass = street_.vec3({0, 0, 0, 0, 0, -0.3f, 0, 0.2f, -0.3f, 0, 0.2f, 0});
+        const size_t body = street_.vec3({0, 0, 0, 20, 0, 0, 0, 20, 0});
+        const size_t square = street_.indices({0, 1, 2, 0, 2, 3});
+        street_.root["meshes"] = {
+            {{"primitives", {{{"attributes", {{"POSITION", glass}}}, {"indices", square}, {"material", 0}},
+                             {{"attributes", {{"POSITION", body}}}, {"material", 1}}}}}};
+        for (const int car : {0, 1}) {
+            const int first = 3 * car;
+            street_.root["nodes"].push_back({{"name", "car"}, {"children", {first + 1, first + 2}}, {"translation", {9 * car, 0, 0}}});
+            street_.root["nodes"].push_back({{"name", "shape"}, {"mesh", 0}});
+            street_.root["nodes"].push_back({{"name", "headlamp"}, {"translation", {-0.1, 0.1, -0.15}}});
+        }
+    }
+    static json lamp(double candela) {
+        return {{"name", "beam"}, {"nodes", "headlamp"}, {"type", "cosine_power"}, {"intensity_cd", candela}, {"exponent", 9}, {"aim", {1, 0, 0}}};
+    }
+    static json opening() { return {{"width_m", 0.3}, {"height_m", 0.2}}; }
+    ConversionReport convert_with(const json& lamp_rule, const json& emitter) {
+        const json photometry = {{"version", 1}, {"lamps", {lamp_rule}}, {"emitters", {emitter}}};
+        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()), folder_ / "out.gltf");
+    }
+    Scene converted() const { return read_gltf(folder_ / "out.gltf").scene; }
+    static size_t given(const ConversionReport& report) {
+        size_t count = 0;
+        for (const std::string& line : report.warnings) count += line.find(" cd/m^2 given") != std::string::npos;
+        return count;
+    }
+
+    TempFolder folder_;
+    GltfFile street_;
+};
+
+TEST_F(ConvertSourcesTest, OpeningsAreStored) {
+    json rule = lamp(600);
+    rule["opening"] = opening();
+    convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
+    const Scene scene = converted();
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.lights[0].opening.length, 0.3);
+    EXPECT_EQ(scene.lights[0].opening.width, 0.2);
+    EXPECT_FALSE(scene.lights[0].opening.round);
+    EXPECT_NEAR(axis_luminance(scene.lights[0], scene.distributions), 10000, 0.1);
+
+    rule["opening"] = {{"width_m", 0.2}, {"round", true}};
+    convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
+    EXPECT_NEAR(converted().lights.at(0).opening.area(), std::numbers::pi * 0.01, 1e-12);
+    rule.erase("opening");
+    convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}});
+    EXPECT_EQ(converted().lights.at(0).opening.area(), 0);
+}
+
+TEST_F(ConvertSourcesTest, OpeningsOfMeasuredLampsAreStored) {
+    Distribution beam;
+    beam.goniometry = Goniometry::CGamma;
+    beam.horizontal = {0}, beam.vertical = {0, 90}, beam.candela = {500, 0};
+    beam.opening = {.length = 0.6, .width = 0.25, .height = 0, .round = false};
+    folder_.write("beam.ies", write_ies(beam));
+    json rule = {{"name", "beam"}, {"nodes", "headlamp"}, {"type", "distribution"}, {"file", "beam.ies"}, {"opening", "file"}};
+    json second = rule;
+    second["opening"] = opening(), second["name"] = "other";
+    const json photometry = {{"version", 1}, {"lamps", {rule, second}}};
+    convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()), folder_ / "out.gltf");
+    const Scene scene = converted();
+    ASSERT_EQ(scene.lights.size(), 2u) << "one file, two openings";
+    EXPECT_NEAR(scene.lights[0].opening.length, 0.6, 1e-12);
+    EXPECT_NEAR(scene.lights[0].opening.width, 0.25, 1e-12);
+    EXPECT_NEAR(scene.lights[1].opening.length, 0.3, 1e-12);
+    EXPECT_NEAR(axis_luminance(scene.lights[0], scene.distributions), 500 / 0.15, 1);
+
+    beam.opening = {};
+    folder_.write("beam.ies", write_ies(beam));
+    try {
+        convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}});
+        ADD_FAILURE() << "a file without luminous area was accepted";
+    } catch (const Error& error) {
+        EXPECT_TRUE(contains(error.what(), "/lamps/0/opening: the file states no luminous area"));
+    }
+}
+
+TEST_F(ConvertSourcesTest, GlassOfALampDoesNotEmitBesides) {
+    json rule = lamp(600);
+    rule["opening"] = opening();
+    const ConversionReport named = convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
+    EXPECT_EQ(converted().materials.at(0).emission, glm::vec3(0));
+    EXPECT_FALSE(mentions(named.warnings, "seen twice"));
+    EXPECT_EQ(given(named), 0u);
+    const ConversionReport twice = convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 10000}});
+    EXPECT_TRUE(mentions(twice.warnings, "emitter 'glass': lies where lamp 'beam' shows its opening and would be seen twice"));
+    EXPECT_EQ(given(twice), 0u);
+}
+
+// 600 cd over 0.06 m^2 are 10000 cd/m^2, by the opening stated or by the mesh.
+TEST_F(ConvertSourcesTest, DisagreementsAboveTenPercentAreReported) {
+    for (const bool stated : {true, false})
+        for (const double luminance : {7000.0, 8900.0, 9300.0, 10000.0, 10800.0, 11300.0, 15000.0, 90000.0}) {
+            json rule = lamp(600), emitter = {{"name", "E"}, {"materials", "glass"}, {"luminance_cd_m2", luminance}};
+            if (stated) rule["opening"] = opening(), emitter["lamp"] = "beam";
+            const ConversionReport report = convert_with(rule, emitter);
+            const bool wrong = luminance > 11000 || luminance < 10000 / 1.1;
+            EXPECT_EQ(given(report), wrong ? 1u : 0u) << luminance << (stated ? " stated" : " measured");
+            if (luminance == 15000) {
+                EXPECT_TRUE(mentions(report.warnings, "emitter 'E': 1.5e+04 cd/m^2 given, 600 cd of lamp 'beam' over 0.06 m^2 is "
+                                                      "1e+04 cd/m^2 (33 % less)"));
+                EXPECT_EQ(mentions(report.warnings, "the most of 2 nodes"), !stated);
+            }
+        }
+    const ConversionReport off = convert_with(lamp(600), {{"materials", "glass"}, {"luminance_cd_m2", 0}});
+    EXPECT_EQ(given(off), 0u) << "what is off is meant to be";
+}
+
+TEST_F(ConvertSourcesTest, OnlyGlassBesideALampIsMeasured) {
+    street_.root["nodes"][2]["translation"] = {-0.1, 0.1, 3};  // three metres from the glass
+    street_.root["nodes"][5]["translation"] = {-0.1, 0.1, 3};
+    EXPECT_EQ(given(convert_with(lamp(600), {{"materials", "glass"}, {"luminance_cd_m2", 1}})), 0u);
+    street_.root["nodes"][2]["translation"] = {-0.1, 0.1, -0.15};
+    json rule = lamp(600);
+    rule["aim"] = {0, 0, 1};  // along the glass: no area to see
+    EXPECT_EQ(given(convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}})), 0u);
+    const double half = std::sqrt(0.5);
+    rule["aim"] = {half, half, 0};
+    EXPECT_TRUE(mentions(convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}}).warnings, "over 0.04243 m^2"));
+}
+
+TEST_F(ConvertSourcesTest, NamesThePlaceOfWhatIsWrong) {
+    const auto complaint = [&](const json& rule, const json& emitter) -> std::string {
+        try {
+            convert_with(rule, emitter);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    json rule = lamp(600);
+    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}}), "/emitters/0/lamp: the lamp rule 'beam' has no opening"));
+    rule["opening"] = opening();
+    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "bream"}}), "/emitters/0/lamp: there is no lamp rule"));
+    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}, {"modulate", true}}), "/emitters/0/modulate"));
+    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}, {"colour_rgb", {1, 1, 1}}}), "/emitters/0/colour_rgb"));
+    const json fine = {{"materials", "x"}, {"luminance_cd_m2", 1}};
+    for (const auto& [value, place] : std::initializer_list<std::pair<json, const char*>>{
+             {"file", "/lamps/0/opening: \"file\" is for lamps of type distribution"},
+             {"large", "/lamps/0/opening"},
+             {{{"width_m", 0.2}}, "/lamps/0/opening: has no \"height_m\""},
+             {{{"width_m", 0}, {"height_m", 1}}, "/lamps/0/opening/width_m"},
+             {{{"width_m", 1}, {"height_m", 101}}, "/lamps/0/opening/height_m"},
+             {{{"width_m", 1}, {"hight_m", 1}}, "/lamps/0/opening/hight_m: unknown key"}}) {
+        rule["opening"] = value;
+        EXPECT_TRUE(contains(complaint(rule, fine), place));
+    }
+}
+
+/// A file as a conversion leaves it, with something to say about openings.
+TEST(Openings, AreReadWithCare) {
+    const auto complaint = [](const json& opening) {
+        GltfFile file;
+        file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+        file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}, {{"type", "directional"}}};
+        file.root["extras"]["vesper"] = {{"version", 1}, {"openings", {opening}}};
+        return file.complaint();
+    };
+    EXPECT_EQ(complaint({{"light", 0}, {"width_m", 1}, {"height_m", 1}}), "");
+    const std::string place = "/extras/vesper/openings/0";
+    EXPECT_TRUE(contains(complaint({{"light", 2}, {"width_m", 1}, {"height_m", 1}}), place + "/light"));
+    EXPECT_TRUE(contains(complaint({{"light", 1}, {"width_m", 1}, {"height_m", 1}}), place + "/light: a directional light"));
+    EXPECT_TRUE(contains(complaint({{"profile", 0}, {"width_m", 1}, {"height_m", 1}}), place + "/profile"));
+    EXPECT_TRUE(contains(complaint({{"light", 0}, {"width_m", -1}, {"height_m", 1}}), place + "/width_m"));
+    EXPECT_TRUE(contains(complaint({{"light", 0}, {"width_m", 1}}), place));
+    EXPECT_TRUE(contains(complaint({{"width_m", 1}, {"height_m", 1}}), place));
+    EXPECT_TRUE(contains(complaint({{"light", 0}, {"width_m", 1}, {"height_m", 1}, {"depth_m", 1}}), place + "/depth_m"));
+}
+
+TEST(Intensity, OfEveryLobe) {
+    Light light;
+    light.intensity = 100;
+    EXPECT_EQ(luminous_intensity(light, {}, {3, 1, 2}), 100) << "a point";
+    light.kind = Light::Kind::Spot, light.inner_cone = 0.3f, light.outer_cone = 0.6f;
+    const auto at = [&](double angle) { return luminous_intensity(light, {}, {std::sin(angle), 0, -std::cos(angle)}); };
+    EXPECT_EQ(at(0.29), 100);
+    EXPECT_EQ(at(0.61), 0);
+    const double ramp = (std::cos(0.45) - std::cos(0.6)) / (std::cos(0.3) - std::cos(0.6));
+    EXPECT_NEAR(at(0.45), 100 * ramp * ramp, 1e-4);
+    light.kind = Light::Kind::CosinePower, light.exponent = 3;
+    EXPECT_NEAR(at(1), 100 * std::pow(std::cos(1.0), 3), 1e-9);
+    EXPECT_EQ(at(2), 0);
+    light.kind = Light::Kind::Directional;
+    EXPECT_EQ(at(0), 0);
+    EXPECT_EQ(deviation(0.67), "33 % less");
+    EXPECT_EQ(deviation(1.55), "55 % more");
+    EXPECT_EQ(deviation(12.1), "12 times as much");
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -13,5 +13,6 @@ void add_render(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_road(CLI::App& program);
 void add_merge(CLI::App& program);
+void add_inspect(CLI::App& program);
 
 }  // namespace vesper

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     vesper::add_render(program);
     vesper::add_road(program);
     vesper::add_merge(program);
+    vesper::add_inspect(program);
     CLI::App* devices = program.add_subcommand("devices", "List the Vulkan devices of this machine");
     devices->callback([] {
         for (const std::string& line : vesper::list_devices()) std::puts(line.c_str());

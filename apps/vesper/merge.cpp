@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
+#include "arguments.h"
 #include "base/error.h"
 #include "commands.h"
 #include "io/atomic_file.h"
@@ -60,11 +60,6 @@ KnownLuminance parse_luminance(const std::string& text) {
         known.region.height = int64_t(v[3]);
     }
     return known;
-}
-
-void check_folder(const std::string& option, const std::string& file) {
-    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder)) throw Error(option + " " + file + ": there is no folder " + folder.string());
 }
 
 std::vector<Exposure> read_exposures(const MergeArguments& arguments) {

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
+#include "arguments.h"
 #include "commands.h"
-#include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "progress.h"
 #include "renderer.h"
@@ -44,10 +43,6 @@ VkExtent2D parse_size(const std::string& text) {
     if (std::sscanf(text.c_str(), "%5ux%5u%c", &width, &height, &rest) != 2 || width < 1 || height < 1 || width > 16384 || height > 16384)
         throw Error("--size " + text + ": expected WIDTHxHEIGHT, 1x1 to 16384x16384");
     return {width, height};
-}
-
-bool ends_with(const std::string& text, const std::string& end) {
-    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 // The file of one frame of several: %04d is replaced by its number, or the number is put before the extension.
@@ -131,11 +126,6 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
     }
 }
 
-void check_folder(const std::string& option, const std::string& file) {
-    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder)) throw Error(option + " " + file + ": there is no folder " + folder.string());
-}
-
 // Everything that can be wrong with the arguments alone, and what follows from them.
 void check_arguments(RenderArguments& arguments) {
     RenderSettings& settings = arguments.settings;
@@ -191,26 +181,11 @@ void run(RenderArguments& arguments) {
         if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);
         if (last) {
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
-            if (!arguments.statistics_file.empty()) {
-                const std::string json = json_of(luminance_statistics(frame.scene)) + "\n";
-                replace_file(arguments.statistics_file, std::vector<uint8_t>(json.begin(), json.end()));
-            }
+            if (!arguments.statistics_file.empty())
+                write_text(arguments.statistics_file, json_of(luminance_statistics(frame.scene)) + "\n");
         }
         progress.step();
     }
-}
-
-// A number in a range; not-a-number is in none.
-CLI::Validator between(double low, double high) {
-    char range[64];
-    std::snprintf(range, sizeof range, "%g to %g", low, high);
-    const std::string text = range;
-    return {[=](const std::string& given) {
-                char* end = nullptr;
-                const double value = std::strtod(given.c_str(), &end);
-                return *end == 0 && value >= low && value <= high ? std::string() : given + " is not a number from " + text;
-            },
-            text};
 }
 
 }  // namespace

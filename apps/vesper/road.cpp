@@ -3,9 +3,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "arguments.h"
 #include "base/error.h"
 #include "commands.h"
-#include "io/atomic_file.h"
+#include "road_render.h"
 #include "road_report.h"
 #include "scene/road_file.h"
 
@@ -13,23 +14,32 @@ namespace vesper {
 namespace {
 
 struct RoadArguments {
-    std::string layout, csv, json, wanted;
+    std::string layout, csv, json, wanted, device;
+    std::vector<std::string> pictures;
     RoadOverrides overrides;
     bool grid = false;
 };
 
-void write_text(const std::string& file, const std::string& text) {
-    replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));
-}
-
 void run(const RoadArguments& arguments) {
+    for (const std::string& file : arguments.pictures) {
+        if (!ends_with(file, ".png") && !ends_with(file, ".exr")) throw Error("--render " + file + ": a .png or .exr file is expected");
+        check_folder("--render", file);
+    }
+    if (!arguments.device.empty() && arguments.pictures.empty()) throw Error("--device has a meaning only beside --render");
     const RoadFile file = read_road(arguments.layout, arguments.overrides);
     const RoadResult result = calculate_road(file.layout);
     const LightingClass* wanted = find_lighting_class(arguments.wanted.empty() ? file.wanted_class : arguments.wanted);
     std::fputs(text_of(file.layout, result, wanted ? wanted : reached_class(result)).c_str(), stdout);
     if (arguments.grid) std::fputs(grid_text_of(result).c_str(), stdout);
-    if (!arguments.csv.empty()) write_text(arguments.csv, csv_of(file.layout, result));
-    if (!arguments.json.empty()) write_text(arguments.json, json_of(file.layout, result, wanted));
+    RenderedRoad rendered;
+    if (!arguments.pictures.empty()) {
+        rendered = render_road(file.layout, result, arguments.device);
+        std::fputs(text_of(result, rendered).c_str(), stdout);
+        for (const std::string& picture : arguments.pictures) write_picture(picture, file.layout, result, rendered);
+    }
+    const RenderedRoad* beside = arguments.pictures.empty() ? nullptr : &rendered;
+    if (!arguments.csv.empty()) write_text(arguments.csv, csv_of(file.layout, result, beside));
+    if (!arguments.json.empty()) write_text(arguments.json, json_of(file.layout, result, wanted, beside));
 }
 
 }  // namespace
@@ -44,6 +54,8 @@ void add_road(CLI::App& program) {
     command->add_flag("--grid", a->grid, "Print illuminance and luminance of every point");
     command->add_option("--csv", a->csv, "Write the points to a CSV file");
     command->add_option("--json", a->json, "Write figures and points to a JSON file");
+    command->add_option("--render", a->pictures, "Render the road too and compare: OUT.png in false colours, OUT.exr in cd/m^2; may be given twice");
+    command->add_option("--device", a->device, "Where to render: part of a name, cpu, or an index of vesper devices");
     command->add_option("--class", a->wanted, "Lighting class to compare with (default: that of the file)")
         ->check(CLI::IsMember(classes));
     command->add_option("--luminaire", o.luminaire, "Another luminaire: .ies or .ldt");
@@ -57,7 +69,8 @@ void add_road(CLI::App& program) {
     command->add_option("--maintenance", o.maintenance_factor, "Maintenance factor");
     command->footer(
         "Examples:\n  vesper road data/road/worked-example.json\n"
-        "  vesper road data/road/worked-example.json --r-table R2 --spacing 36 --grid --csv points.csv\n");
+        "  vesper road data/road/worked-example.json --r-table R2 --spacing 36 --grid --csv points.csv\n"
+        "  vesper road data/road/worked-example.json --render road.png\n");
     command->callback([a] { run(*a); });
 }
 

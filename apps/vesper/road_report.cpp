@@ -1,21 +1,11 @@
 #include "road_report.h"
 
-#include <cstdarg>
-#include <cstdio>
-
 #include <nlohmann/json.hpp>
+
+#include "arguments.h"
 
 namespace vesper {
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-    char text[512];
-    va_list arguments;
-    va_start(arguments, pattern);
-    std::vsnprintf(text, sizeof text, pattern, arguments);
-    va_end(arguments);
-    return text;
-}
 
 const char* name_of(Arrangement arrangement) {
     switch (arrangement) {
@@ -72,6 +62,15 @@ bool holds(const Figure& figure, const LightingClass& wanted) {
     return figure.limit == &LightingClass::increment ? figure.value <= limit : figure.value >= limit;
 }
 
+nlohmann::ordered_json json_of(const RoadReading& reading) {
+    return {{"average_luminance_cd_m2", reading.average_luminance},
+            {"overall_uniformity", reading.overall_uniformity},
+            {"lengthwise_uniformity", reading.lengthwise_uniformity},
+            {"average_difference_percent", reading.average_difference},
+            {"rms_difference_percent", reading.mean_difference},
+            {"largest_difference_percent", reading.largest_difference}};
+}
+
 }  // namespace
 
 std::string text_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted) {
@@ -119,18 +118,23 @@ std::string grid_text_of(const RoadResult& result) {
     return text;
 }
 
-std::string csv_of(const RoadLayout& road, const RoadResult& result) {
+std::string csv_of(const RoadLayout& road, const RoadResult& result, const RenderedRoad* rendered) {
     std::string text = "# " + road.name + ": surface " + road.surface.name + ", x ahead and y to the left, m\n";
     text += "x_m,y_m,E_h_lx";
     for (const RoadObserver& o : result.observers) text += format(",L_lane%d_cd_m2", o.lane);
-    for (const RoadPoint& point : result.points) {
+    if (rendered)
+        for (const RoadObserver& o : result.observers) text += format(",L_lane%d_rendered_cd_m2", o.lane);
+    for (size_t i = 0; i < result.points.size(); ++i) {
+        const RoadPoint& point = result.points[i];
         text += format("\n%.4f,%.4f,%.6g", point.x, point.y, point.illuminance);
         for (const double luminance : point.luminance) text += format(",%.6g", luminance);
+        if (!rendered) continue;
+        for (const RenderedObserver& seen : rendered->observers) text += format(",%.6g", seen.counted.luminance[i]);
     }
     return text + "\n";
 }
 
-std::string json_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted) {
+std::string json_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted, const RenderedRoad* rendered) {
     nlohmann::ordered_json json = {{"name", road.name}, {"surface", road.surface.name}, {"q0", q0_of(road.surface)}};
     for (const Figure& figure : figures_of(result)) json[figure.key] = figure.value;
     json["edge_illuminance_ratio_right"] = result.edge_ratio_right;
@@ -152,6 +156,18 @@ std::string json_of(const RoadLayout& road, const RoadResult& result, const Ligh
     for (const RoadPoint& p : result.points)
         json["points"].push_back(
             {{"x_m", p.x}, {"y_m", p.y}, {"illuminance_lx", p.illuminance}, {"luminance_cd_m2", p.luminance}});
+    if (rendered) {
+        json["rendered_on"] = rendered->device;
+        for (size_t o = 0; o < rendered->observers.size(); ++o) {
+            const RenderedObserver& seen = rendered->observers[o];
+            json["observers"][o]["rendered"] = json_of(seen.counted);
+            json["observers"][o]["rendered_every_luminaire"] = json_of(seen.every);
+            for (size_t i = 0; i < result.points.size(); ++i) {
+                json["points"][i]["luminance_rendered_cd_m2"].push_back(seen.counted.luminance[i]);
+                json["points"][i]["luminance_every_luminaire_cd_m2"].push_back(seen.every.luminance[i]);
+            }
+        }
+    }
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "photometry/road.h"
+#include "road_render.h"
 
 namespace vesper {
 
@@ -11,8 +12,8 @@ namespace vesper {
 std::string text_of(const RoadLayout&, const RoadResult&, const LightingClass* wanted);
 /// Illuminance and the luminances of every observer as tables: x across, y down, the left edge on top.
 std::string grid_text_of(const RoadResult&);
-/// One line for each point of the grid.
-std::string csv_of(const RoadLayout&, const RoadResult&);
-std::string json_of(const RoadLayout&, const RoadResult&, const LightingClass* wanted);
+/// One line for each point of the grid. Both with what was rendered, if anything was.
+std::string csv_of(const RoadLayout&, const RoadResult&, const RenderedRoad* rendered);
+std::string json_of(const RoadLayout&, const RoadResult&, const LightingClass* wanted, const RenderedRoad* rendered);
 
 }  // namespace vesper

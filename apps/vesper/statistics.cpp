@@ -19,12 +19,12 @@ std::string number(double value) {
 
 }  // namespace
 
-LuminanceStatistics luminance_statistics(std::span<const float> rgba) {
+LuminanceStatistics luminance_statistics(std::span<const float> pixels, size_t channels) {
     LuminanceStatistics s;
     std::vector<float> luminances;
-    luminances.reserve(rgba.size() / 4);
-    for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
-        const double y = double(shared::kRed) * double(rgba[i]) + double(shared::kGreen) * double(rgba[i + 1]) + double(shared::kBlue) * double(rgba[i + 2]);
+    luminances.reserve(pixels.size() / channels);
+    for (size_t i = 0; i + channels <= pixels.size(); i += channels) {
+        const double y = double(shared::kRed) * double(pixels[i]) + double(shared::kGreen) * double(pixels[i + 1]) + double(shared::kBlue) * double(pixels[i + 2]);
         if (!std::isfinite(y)) {
             ++s.non_finite;
             continue;
@@ -32,6 +32,9 @@ LuminanceStatistics luminance_statistics(std::span<const float> rgba) {
         s.mean += y;
         s.log_mean += std::log(std::max(y, double(shared::kLuminanceFloor)));
         luminances.push_back(float(y));
+        s.zero += y == 0;
+        s.negative += y < 0;
+        if (y > 0 && (s.least_positive == 0 || y < s.least_positive)) s.least_positive = y;
     }
     s.finite = luminances.size();
     if (luminances.empty()) return s;
@@ -53,6 +56,10 @@ std::string text_of(const LuminanceStatistics& s, const std::string& heading) {
         text += "  " + label + number(luminance) + "\n";
     }
     text += "  maximum   " + number(s.maximum) + "\n  mean      " + number(s.mean) + "\n  log mean  " + number(s.log_mean) + "\n";
+    if (s.zero || s.negative) {
+        text += "  least > 0 " + number(s.least_positive) + "\n  pixels of 0: " + std::to_string(s.zero);
+        text += ", negative: " + std::to_string(s.negative) + "\n";
+    }
     if (s.non_finite) text += "  pixels that are not finite: " + std::to_string(s.non_finite) + "\n";
     return text;
 }
@@ -62,7 +69,9 @@ std::string json_of(const LuminanceStatistics& s) {
                        ", \"mean_cd_m2\": " + number(s.mean) + ", \"log_mean_cd_m2\": " + number(s.log_mean) + ", \"percentiles_cd_m2\": {";
     for (size_t i = 0; i < s.percentiles.size(); ++i)
         text += (i ? ", \"" : "\"") + number(s.percentiles[i].first) + "\": " + number(s.percentiles[i].second);
-    return text + "}, \"non_finite_pixels\": " + std::to_string(s.non_finite) + "}";
+    return text + "}, \"least_positive_cd_m2\": " + number(s.least_positive) + ", \"zero_pixels\": " + std::to_string(s.zero) +
+           ", \"negative_pixels\": " + std::to_string(s.negative) +
+           ", \"non_finite_pixels\": " + std::to_string(s.non_finite) + "}";
 }
 
 }  // namespace vesper

@@ -91,17 +91,21 @@ double horizontal_illuminance(const RoadLayout& road, std::span<const RoadLumina
     return sum * road.maintenance_factor;
 }
 
+double reflected_towards(const RoadLayout& road, const RoadLuminaire& lamp, glm::dvec2 point, glm::dvec2 observer) {
+    const glm::dvec3 away = lamp.position - glm::dvec3(point, 0);
+    const double h = away.z;
+    if (away.x < -5 * h || away.x > 12 * h || std::abs(away.y) > 5 * h) return 0;
+    const double sight = std::atan2(point.y - observer.y, point.x - observer.x);
+    const double beta = (std::atan2(away.y, away.x) - sight) * kDegrees;
+    return reduced_luminance_coefficient(road.surface, std::hypot(away.x, away.y) / h, beta);
+}
+
 double road_luminance(const RoadLayout& road, std::span<const RoadLuminaire> lamps, glm::dvec2 point,
                       glm::dvec2 observer) {
-    const double sight = std::atan2(point.y - observer.y, point.x - observer.x);
     double sum = 0;
     for (const RoadLuminaire& lamp : lamps) {
-        const glm::dvec3 away = lamp.position - glm::dvec3(point, 0);
-        const double h = away.z;
-        if (away.x < -5 * h || away.x > 12 * h || std::abs(away.y) > 5 * h) continue;
-        const double beta = (std::atan2(away.y, away.x) - sight) * kDegrees;
-        const double r = reduced_luminance_coefficient(road.surface, std::hypot(away.x, away.y) / h, beta);
-        sum += r * intensity_towards(road, lamp, {point, 0}) / (h * h);
+        const double h = lamp.position.z, r = reflected_towards(road, lamp, point, observer);
+        if (r > 0) sum += r * intensity_towards(road, lamp, {point, 0}) / (h * h);
     }
     return sum * road.maintenance_factor;
 }

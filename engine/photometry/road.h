@@ -82,8 +82,10 @@ double road_height(const RoadLayout&);
 
 /// Maintained horizontal illuminance, lx: luminaires within 5H (EN 13201-3, 7.2).
 double horizontal_illuminance(const RoadLayout&, std::span<const RoadLuminaire>, glm::dvec2 point);
-/// Maintained luminance towards an observer, cd/m^2: luminaires from 5H before to 12H beyond the point and 5H aside
-/// (CIE 140, 4.3).
+/// The reduced luminance coefficient by which a luminaire counts for a point and an observer, sr^-1: 0 unless it stands
+/// from 5H before to 12H beyond the point and 5H aside (CIE 140, 4.3), within the table.
+double reflected_towards(const RoadLayout&, const RoadLuminaire&, glm::dvec2 point, glm::dvec2 observer);
+/// Maintained luminance towards an observer, cd/m^2, by the luminaires that count.
 double road_luminance(const RoadLayout&, std::span<const RoadLuminaire>, glm::dvec2 point, glm::dvec2 observer);
 /// Veiling luminance of new luminaires for an eye that looks along x and 1 degree down, cd/m^2: 1.5 to 60 degrees off
 /// the line of sight k E / theta^2 with k = 9.86 (1 + (age/66.4)^4), nearer by E (10/theta^3 + 5/theta^2 (1 +

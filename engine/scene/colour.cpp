@@ -50,4 +50,19 @@ glm::vec3 colour_of_temperature(double kelvin) {
     return glm::vec3(rgb / luminance(rgb));
 }
 
+glm::dvec2 chromaticity(glm::dvec3 c) {
+    const glm::dvec3 xyz(0.4124564 * c.r + 0.3575761 * c.g + 0.1804375 * c.b, 0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b,
+                         0.0193339 * c.r + 0.1191920 * c.g + 0.9503041 * c.b);
+    const double sum = xyz.x + xyz.y + xyz.z;
+    return sum == 0 ? glm::dvec2(0) : glm::dvec2(xyz) / sum;
+}
+
+double temperature_of(glm::dvec3 rgb) {
+    const glm::dvec2 xy = chromaticity(rgb);
+    const double n = (xy.x - 0.3320) / (0.1858 - xy.y);
+    const double kelvin = ((449 * n + 3525) * n + 6823.3) * n + 5520.33;
+    if (!(kelvin >= 1000 && kelvin <= 25000)) return 0;
+    return glm::distance(xy, chromaticity(glm::dvec3(colour_of_temperature(kelvin)))) < 0.02 ? kelvin : 0;
+}
+
 }  // namespace vesper

@@ -29,14 +29,14 @@ Primitive carriageway(const RoadLayout& road, double first, double last) {
     return plane;
 }
 
-void add_luminaires(Scene& scene, const RoadLayout& road, double first, double last) {
+void add_luminaires(Scene& scene, const RoadLayout& road) {
     scene.distributions.push_back(road.distribution);
     Light light{.name = road.distribution.name, .kind = Light::Kind::Measured};
     light.intensity = static_cast<float>(road.flux_factor * road.maintenance_factor);
     if (road.colour_temperature > 0) light.colour = glm::vec3(colour_of_temperature(road.colour_temperature));
     light.distribution = 0;
     scene.lights.push_back(light);
-    for (const RoadLuminaire& lamp : road_luminaires(road, first, last)) {
+    for (const RoadLuminaire& lamp : road_scene_luminaires(road)) {
         Node node{.name = "luminaire " + std::to_string(scene.nodes.size() + 1)};
         node.translation = glm::vec3(road_to_world(lamp.position));
         node.rotation = glm::quat(glm::normalize(glm::quat_cast(kToWorld * lamp.axes)));
@@ -61,9 +61,14 @@ void add_observers(Scene& scene, const RoadLayout& road) {
 
 glm::dvec3 road_to_world(glm::dvec3 point) { return kToWorld * point; }
 
+std::vector<RoadLuminaire> road_scene_luminaires(const RoadLayout& road) {
+    const double height = road_height(road);
+    return road_luminaires(road, road_observers(road)[0].eye.x - 5 * height, road.spacing + 12 * height);
+}
+
 Scene road_scene(const RoadLayout& road) {
     check_road(road);
-    const double height = road_height(road), last = road.spacing + 12 * height, eye = road_observers(road)[0].eye.x;
+    const double last = road.spacing + 12 * road_height(road), eye = road_observers(road)[0].eye.x;
 
     Scene scene{.name = road.name};
     scene.reflection_tables.push_back(road.surface);
@@ -79,7 +84,7 @@ Scene road_scene(const RoadLayout& road) {
     Node surface{.name = "carriageway"};
     surface.mesh = 0;
     scene.nodes.push_back(surface);
-    add_luminaires(scene, road, eye - 5 * height, last);
+    add_luminaires(scene, road);
     add_observers(scene, road);
     return scene;
 }

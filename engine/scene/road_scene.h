@@ -17,4 +17,7 @@ glm::dvec3 road_to_world(glm::dvec3 point);
 /// along the road and 1 degree down. Black sky, no ambient light.
 Scene road_scene(const RoadLayout& road);
 
+/// The luminaires that this scene holds.
+std::vector<RoadLuminaire> road_scene_luminaires(const RoadLayout& road);
+
 }  // namespace vesper

@@ -1,7 +1,8 @@
-// `vesper road` as people run it; needs no device. SPDX-License-Identifier: MIT
+// `vesper road` as people run it; --render needs a device. SPDX-License-Identifier: MIT
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,9 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/hdr_image.h"
 
 namespace {
 
@@ -28,10 +32,8 @@ protected:
         std::ifstream in(folder / file, std::ios::binary);
         return {std::istreambuf_iterator<char>(in), {}};
     }
-    int run(const std::string& arguments) {
-        const std::string command = "cd '" + folder.string() +
-                                    "' && '" VESPER_PROGRAM "' road '" VESPER_SOURCE_DIR
-                                    "/data/road/worked-example.json' " +
+    int run(const std::string& arguments, const std::string& layout = VESPER_SOURCE_DIR "/data/road/worked-example.json") {
+        const std::string command = "cd '" + folder.string() + "' && '" VESPER_PROGRAM "' road '" + layout + "' " +
                                     arguments + " >out.txt 2>err.txt";
         const int status = std::system(command.c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -51,9 +53,64 @@ TEST_F(Road, PrintsFiguresAndWritesPoints) {
     EXPECT_NE(text_of("out.txt").find("1.139   >= 0.75  ok"), std::string::npos) << text_of("out.txt");
 }
 
+/// Largest differences of points and of averages between calculation and pictures, %, of what `--json a.json` wrote.
+struct Differences {
+    double point = 0, average = 0, every_average = 0;
+    size_t observers = 0;
+};
+Differences differences_in(const std::string& text) {
+    const auto json = nlohmann::json::parse(text);
+    Differences found;
+    for (const auto& observer : json["observers"]) {
+        const auto largest = [&](double& most, const char* which, const char* key) {
+            most = std::max(most, std::abs(observer[which][key].get<double>()));
+        };
+        largest(found.point, "rendered", "largest_difference_percent");
+        largest(found.average, "rendered", "average_difference_percent");
+        largest(found.every_average, "rendered_every_luminaire", "average_difference_percent");
+        ++found.observers;
+    }
+    return found;
+}
+
+TEST_F(Road, ThePictureOfTheRoadHasItsLuminances) {
+    ASSERT_EQ(run("--render a.png --render a.exr --json a.json --csv a.csv"), 0) << text_of("err.txt");
+    const Differences found = differences_in(text_of("a.json"));
+    EXPECT_EQ(found.observers, 2u);
+    EXPECT_LT(found.point, 0.5);
+    EXPECT_LT(found.average, 0.1);
+    EXPECT_LT(found.every_average, 1);
+    EXPECT_GT(found.every_average, 0.1);  // luminaires that the standard leaves out do shine
+    const std::string out = text_of("out.txt"), csv = text_of("a.csv");
+    EXPECT_NE(out.find("Largest difference: "), std::string::npos) << out;
+    EXPECT_NE(csv.find("L_lane1_cd_m2,L_lane2_cd_m2,L_lane1_rendered_cd_m2,L_lane2_rendered_cd_m2"), std::string::npos);
+    // The pictures hold what the numbers came from.
+    const auto picture = vesper::read_hdr_image(folder / "a.lane2.exr");
+    EXPECT_EQ(picture.white_luminance, 1);
+    EXPECT_NEAR(*std::max_element(picture.rgb.begin(), picture.rgb.end()), 4, 2.5);
+    EXPECT_TRUE(fs::exists(folder / "a.png") && fs::exists(folder / "a.lane1.exr"));
+}
+
+TEST_F(Road, OtherRoadsAgreeToo) {
+    const std::string luminaire = VESPER_SOURCE_DIR "/data/road/luminaire.ldt";
+    const char* roads[] = {
+        R"("carriageway": {"width_m": 3.5, "lanes": 1, "traffic": "left"}, "surface": {"reflection_table": "W3"}, "luminaires": {"arrangement": "left", "spacing_m": 20, "height_m": 5, "tilt_deg": 10, "colour_temperature_K": 2000,)",
+        R"("carriageway": {"width_m": 10.5, "lanes": 3}, "surface": {"reflection_table": "R1", "q0": 0.1}, "luminaires": {"arrangement": "staggered", "spacing_m": 55, "height_m": 12, "overhang_m": -1, "maintenance_factor": 0.7, "orientation_deg": 15,)",
+        R"("carriageway": {"width_m": 7, "lanes": 2}, "surface": {"reflection_table": "C2"}, "luminaires": {"arrangement": "central", "reservation_m": 3, "spacing_m": 40, "height_m": 10, "overhang_m": 1, "c0": "street side", "roll_deg": 4,)"};
+    for (const char* road : roads) {
+        std::ofstream(folder / "r.json") << R"({"version": 1, "name": "made", )" << road << "\"file\": \"" << luminaire << "\"}}";
+        ASSERT_EQ(run("--render a.png --json a.json", "r.json"), 0) << text_of("err.txt");
+        const Differences found = differences_in(text_of("a.json"));
+        EXPECT_LT(found.point, 0.5) << road;
+        EXPECT_LT(found.average, 0.1) << road;
+        EXPECT_GT(found.observers, 0u);
+    }
+}
+
 TEST_F(Road, RefusesInOneLine) {
     for (const char* arguments : {"--r-table R9", "--q0 0", "--spacing 1", "--class P1", "--luminaire none.ies",
-                                  "--csv none/a.csv", "--height x"}) {
+                                  "--csv none/a.csv", "--height x", "--render a.jpg", "--render none/a.png",
+                                  "--device cpu", "--render a.png --device nowhere"}) {
         EXPECT_EQ(run(arguments), 2) << arguments;
         const std::string said = text_of("err.txt");
         EXPECT_TRUE(said.starts_with("vesper: ")) << said;

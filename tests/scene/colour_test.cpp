@@ -38,5 +38,15 @@ TEST(Colour, HasLuminanceOneAndNoNegativePart) {
     EXPECT_THROW(colour_of_temperature(25001), Error);
 }
 
+TEST(Colour, TemperatureOfABlackBodyIsFoundAgain) {
+    for (const double kelvin : {2000.0, 2700.0, 4000.0, 6500.0, 9000.0})
+        EXPECT_NEAR(temperature_of(glm::dvec3(colour_of_temperature(kelvin))) / kelvin, 1, 0.02) << kelvin;
+    EXPECT_EQ(temperature_of({1, 0, 0}), 0);
+    EXPECT_EQ(temperature_of({0, 1, 0}), 0);
+    EXPECT_NEAR(vesper::chromaticity({1, 1, 1}).x, 0.3127, 1e-4);  // D65
+    EXPECT_NEAR(vesper::chromaticity({1, 1, 1}).y, 0.3290, 1e-4);
+    EXPECT_EQ(vesper::chromaticity({0, 0, 0}), glm::dvec2(0));
+}
+
 }  // namespace
 }  // namespace vesper

@@ -1,0 +1,103 @@
+// `vesper inspect`: looking at what a file says of light. SPDX-License-Identifier: MIT
+#include "inspect.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "commands.h"
+#include "io/atomic_file.h"
+#include "photometry/distribution.h"
+
+namespace vesper {
+namespace {
+
+enum class Kind : uint8_t { Scene, Distribution, Table, Picture };
+
+bool is_grid(const std::string& file) {
+    try {
+        read_distribution(file);
+        return true;
+    } catch (const Error&) {
+        return false;  // a picture, or neither: its reader will say
+    }
+}
+
+/// A CSV file whose first cell is tan_gamma is an r-table.
+bool is_table(const std::string& file) {
+    const std::vector<uint8_t> bytes = read_file(file, 64u << 20);
+    const std::string start(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(std::min<size_t>(bytes.size(), 65536)));
+    return start.starts_with("tan_gamma") || start.find("\ntan_gamma") != std::string::npos;
+}
+
+Kind kind_of(const std::string& file) {
+    std::string extension = std::filesystem::path(file).extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".gltf" || extension == ".glb") return Kind::Scene;
+    if (extension == ".ies" || extension == ".ldt") return Kind::Distribution;
+    if (extension == ".csv") return is_table(file) ? Kind::Table : Kind::Distribution;
+    if (extension == ".hdr" || extension == ".pic" || extension == ".rgbe") return Kind::Picture;
+    if (extension == ".exr") return is_grid(file) ? Kind::Distribution : Kind::Picture;
+    throw Error(file + ": expected a scene (.gltf, .glb), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv) or a picture (.exr, .hdr)");
+}
+
+void run(const InspectArguments& a) {
+    if (!a.json.empty()) check_folder("--json", a.json);
+    if (!a.picture.empty()) {
+        if (!ends_with(a.picture, ".png")) throw Error("-o " + a.picture + ": a .png file is expected");
+        check_folder("-o", a.picture);
+    }
+    const Kind kind = kind_of(a.file);
+    const auto only = [&](bool given, Kind wanted, const char* what) {
+        if (given && kind != wanted) throw Error(what);
+    };
+    only(!a.probes.empty(), Kind::Picture, "--probe is for pictures (.exr, .hdr)");
+    only(a.low > 0 || a.high > 0, Kind::Picture, "--low and --high are for pictures (.exr, .hdr)");
+    only(a.contours, Kind::Picture, "--contours is for pictures (.exr, .hdr)");
+    if (!a.picture.empty() && (kind == Kind::Scene || kind == Kind::Table))
+        throw Error("-o " + a.picture + ": there is a picture of lamps and of pictures only");
+    Inspection found;
+    switch (kind) {
+        case Kind::Scene:
+            found = inspect_scene(a);
+            break;
+        case Kind::Distribution:
+            found = inspect_distribution(a);
+            break;
+        case Kind::Table:
+            found = inspect_table(a);
+            break;
+        case Kind::Picture:
+            found = inspect_picture(a);
+            break;
+    }
+    std::fputs(found.text.c_str(), stdout);
+    if (!a.json.empty())
+        write_text(a.json, found.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("inspect", "Say what a scene, a lamp or a picture holds (docs/inspect.md)");
+    const auto a = std::make_shared<InspectArguments>();
+    command->add_option("file", a->file, "A scene (.gltf, .glb), lamp (.ies, .ldt, .csv, .exr), r-table (.csv) or picture (.exr, .hdr)")
+        ->required();
+    command->add_option("--json", a->json, "Write the report to a JSON file");
+    command->add_option("--output,-o", a->picture, "OUT.png: diagrams of a lamp, false colours of a picture");
+    command->add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
+    command->add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2")->check(between(1e-30, 1e30));
+    command->add_option("--high", a->high, "Pictures: upper end of the colour scale, cd/m^2")->check(between(1e-30, 1e30));
+    command->add_flag("--contours", a->contours, "Pictures: lines at the luminances of the classes M6 to M1 of EN 13201-2");
+    command->footer("Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
+                    "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
+    command->callback([a] { run(*a); });
+}
+
+}  // namespace vesper

@@ -1,0 +1,29 @@
+// What `vesper inspect` says of each kind of file. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace vesper {
+
+struct InspectArguments {
+    std::string file, json, picture;
+    std::vector<std::string> probes;
+    double low = 0, high = 0;  ///< ends of the colour scale; 0: found
+    bool contours = false;
+};
+
+/// A report to print, and the same for programs.
+struct Inspection {
+    std::string text;
+    nlohmann::ordered_json json;
+};
+
+Inspection inspect_scene(const InspectArguments&);
+Inspection inspect_distribution(const InspectArguments&);  ///< writes the picture if one is wanted
+Inspection inspect_table(const InspectArguments&);         ///< an r-table
+Inspection inspect_picture(const InspectArguments&);       ///< writes the picture if one is wanted
+
+}  // namespace vesper

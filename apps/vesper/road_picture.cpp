@@ -1,0 +1,109 @@
+// Pictures of a rendered road. SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "arguments.h"
+#include "false_colour.h"
+#include "io/image_file.h"
+#include "resident/road_view.h"
+#include "road_render.h"
+#include "scene/colour.h"
+
+namespace vesper {
+namespace {
+
+constexpr uint32_t kPanelWidth = 1000, kPanelHeight = 240;
+constexpr double kLeft = 70, kGap = 52;
+
+ValuePicture luminances_of(VkExtent2D extent, const std::vector<float>& rgba) {
+    ValuePicture picture{extent.width, extent.height, {}};
+    for (size_t i = 0; i < rgba.size(); i += 4)
+        picture.values.push_back(static_cast<float>(luminance({rgba[i], rgba[i + 1], rgba[i + 2]})));
+    return picture;
+}
+
+/// What is left of a view's picture when it fills a panel: from px of the picture to px of the canvas.
+struct Panel {
+    const View& view;
+    glm::dvec2 corner, size;
+    glm::dvec2 at(glm::dvec3 point) const {
+        return corner + size * project(view, point) / glm::dvec2(view.extent.width, view.extent.height);
+    }
+};
+
+void outline_field(Canvas& canvas, const Panel& panel, const RoadLayout& road) {
+    const glm::dvec2 corners[] = {panel.at({0, 0, 0}), panel.at({road.spacing, 0, 0}), panel.at({road.spacing, road.width, 0}),
+                                  panel.at({0, road.width, 0}), panel.at({0, 0, 0})};
+    canvas.line(corners, Colour(1), 1.2, true);
+}
+
+void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, const RoadResult& result, size_t index,
+                   const RenderedObserver& seen, const ColourScale& scale) {
+    const RoadObserver& observer = result.observers[index];
+    const ValuePicture picture = resized(luminances_of(seen.view.extent, seen.rgba), kPanelWidth, kPanelHeight);
+    canvas.pixels(static_cast<int>(corner.x), static_cast<int>(corner.y), kPanelWidth, kPanelHeight, false_colours(picture, scale));
+    std::vector<double> levels;
+    for (const LightingClass& c : lighting_classes()) levels.push_back(c.luminance);
+    draw_contours(canvas, picture, levels, corner);
+    const Panel panel{seen.view, corner, {kPanelWidth, kPanelHeight}};
+    outline_field(canvas, panel, road);
+    for (const RoadPoint& point : result.points) {
+        canvas.disc(panel.at({point.x, point.y, 0}), 2.5, Colour(1));
+        canvas.disc(panel.at({point.x, point.y, 0}), 1.5, Colour(0));
+    }
+    double free = corner.y + kPanelHeight + 20;
+    for (const double x : result.field.x) {
+        const double y = panel.at({x, observer.eye.y, 0}).y;
+        if (free - y < 13) continue;
+        canvas.text({corner.x - 8, y}, format("%.1f m", x), 11, Canvas::Align::Right);
+        free = y;
+    }
+    const double tall = static_cast<double>(kPanelHeight) / (seen.view.tangent_high.y - seen.view.tangent_low.y) /
+                        (kPanelWidth / static_cast<double>(seen.view.tangent_high.x - seen.view.tangent_low.x));
+    canvas.text(corner + glm::dvec2(0, -14),
+                format("Observer of lane %d: Lav %.3f cd/m\u00b2 calculated, %.3f rendered; points differ by %.2f %% at most", observer.lane,
+                       observer.average_luminance, seen.counted.average_luminance, std::abs(seen.counted.largest_difference)),
+                13);
+    canvas.text(corner + glm::dvec2(kPanelWidth, -14), format("heights \u00d7 %.1f", tall), 13, Canvas::Align::Right);
+}
+
+void write_false_colours(const std::string& file, const RoadLayout& road, const RoadResult& result, const RenderedRoad& rendered) {
+    std::vector<float> all;
+    for (const RenderedObserver& seen : rendered.observers)
+        for (const double value : seen.every.luminance) all.push_back(static_cast<float>(value));
+    const ColourScale scale = scale_of(all);
+    const ValuePicture overview = luminances_of(rendered.overview.extent, rendered.overview_rgba);
+    const double top = 96, tall = overview.height + kGap + static_cast<double>(rendered.observers.size()) * (kPanelHeight + kGap);
+    Canvas canvas(static_cast<uint32_t>(kLeft + kPanelWidth + 24 + kBarWidth), static_cast<uint32_t>(top + tall));
+    canvas.text({kLeft, 24}, column(road.name, 100), 17);
+    canvas.text({kLeft, 48}, "Luminance of the road from the standard observers, 60 m before the field and 1.5 m up; lines: limits of the classes M6 to M1", 13);
+    canvas.text({kLeft, top - 14}, format("As seen from lane %d; dashed: the field", result.observers[rendered.darkest].lane), 13);
+    canvas.pixels(static_cast<int>(kLeft), static_cast<int>(top), overview.width, overview.height, false_colours(overview, scale));
+    outline_field(canvas, {rendered.overview, {kLeft, top}, {overview.width, overview.height}}, road);
+    double y = top + overview.height + kGap;
+    for (size_t i = 0; i < rendered.observers.size(); ++i, y += kPanelHeight + kGap)
+        draw_observer(canvas, {kLeft, y}, road, result, i, rendered.observers[i], scale);
+    draw_colour_bar(canvas, {kLeft + kPanelWidth + 24, top}, std::min(tall - kGap, 700.0), scale, "cd/m\u00b2");
+    canvas.save(file);
+}
+
+}  // namespace
+
+void write_picture(const std::string& file, const RoadLayout& road, const RoadResult& result, const RenderedRoad& rendered) {
+    if (ends_with(file, ".png")) return write_false_colours(file, road, result, rendered);
+    for (size_t i = 0; i < rendered.observers.size(); ++i) {
+        const View& view = rendered.observers[i].view;
+        const int lane = result.observers[i].lane;
+        const std::string name = rendered.observers.size() == 1 ? file : file.substr(0, file.size() - 4) + format(".lane%d.exr", lane);
+        const glm::dvec3 eye = result.observers[i].eye;
+        write_exr(name, view.extent.width, view.extent.height, rendered.observers[i].rgba,
+                  {{"vesper:version", VESPER_VERSION},
+                   {"vesper:road", road.name},
+                   {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
+                   {"vesper:device", rendered.device},
+                   {"vesper:eye", format("%.9g %.9g %.9g", eye.x, eye.y, eye.z)},
+                   {"vesper:tangents", format("%.9g %.9g %.9g %.9g", static_cast<double>(view.tangent_low.x), static_cast<double>(view.tangent_low.y),
+                                              static_cast<double>(view.tangent_high.x), static_cast<double>(view.tangent_high.y))}});
+    }
+}
+
+}  // namespace vesper

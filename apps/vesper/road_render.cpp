@@ -1,0 +1,175 @@
+#include "road_render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "renderer.h"
+#include "resident/road_view.h"
+#include "scene/road_scene.h"
+
+namespace vesper {
+namespace {
+
+void summarise(const RoadLayout& road, const RoadResult& result, size_t index, RoadReading& reading) {
+    const RoadObserver& observer = result.observers[index];
+    double sum = 0, squares = 0, least = HUGE_VAL, lane_least = HUGE_VAL, lane_greatest = 0;
+    for (size_t i = 0; i < result.points.size(); ++i) {
+        const double value = reading.luminance[i];
+        if (!std::isfinite(value)) throw Error(road.name + ": the picture has no luminance at a point of the grid");
+        const double difference =
+            difference_percent(value, result.points[i].luminance[index], observer.average_luminance);
+        sum += value;
+        squares += difference * difference;
+        least = std::min(least, value);
+        if (std::abs(difference) > std::abs(reading.largest_difference)) {
+            reading.largest_difference = difference;
+            reading.largest_at = i;
+        }
+        if (std::abs(result.points[i].y - observer.eye.y) > road.width / road.lanes / 6) continue;
+        lane_least = std::min(lane_least, value);
+        lane_greatest = std::max(lane_greatest, value);
+    }
+    const auto count = static_cast<double>(result.points.size());
+    reading.average_luminance = sum / count;
+    reading.mean_difference = std::sqrt(squares / count);
+    reading.average_difference =
+        difference_percent(reading.average_luminance, observer.average_luminance, observer.average_luminance);
+    reading.overall_uniformity = sum > 0 ? least / reading.average_luminance : 0;
+    reading.lengthwise_uniformity = lane_greatest > 0 ? lane_least / lane_greatest : 0;
+}
+
+/// Points of the grid of one observer.
+struct Wanted {
+    size_t observer, point;
+};
+/// By the luminaires of the scene that light them in the calculation.
+using Groups = std::map<std::vector<bool>, std::vector<Wanted>>;
+
+Groups groups_of(const RoadLayout& road, const std::vector<RoadLuminaire>& lamps, const RoadResult& result) {
+    Groups groups;
+    for (size_t o = 0; o < result.observers.size(); ++o)
+        for (size_t i = 0; i < result.points.size(); ++i) {
+            const glm::dvec2 point(result.points[i].x, result.points[i].y);
+            std::vector<bool> counted;
+            for (const RoadLuminaire& lamp : lamps)
+                counted.push_back(reflected_towards(road, lamp, point, result.observers[o].eye) > 0);
+            groups[counted].push_back({o, i});
+        }
+    return groups;
+}
+
+/// The scene with only some of its luminaires.
+Scene with_luminaires(Scene scene, const std::vector<bool>& wanted) {
+    size_t lamp = 0;
+    for (Node& node : scene.nodes)
+        if (node.light != kNone && !wanted.at(lamp++)) node.light = kNone;
+    return scene;
+}
+
+class RoadPictures {
+public:
+    RoadPictures(Device& device, const Scene& scene) : frame_{world_transforms(scene, 0)}, renderer_(device, scene) {}
+    std::vector<float> render(const View& view) {
+        return renderer_.render({}, view, frame_, 0, {.display = false, .scene = true}).scene;
+    }
+
+private:
+    SceneFrame frame_;
+    Renderer renderer_;
+};
+
+double read_point(const std::vector<float>& rgba, const View& view, const RoadPoint& point) {
+    return luminance_at(rgba, view.extent, project(view, {point.x, point.y, 0}));
+}
+
+std::string summary_line(const RoadObserver& a, const RoadReading& b) {
+    std::string text = format("  %4d  %7.4f %7.4f %+6.2f %%", a.lane, a.average_luminance, b.average_luminance, b.average_difference);
+    text += format("   %6.3f %6.3f   %6.3f %6.3f", a.overall_uniformity, b.overall_uniformity, a.lengthwise_uniformity, b.lengthwise_uniformity);
+    return text + format("   %5.2f %%  %+6.2f %%\n", b.mean_difference, b.largest_difference);
+}
+
+/// What differs most of all observers.
+std::string worst_line(const RoadResult& result, const RenderedRoad& rendered, RoadReading RenderedObserver::*which) {
+    const RoadReading* worst = &(rendered.observers.front().*which);
+    double average = 0;
+    for (const RenderedObserver& seen : rendered.observers) {
+        const RoadReading& reading = seen.*which;
+        if (std::abs(reading.largest_difference) > std::abs(worst->largest_difference)) worst = &reading;
+        if (std::abs(reading.average_difference) > std::abs(average)) average = reading.average_difference;
+    }
+    const RoadPoint& at = result.points[worst->largest_at];
+    return format("%+.2f %% at x = %.2f m, y = %.2f m; of Lav: %+.2f %%\n", worst->largest_difference, at.x, at.y, average);
+}
+
+}  // namespace
+
+double difference_percent(double picture, double calculated, double average) {
+    return 100 * (picture - calculated) / std::max(calculated, 1e-3 * average);
+}
+
+RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const std::string& select) {
+    const Scene scene = road_scene(road);
+    Device device({.select = select});
+    RenderedRoad made{.device = device.name()};
+    RoadPictures whole(device, scene);
+    for (size_t i = 0; i < result.observers.size(); ++i) {
+        RenderedObserver seen;
+        seen.view = road_view(road, result.observers[i]);
+        seen.rgba = whole.render(seen.view);
+        seen.longest_pixel = depth_of_pixel(seen.view, result.observers[i], result.field.x.back());
+        for (const RoadPoint& point : result.points) seen.every.luminance.push_back(read_point(seen.rgba, seen.view, point));
+        seen.counted.luminance.resize(result.points.size());
+        made.observers.push_back(std::move(seen));
+        if (result.observers[i].average_luminance < result.observers[made.darkest].average_luminance) made.darkest = i;
+    }
+    for (const auto& [counted, wanted] : groups_of(road, road_scene_luminaires(road), result)) {
+        RoadPictures some(device, with_luminaires(scene, counted));
+        std::vector<float> rgba;
+        for (size_t i = 0; i < wanted.size(); ++i) {  // observer by observer
+            const auto [observer, point] = wanted[i];
+            RenderedObserver& seen = made.observers[observer];
+            if (i == 0 || wanted[i - 1].observer != observer) rgba = some.render(seen.view);
+            seen.counted.luminance[point] = read_point(rgba, seen.view, result.points[point]);
+        }
+    }
+    for (size_t i = 0; i < made.observers.size(); ++i) {
+        summarise(road, result, i, made.observers[i].counted);
+        summarise(road, result, i, made.observers[i].every);
+    }
+    made.overview = road_overview(road, result.observers[made.darkest], 1000);
+    made.overview_rgba = whole.render(made.overview);
+    return made;
+}
+
+std::string text_of(const RoadResult& result, const RenderedRoad& rendered) {
+    const size_t columns = result.field.x.size();
+    std::string text = "\nRendered on " + rendered.device + ", with the luminaires that count for each point: calculated, rendered, difference in %\n";
+    for (size_t o = 0; o < result.observers.size(); ++o) {
+        const RoadObserver& observer = result.observers[o];
+        const RenderedObserver& seen = rendered.observers[o];
+        text += format("\nLuminance for the observer of lane %d, cd/m2 (%u x %u px, at most %.1f cm of road in one)\n   y \\ x  ",
+                       observer.lane, seen.view.extent.width, seen.view.extent.height, 100 * seen.longest_pixel);
+        for (const double x : result.field.x) text += format(" %7.2f", x);
+        for (size_t row = result.field.y.size(); row-- > 0;)
+            for (int line = 0; line < 3; ++line) {
+                text += line == 0 ? format("\n %7.3f  ", result.field.y[row]) : std::string("\n          ");
+                for (size_t i = row * columns; i < (row + 1) * columns; ++i) {
+                    const double calculated = result.points[i].luminance[o], read = seen.counted.luminance[i];
+                    text += line == 2 ? format(" %+7.2f", difference_percent(read, calculated, observer.average_luminance))
+                                      : format(" %7.3f", line == 0 ? calculated : read);
+                }
+            }
+        text += "\n";
+    }
+    text += "\n  lane  Lav cd/m2                  Uo               Ul              points: rms  largest\n";
+    for (size_t o = 0; o < result.observers.size(); ++o) text += summary_line(result.observers[o], rendered.observers[o].counted);
+    text += "  and by every luminaire, those that the standard leaves out too:\n";
+    for (size_t o = 0; o < result.observers.size(); ++o) text += summary_line(result.observers[o], rendered.observers[o].every);
+    text += "\nLargest difference: " + worst_line(result, rendered, &RenderedObserver::counted);
+    return text + "By every luminaire: " + worst_line(result, rendered, &RenderedObserver::every);
+}
+
+}  // namespace vesper

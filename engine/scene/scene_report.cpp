@@ -1,0 +1,209 @@
+// Adding up a scene. SPDX-License-Identifier: MIT
+#include "scene/scene_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "scene/colour.h"
+#include "scene/photometry.h"
+#include "scene/scene_warnings.h"
+
+namespace vesper {
+namespace {
+
+struct PlacedLamp {
+    glm::dvec3 position{0};
+    size_t report = 0;
+    double lowest = HUGE_VAL, highest = -HUGE_VAL;  // surfaces in the lamp's vertical, m
+};
+
+double luminance_of(glm::vec3 rgb) { return luminance(glm::dvec3(rgb)); }
+
+/// A name without the number at its end, which tells lamps of one kind apart.
+std::string stem_of(std::string name) {
+    size_t end = name.size();
+    while (end > 0 && std::isdigit(static_cast<unsigned char>(name[end - 1]))) --end;
+    while (end > 0 && end < name.size() && std::string("._- ").find(name[end - 1]) != std::string::npos) --end;
+    return end > 0 ? name.substr(0, end) : name;
+}
+
+/// What lamps that are reported together share.
+auto group_of(const Light& l) {
+    return std::tuple(stem_of(l.name), l.kind, l.intensity, l.colour.r, l.colour.g, l.colour.b, l.inner_cone, l.outer_cone,
+                      l.exponent, l.distribution);
+}
+
+std::vector<PlacedLamp> placed_lamps(const Scene& scene, const std::vector<glm::mat4>& world, SceneReport& report) {
+    std::vector<PlacedLamp> lamps;
+    std::map<decltype(group_of({})), size_t> place;
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+        const uint32_t index = scene.nodes[i].light;
+        if (index == kNone) continue;
+        const Light& light = scene.lights[index];
+        const auto [entry, added] = place.try_emplace(group_of(light), report.lamps.size());
+        if (added) {
+            LampReport made{.name = light.name, .kind = light.kind, .candela = static_cast<double>(light.intensity)};
+            made.colour = light.colour;
+            if (light.kind == Light::Kind::Measured) {
+                const Distribution& d = scene.distributions[light.distribution];
+                made.lumens = made.candela * luminous_flux(d);
+                made.candela *= largest_intensity(d);
+            } else if (light.kind != Light::Kind::Directional) {
+                made.lumens = luminous_flux(light);
+            }
+            report.lamps.push_back(made);
+        }
+        LampReport& lamp = report.lamps[entry->second];
+        ++lamp.number;
+        report.lumens += lamp.lumens;
+        if (light.kind != Light::Kind::Directional) lamps.push_back({glm::dvec3(world[i][3]), entry->second});
+    }
+    return lamps;
+}
+
+/// Notes a triangle that crosses the vertical through a lamp.
+void look_for(PlacedLamp& lamp, const std::array<glm::dvec3, 3>& corner) {
+    const glm::dvec2 p(lamp.position.x, lamp.position.z);
+    const auto flat = [&](size_t i) { return glm::dvec2(corner[i].x, corner[i].z) - p; };
+    const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
+    const double w[3] = {cross(flat(1), flat(2)), cross(flat(2), flat(0)), cross(flat(0), flat(1))};
+    const double sum = w[0] + w[1] + w[2];
+    if (sum == 0) return;
+    for (const double part : w)
+        if (part / sum < 0) return;
+    const double y = (w[0] * corner[0].y + w[1] * corner[1].y + w[2] * corner[2].y) / sum;
+    lamp.lowest = std::min(lamp.lowest, y);
+    lamp.highest = std::max(lamp.highest, y);
+}
+
+class Measure {
+public:
+    Measure(const Scene& scene, std::vector<PlacedLamp>& lamps) : lamps_(lamps), area_(scene.materials.size()) {
+        std::sort(lamps_.begin(), lamps_.end(),
+                  [](const PlacedLamp& a, const PlacedLamp& b) { return a.position.x < b.position.x; });
+    }
+    void add(const Primitive& primitive, const glm::dmat4& world) {
+        const glm::dvec3 none(HUGE_VAL);
+        for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+            std::array<glm::dvec3, 3> corner;
+            glm::dvec3 low = none, high = -none;
+            for (size_t k = 0; k < 3; ++k) {
+                const Vertex& vertex = primitive.vertices[primitive.indices[i + k]];
+                corner[k] = glm::dvec3(world * glm::dvec4(glm::dvec3(vertex.position), 1));
+                low = glm::min(low, corner[k]), high = glm::max(high, corner[k]);
+            }
+            ++triangles;
+            area_[primitive.material] += glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])) / 2;
+            low_ = glm::min(low_, low), high_ = glm::max(high_, high);
+            auto lamp = std::lower_bound(lamps_.begin(), lamps_.end(), low.x,
+                                         [](const PlacedLamp& a, double x) { return a.position.x < x; });
+            for (; lamp != lamps_.end() && lamp->position.x <= high.x; ++lamp)
+                if (lamp->position.z >= low.z && lamp->position.z <= high.z) look_for(*lamp, corner);
+        }
+    }
+    glm::dvec3 extent() const { return triangles ? high_ - low_ : glm::dvec3(0); }
+    double area(size_t material) const { return area_[material]; }
+    uint64_t triangles = 0;
+
+private:
+    std::vector<PlacedLamp>& lamps_;
+    std::vector<double> area_;
+    glm::dvec3 low_{HUGE_VAL}, high_{-HUGE_VAL};
+};
+
+void report_heights(const std::vector<PlacedLamp>& lamps, SceneReport& report) {
+    for (const PlacedLamp& lamp : lamps) {
+        LampReport& into = report.lamps[lamp.report];
+        const double height = lamp.position.y - lamp.lowest;
+        if (height >= 0 && height < HUGE_VAL) {
+            into.lowest = std::min(into.lowest.value_or(height), height);
+            into.highest = std::max(into.highest.value_or(height), height);
+        } else {
+            ++into.over_nothing;
+            into.under_ground += lamp.highest > lamp.position.y;
+        }
+    }
+}
+
+}  // namespace
+
+double mean_reflectance(const Scene& scene, const Material& material, const Transfer& transfer) {
+    const glm::dvec3 factor(material.base_colour);
+    if (material.base_colour_texture.image == kNone) return luminance(factor);
+    std::array<double, 256> linear{};
+    for (size_t code = 0; code < 256; ++code) {
+        const double c = static_cast<double>(code) / 255;
+        const double srgb = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        linear[code] = transfer.kind == Transfer::Kind::Gamma ? std::pow(c, static_cast<double>(transfer.gamma)) : srgb;
+    }
+    const Image& image = scene.images[material.base_colour_texture.image];
+    // A histogram per channel first: sums over codes are exact and quick.
+    std::array<std::array<uint64_t, 256>, 3> counts{};
+    for (size_t i = 0; i < image.rgba.size(); i += 4)
+        for (size_t c = 0; c < 3; ++c) ++counts[c][image.rgba[i + c]];
+    glm::dvec3 mean(0);
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t code = 0; code < 256; ++code)
+            mean[static_cast<int>(c)] += linear[code] * static_cast<double>(counts[c][code]);
+    mean *= 4.0 / static_cast<double>(image.rgba.size());
+    return luminance(factor * mean);
+}
+
+SceneReport report_scene(const Scene& scene) {
+    SceneReport report;
+    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    std::vector<PlacedLamp> lamps = placed_lamps(scene, world, report);
+    Measure measure(scene, lamps);
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+        const Node& node = scene.nodes[i];
+        if (node.mesh != kNone)
+            for (const Primitive& primitive : scene.meshes[node.mesh].primitives) measure.add(primitive, glm::dmat4(world[i]));
+        if (node.camera == kNone) continue;
+        const std::string& name = scene.cameras[node.camera].name;
+        report.cameras.push_back(name.empty() ? node.name : name);
+    }
+    report_heights(lamps, report);
+    report.extent = measure.extent();
+    report.triangles = measure.triangles;
+    double reflected = 0;
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        const double area = measure.area(i);
+        if (!(area > 0)) continue;
+        const Material& m = scene.materials[i];
+        MaterialReport made{.name = m.name, .reflectance = mean_reflectance(scene, m, scene.transfer)};
+        made.roughness = static_cast<double>(m.roughness);
+        made.metallic = static_cast<double>(m.metallic);
+        made.textured = m.base_colour_texture.image != kNone;
+        made.emission = luminance_of(m.emission);
+        if (m.reflection_table != kNone) made.road_table = scene.reflection_tables[m.reflection_table].name;
+        made.area = area;
+        reflected += area * made.reflectance * (m.metallic_roughness_texture.image == kNone ? 1 - made.metallic : 1);
+        report.area += area;
+        report.materials.push_back(made);
+    }
+    if (report.area > 0) report.mean_reflectance = reflected / report.area;
+    warn_of(scene, report);
+    return report;
+}
+
+const char* name_of(Light::Kind kind) {
+    switch (kind) {
+        case Light::Kind::Point:
+            return "point";
+        case Light::Kind::Spot:
+            return "spot";
+        case Light::Kind::CosinePower:
+            return "cosine_power";
+        case Light::Kind::Directional:
+            return "directional";
+        case Light::Kind::Measured:
+            return "measured";
+    }
+    return "";
+}
+
+}  // namespace vesper

@@ -1,0 +1,115 @@
+// Scales, colours and statistics of pictures. SPDX-License-Identifier: MIT
+#include "false_colour.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "arguments.h"
+#include "statistics.h"
+
+namespace vesper {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+
+TEST(FalseColour, GetsLighterWithLuminance) {
+    double before = -1;
+    for (double position = 0; position <= 1; position += 1.0 / 256) {
+        const Colour c = map_colour(position);
+        const double lightness = 0.2126 * std::pow(c.r, 2.2) + 0.7152 * std::pow(c.g, 2.2) + 0.0722 * std::pow(c.b, 2.2);
+        EXPECT_GT(lightness, before - 1e-4) << position;
+        before = lightness;
+    }
+    EXPECT_EQ(map_colour(-1), map_colour(0));
+    EXPECT_EQ(map_colour(7), map_colour(1));
+}
+
+TEST(FalseColour, MarksWhatHasNoColour) {
+    const ColourScale scale{0.1, 10};
+    EXPECT_NEAR(scale.position(1), 0.5, 1e-12);
+    EXPECT_EQ(scale.position(1e9), 1);
+    const auto rgba = false_colours({5, 1, {kNan, kInfinity, 0, -1, 1}}, scale);
+    for (size_t i : {0, 1}) EXPECT_TRUE(rgba[4 * i] == 255 && rgba[4 * i + 1] == 0 && rgba[4 * i + 2] == 255);
+    for (size_t i : {2, 3}) EXPECT_TRUE(rgba[4 * i] == 0 && rgba[4 * i + 1] == 0 && rgba[4 * i + 2] == 0);
+    EXPECT_EQ(rgba[17], uint8_t(map_colour(0.5).g * 255 + 0.5));
+}
+
+TEST(FalseColour, FindsAScale) {
+    std::vector<float> values{0, -1, kNan, kInfinity};
+    for (int i = 0; i <= 1000; ++i) values.push_back(0.3f * std::pow(10.0f, float(i) / 250));  // 0.3 to 3000
+    const ColourScale scale = scale_of(values);
+    EXPECT_DOUBLE_EQ(scale.low, 0.2);
+    EXPECT_DOUBLE_EQ(scale.high, 5000);
+    const ColourScale even = scale_of(std::vector<float>(10, 2.0f));
+    EXPECT_GE(even.high / even.low, 10 - 1e-9);
+    EXPECT_TRUE(even.low <= 2 && even.high >= 2);
+    EXPECT_GT(scale_of({}).high, scale_of({}).low);
+}
+
+TEST(FalseColour, ResizesByMeans) {
+    const ValuePicture picture{4, 2, {1, 3, 10, 20, 5, 7, 30, 40}};
+    EXPECT_EQ(resized(picture, 2, 1).values, (std::vector<float>{4, 25}));
+    EXPECT_EQ(resized({2, 1, {1, 2}}, 4, 2).values, (std::vector<float>{1, 1, 2, 2, 1, 1, 2, 2}));
+    EXPECT_TRUE(std::isnan(resized({2, 1, {1, kNan}}, 1, 1).values[0]));
+}
+
+TEST(FalseColour, Ticks) {
+    EXPECT_EQ(linear_ticks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+    EXPECT_EQ(linear_ticks(-30, 15, 5).size(), 5u);  // every 10: -30 to 10
+    EXPECT_TRUE(linear_ticks(1, 1, 5).empty() && linear_ticks(2, 1, 5).empty());
+    const std::vector<double> ticks = log_ticks(0.1, 10);
+    EXPECT_EQ(ticks.size(), 7u);
+    EXPECT_EQ(log_ticks(1e-3, 1e3).size(), 7u);  // powers of ten alone
+    EXPECT_TRUE(log_ticks(0, 1).empty());
+    EXPECT_EQ(tick_label(20000), "20000");
+    EXPECT_EQ(tick_label(0.05), "0.05");
+    EXPECT_EQ(tick_label(-1e-15), "0");
+}
+
+TEST(FalseColour, CanvasKeepsPixelsAndClips) {
+    Canvas canvas(8, 6);
+    const std::vector<uint8_t> dot{10, 20, 30, 255};
+    canvas.pixels(3, 2, 1, 1, dot);
+    canvas.pixels(-1, 0, 1, 1, dot);
+    canvas.pixels(8, 5, 1, 1, dot);
+    canvas.text({4, 3}, "", 10);
+    canvas.text({1000, 3}, "\xff\xfe no UTF-8", 10, Canvas::Align::Right, Colour(1), true);
+    const auto rgba = canvas.rgba();
+    const size_t at = 4 * (2 * 8 + 3);
+    ASSERT_EQ(rgba.size(), 8u * 6 * 4);
+    EXPECT_EQ(rgba[0], 255);
+    EXPECT_TRUE(rgba[at] == 10 && rgba[at + 1] == 20 && rgba[at + 2] == 30);
+}
+
+TEST(Statistics, CountsWhatIsNoLuminance) {
+    std::vector<float> rgb;
+    for (int i = 1; i <= 100; ++i) rgb.insert(rgb.end(), 3, float(i));
+    for (const float odd : {0.0f, -5.0f, kNan, kInfinity}) rgb.insert(rgb.end(), 3, odd);
+    const LuminanceStatistics s = luminance_statistics(rgb, 3);
+    EXPECT_EQ(s.finite, 102u);
+    EXPECT_EQ(s.non_finite, 2u);
+    EXPECT_EQ(s.negative, 1u);
+    EXPECT_EQ(s.zero, 1u);
+    EXPECT_NEAR(s.least_positive, 1, 1e-6);
+    EXPECT_NEAR(s.minimum, -5, 1e-5);
+    EXPECT_NEAR(s.maximum, 100, 1e-4);
+    for (const auto& [percent, value] : s.percentiles)
+        if (percent == 50) {
+            EXPECT_NEAR(value, 50, 1.01);
+        }
+    std::vector<float> rgba;
+    for (int i = 1; i <= 100; ++i) rgba.insert(rgba.end(), {float(i), float(i), float(i), 7.0f});
+    EXPECT_NEAR(luminance_statistics(rgba).mean, 50.5, 1e-4);
+    EXPECT_EQ(luminance_statistics(rgba).negative, 0u);
+}
+
+TEST(Columns, CountCharactersNotBytes) {
+    EXPECT_EQ(column("abc", 5), "abc  ");
+    EXPECT_EQ(column("abcdef", 3), "abc");
+    EXPECT_EQ(column("\u00e9\u00e9\u00e9", 2), "\u00e9\u00e9");
+}
+
+}  // namespace
+}  // namespace vesper

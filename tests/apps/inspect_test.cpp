@@ -1,0 +1,151 @@
+// `vesper inspect` as people run it; needs no device. SPDX-License-Identifier: MIT
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "io/atomic_file.h"
+#include "io/hdr_image.h"
+#include "io/image_file.h"
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+const std::string kData = VESPER_SOURCE_DIR "/data/";
+
+class Inspect : public testing::Test {
+protected:
+    TempFolder folder;
+    std::string printed, said;
+
+    int inspect(const std::string& arguments, const std::string& environment = "") {
+        const std::string command = "cd " + folder.path().string() + " && " + environment + " " VESPER_PROGRAM " inspect " + arguments +
+                                    " >out.txt 2>err.txt";
+        const int status = std::system(command.c_str());
+        printed = read_text(folder / "out.txt");
+        said = read_text(folder / "err.txt");
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    nlohmann::json json(const std::string& file) const { return nlohmann::json::parse(read_text(folder / file)); }
+    Image picture(const std::string& file) const { return decode_image(read_file(folder / file, 1u << 26), 8192); }
+    bool prints(const std::string& part) const { return printed.find(part) != std::string::npos; }
+
+    /// 40 x 20 px, luminance 2 on the left and 8 on the right, a dark, a negative and a missing pixel in the first row.
+    void write_picture(double white) {
+        HdrImage image{.width = 40, .height = 20, .white_luminance = white};
+        for (uint32_t i = 0; i < 800; ++i) image.rgb.insert(image.rgb.end(), 3, i % 40 < 20 ? 2.0f : 8.0f);
+        const float odd[] = {0, -1, std::numeric_limits<float>::quiet_NaN()};
+        for (size_t i = 0; i < 3; ++i) std::fill_n(image.rgb.begin() + static_cast<ptrdiff_t>(3 * i), 3, odd[i]);
+        image.rgb[3 * 45] = 4, image.rgb[3 * 45 + 1] = 1, image.rgb[3 * 45 + 2] = 0;
+        write_exr(folder / "a.exr", image);
+    }
+};
+
+TEST_F(Inspect, AScene) {
+    ASSERT_EQ(inspect(kData + "rivoli/rivoli.gltf --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("lx from the sky are no night")) << printed;
+    const auto day = json("a.json");
+    EXPECT_EQ(day["kind"], "scene");
+    EXPECT_GT(day["triangles"].get<int>(), 100000);
+    EXPECT_FALSE(day["implausible"].empty());
+    folder.write("p.json", R"({"version": 1, "lamps": [{"name": "lantern", "nodes": "street_lamp_*/light", "type": "point",
+        "intensity_cd": 1000, "colour_temperature_K": 2700}]})");
+    ASSERT_EQ(std::system((std::string(VESPER_PROGRAM) + " convert " + kData + "rivoli/rivoli.gltf -p " + (folder / "p.json").string() +
+                           " -o " + (folder / "n.gltf").string() + " >/dev/null 2>&1")
+                              .c_str()),
+              0);
+    ASSERT_EQ(inspect("n.gltf --json b.json"), 0) << said;
+    const auto night = json("b.json");
+    const auto lamp = night["lamps"].at(0);
+    EXPECT_EQ(lamp["name"], "lantern");
+    EXPECT_NEAR(lamp["intensity_cd"].get<double>(), 1000, 0.1);
+    EXPECT_NEAR(lamp["luminous_flux_lm"].get<double>(), 12566, 2);
+    EXPECT_NEAR(lamp["colour_temperature_K"].get<double>(), 2700, 60);
+    EXPECT_NEAR(lamp["height_m"].at(0).get<double>(), 6.54, 0.1);
+    EXPECT_NEAR(night["luminous_flux_lm"].get<double>(), 12566 * lamp["number"].get<double>(), 200);
+}
+
+TEST_F(Inspect, ALuminaire) {
+    ASSERT_EQ(inspect(kData + "road/luminaire.ldt -o a.png --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("8803.1 lm, 88.0 % of the lamps' 10000 lm") && prints("4255 cd at C 15, gamma 65") && prints("G*2")) << printed;
+    EXPECT_NEAR(json("a.json")["output_ratio"].get<double>(), 0.8803, 1e-4);
+    const Image drawn = picture("a.png");
+    EXPECT_EQ(drawn.width, 1360u);
+    std::set<uint32_t> colours;
+    for (size_t i = 0; i < drawn.rgba.size(); i += 4)
+        colours.insert(drawn.rgba[i] << 16 | drawn.rgba[i + 1] << 8 | drawn.rgba[i + 2]);
+    EXPECT_GT(colours.size(), 500u);
+}
+
+TEST_F(Inspect, AHeadlampAndAnRTable) {
+    ASSERT_EQ(inspect(kData + "photometry/low-beam.csv -o a.png"), 0) << said;
+    EXPECT_TRUE(prints("type A") && prints("B50L") && !prints("missed")) << printed;
+    ASSERT_EQ(inspect(kData + "photometry/high-beam.csv"), 0);
+    EXPECT_TRUE(prints("missed")) << printed;
+    ASSERT_EQ(inspect(kData + "road/R3.csv"), 0);
+    EXPECT_TRUE(prints("0.07 stated") && prints("S1 1.109")) << printed;
+}
+
+TEST_F(Inspect, APicture) {
+    write_picture(1);
+    ASSERT_EQ(inspect("a.exr --probe 5,1 --probe 39,19 -o a.png --json a.json --contours"), 0) << said;
+    EXPECT_TRUE(prints("luminance, cd/m^2")) << printed;
+    auto found = json("a.json");
+    EXPECT_TRUE(found["absolute"].get<bool>());
+    EXPECT_EQ(found["luminance"]["non_finite_pixels"], 1);
+    EXPECT_EQ(found["luminance"]["negative_pixels"], 1);
+    EXPECT_EQ(found["luminance"]["zero_pixels"], 1);
+    EXPECT_NEAR(found["probes"][0]["luminance"].get<double>(), 4 * 0.2126 + 0.7152, 1e-5);
+    EXPECT_NEAR(found["probes"][1]["chromaticity"][0].get<double>(), 0.3127, 1e-3);  // D65
+    EXPECT_NEAR(found["probes"][1]["chromaticity"][1].get<double>(), 0.3290, 1e-3);
+    // Twice the unit is twice the luminance.
+    write_picture(2);
+    ASSERT_EQ(inspect("a.exr --probe 39,19 --json a.json"), 0);
+    EXPECT_NEAR(json("a.json")["probes"][0]["luminance"].get<double>(), 16, 1e-4);
+    write_picture(0);
+    ASSERT_EQ(inspect("a.exr"), 0);
+    EXPECT_TRUE(prints("relative (the header names no unit)")) << printed;
+    // The two halves have two colours, in the order of the map.
+    ASSERT_EQ(inspect("a.exr --low 1 --high 10 -o b.png"), 0) << said;
+    const Image drawn = picture("b.png");
+    const auto pixel = [&](uint32_t x, uint32_t y) { return &drawn.rgba[4 * (size_t{y} * drawn.width + x)]; };
+    EXPECT_GT(pixel(16 + 480, 200)[1], pixel(16 + 160, 200)[1] + 50);
+    EXPECT_TRUE(pixel(20, 44)[0] == 0 && pixel(20, 44)[1] == 0);           // a pixel of 0
+    EXPECT_TRUE(pixel(16 + 40, 44)[0] == 255 && pixel(16 + 40, 44)[2] == 255);  // one that is no number
+}
+
+TEST_F(Inspect, DrawsWithoutFonts) {
+    write_picture(1);
+    folder.write("fonts.conf", "<?xml version=\"1.0\"?><!DOCTYPE fontconfig SYSTEM \"fonts.dtd\"><fontconfig></fontconfig>");
+    ASSERT_EQ(inspect("a.exr -o a.png", "FONTCONFIG_FILE=" + (folder / "fonts.conf").string()), 0) << said;
+    EXPECT_GT(picture("a.png").width, 600u);
+}
+
+TEST_F(Inspect, RefusesInOneLine) {
+    write_picture(1);
+    folder.write("bad.exr", "\x76\x2f\x31\x01 not really");
+    folder.write("bad.gltf", "{");
+    folder.write("a.txt", "text");
+    for (const char* arguments :
+         {"", "none.gltf", "none.exr", "none.csv", "bad.exr", "bad.gltf", "a.txt", "a.exr --probe 40,0", "a.exr --probe 1,2,3", "a.exr --probe x",
+          "a.exr --probe=-1,0", "a.exr -o a.jpg", "a.exr -o none/a.png", "a.exr --json none/a.json", "a.exr --low 5 --high 1 -o a.png",
+          "a.exr --low nan -o a.png", "'" VESPER_SOURCE_DIR "/data/road/R3.csv' -o a.png",
+          "'" VESPER_SOURCE_DIR "/data/road/luminaire.ldt' --probe 1,1",
+          "'" VESPER_SOURCE_DIR "/data/road/luminaire.ldt' --contours"}) {
+        EXPECT_EQ(inspect(arguments), 2) << arguments;
+        EXPECT_TRUE(said.starts_with("vesper: ")) << arguments << ": " << said;
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << arguments << ": " << said;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+    EXPECT_EQ(inspect("--help"), 0);
+    EXPECT_TRUE(prints("Examples"));
+}
+
+}  // namespace
+}  // namespace vesper::test

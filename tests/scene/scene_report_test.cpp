@@ -1,0 +1,143 @@
+// What a scene holds, and what is said to be implausible. SPDX-License-Identifier: MIT
+#include "scene/scene_report.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace vesper {
+namespace {
+
+/// A flat street of 100 x 20 m at `height`, of reflectance 0.2, with one lamp of 3000 cd on a pole of 6 m.
+struct Street {
+    Scene scene;
+    Street() {
+        scene.materials.push_back({.name = "asphalt", .base_colour = {0.2f, 0.2f, 0.2f, 1}});
+        add_square(0, 100, 20, 0);
+        add_lamp("lamp", {.kind = Light::Kind::Point, .intensity = 3000}, {0, 6, 0});
+    }
+    void add_square(uint32_t material, float width, float depth, float height) {
+        Primitive p{.material = material};
+        for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+            p.vertices.push_back({.position = {at.x * width / 2, height, at.y * depth / 2}});
+            p.bounds.add(p.vertices.back().position);
+        }
+        p.indices = {0, 2, 1, 0, 3, 2};
+        Node node{.name = "square"};
+        node.mesh = static_cast<uint32_t>(scene.meshes.size());
+        scene.meshes.push_back({.name = "square", .primitives = {p}});
+        scene.nodes.push_back(node);
+    }
+    void add_lamp(const std::string& name, Light light, glm::vec3 at) {
+        light.name = name;
+        Node node{.name = name, .translation = at};
+        node.light = static_cast<uint32_t>(scene.lights.size());
+        scene.lights.push_back(light);
+        scene.nodes.push_back(node);
+    }
+    bool warns(const std::string& part) const {
+        for (const std::string& warning : report_scene(scene).warnings)
+            if (warning.find(part) != std::string::npos) return true;
+        return false;
+    }
+};
+
+TEST(SceneReport, AddsUp) {
+    Street street;
+    street.add_lamp("lamp.001", street.scene.lights[0], {10, 6.5f, 2});
+    street.scene.cameras.push_back({.name = "driver"});
+    Node eye{.name = "eye"};
+    eye.camera = 0;
+    street.scene.nodes.push_back(eye);
+    const SceneReport report = report_scene(street.scene);
+    EXPECT_EQ(report.triangles, 2u);
+    EXPECT_NEAR(report.area, 2000, 1e-3);
+    EXPECT_NEAR(report.extent.x, 100, 1e-4);
+    EXPECT_NEAR(report.extent.z, 20, 1e-4);
+    EXPECT_NEAR(report.mean_reflectance, 0.2, 1e-6);
+    ASSERT_EQ(report.lamps.size(), 1u);  // names that differ by a number
+    EXPECT_EQ(report.lamps[0].number, 2u);
+    EXPECT_NEAR(report.lamps[0].lumens, 4 * std::numbers::pi * 3000, 1);
+    EXPECT_NEAR(report.lumens, 8 * std::numbers::pi * 3000, 1);
+    EXPECT_NEAR(report.lamps[0].lowest.value_or(0), 6, 1e-5);
+    EXPECT_NEAR(report.lamps[0].highest.value_or(0), 6.5, 1e-5);
+    EXPECT_EQ(report.cameras, std::vector<std::string>{"driver"});
+    EXPECT_TRUE(report.warnings.empty()) << report.warnings.front();
+}
+
+TEST(SceneReport, MeasuredLampsAreTheirDistribution) {
+    Street street;
+    Distribution d{.name = "sphere", .horizontal = {0}, .vertical = {0, 180}, .candela = {50, 50}};
+    street.scene.distributions.push_back(d);
+    Light light{.kind = Light::Kind::Measured, .intensity = 2};
+    light.distribution = 0;
+    street.add_lamp("measured", light, {5, 5, 0});
+    const SceneReport report = report_scene(street.scene);
+    ASSERT_EQ(report.lamps.size(), 2u);
+    EXPECT_NEAR(report.lamps[1].candela, 100, 1e-9);
+    EXPECT_NEAR(report.lamps[1].lumens, 400 * std::numbers::pi, 1e-6);
+}
+
+TEST(SceneReport, ReflectanceOfATextureIsThroughItsTransfer) {
+    Street street;
+    street.scene.images.push_back({.name = "half", .width = 2, .height = 1, .rgba = {128, 128, 128, 255, 0, 0, 0, 255}});
+    street.scene.materials[0].base_colour_texture.image = 0;
+    street.scene.materials[0].base_colour = {0.5f, 0.5f, 0.5f, 1};
+    street.scene.transfer = {Transfer::Kind::Gamma, 2.2f};
+    EXPECT_NEAR(report_scene(street.scene).materials.at(0).reflectance, 0.25 * std::pow(128 / 255.0, 2.2), 1e-6);
+    street.scene.transfer = {Transfer::Kind::Srgb};
+    EXPECT_NEAR(report_scene(street.scene).materials.at(0).reflectance, 0.25 * 0.21586, 1e-4);
+}
+
+TEST(SceneReport, WarnsOfLamps) {
+    const auto with = [](float candela, glm::vec3 at) {
+        Street street;
+        street.scene.lights[0].intensity = candela;
+        street.scene.nodes[1].translation = at;
+        return street;
+    };
+    EXPECT_TRUE(with(4, {0, 6, 0}).warns("4 cd from 6 m give 0.1111 lx"));
+    EXPECT_FALSE(with(4, {0, 0.8f, 0}).warns("'lamp'"));  // a tail lamp
+    EXPECT_TRUE(with(2e6f, {0, 0.8f, 0}).warns("beyond the lamps"));
+    EXPECT_TRUE(with(5e5f, {0, 6, 0}).warns("a lit road has 5 to 50"));
+    EXPECT_TRUE(with(100, {0, 0.05f, 0}).warns("stands 0.05 m above"));
+    EXPECT_TRUE(with(3000, {0, -2, 0}).warns("1 of 1 below the ground"));
+    EXPECT_TRUE(with(3000, {0, 6, 300}).warns("1 of 1 with no surface under it"));
+    Street dark;
+    dark.scene.nodes[1].light = kNone;
+    EXPECT_TRUE(dark.warns("no lamps and no ambient light"));
+    dark.scene.ambient_illuminance = 0.2f;
+    EXPECT_TRUE(dark.warns("there are no lamps: "));
+    Street sunny;
+    sunny.add_lamp("sun", {.kind = Light::Kind::Directional, .intensity = 80000}, {0, 0, 0});
+    EXPECT_TRUE(sunny.warns("8e+04 lx from the sky"));
+}
+
+TEST(SceneReport, WarnsOfSurfacesAndSize) {
+    Street white;
+    white.scene.materials[0].base_colour = {1, 1, 1, 1};
+    EXPECT_TRUE(white.warns("a mean reflectance of 1 is more"));
+    EXPECT_TRUE(white.warns("the scene is white"));
+    Street metal;
+    metal.scene.materials[0].metallic = 1;
+    EXPECT_TRUE(metal.warns("glTF's default of 1"));
+    EXPECT_TRUE(metal.warns("the scene is black"));
+    Street glowing;
+    glowing.scene.materials[0].emission = glm::vec3(0.8f);
+    EXPECT_TRUE(glowing.warns("emits 0.8 cd/m^2 or less"));
+    glowing.scene.materials[0].emission = glm::vec3(100);
+    EXPECT_FALSE(glowing.warns("emits"));
+    glowing.scene.materials[0].emission = glm::vec3(1e9f);
+    EXPECT_TRUE(glowing.warns("more than the arc"));
+    Street toy;
+    toy.scene.nodes[0].scale = glm::vec3(0.01f);
+    EXPECT_TRUE(toy.warns("1 m long, as small as a toy"));
+    toy.scene.nodes[0].scale = glm::vec3(1000);
+    EXPECT_TRUE(toy.warns("1e+05 m long"));
+    toy.scene.nodes[0].mesh = kNone;
+    EXPECT_TRUE(toy.warns("no triangles"));
+}
+
+}  // namespace
+}  // namespace vesper

@@ -14,6 +14,9 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;  // the blocks of a tile, whose lists they share
 
+layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
+layout(constant_id = 1) const uint kMaps = 1u;    // measured distributions
+
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1) uniform samplerBuffer lights;
 layout(binding = 2) uniform usamplerBuffer counts;
@@ -80,8 +83,8 @@ bool lights_block(uint light) {
     const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
     const float cosine = nearest_cosine(a.xyz, b.xyz, centre, radius);
     float relative = largest_cone(b.w, lobe_b, cosine);
-    if (light >= push.view.lights.cones) relative = largest_power(b.w, cosine);
-    if (light >= push.view.lights.cones + push.view.lights.powers) relative = largest_map(maps, b.w, cosine);
+    if (kPowers != 0u && light >= push.view.lights.cones) relative = largest_power(b.w, cosine);
+    if (kMaps != 0u && light >= push.view.lights.cones + push.view.lights.powers) relative = largest_map(maps, b.w, cosine);
     const float largest = a.w * relative;
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);

@@ -17,10 +17,18 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
 
     const Resource counts = graph.transient("block counts", buffer_shape(blocks * 2 * kWord, VK_FORMAT_R32_UINT));
     const Resource entries = graph.transient("block entries", buffer_shape(blocks * kBlockCapacity * kWord, VK_FORMAT_R32_UINT));
-    graph.dispatch("select", kernels.select,
+    uint32_t variant = 0;
+    if (settings.all_lights) variant |= Kernels::kEveryLight;
+    if (clusters.push.lights.powers) variant |= Kernels::kPowers;
+    if (clusters.push.lights.maps) variant |= Kernels::kMaps;
+    if (clusters.maps.has_roads) variant |= Kernels::kRoads;
+    if (settings.retro) variant |= Kernels::kRetro;
+    const Resource retro = settings.retro ? settings.retro : clusters.maps.texels;  // the binding must hold something
+    const Kernel& select = kernels.select(variant);
+    graph.dispatch("select", select,
                    {load(g.surface), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(counts), store(entries), sample(clusters.maps.texels)},
                    shared::SelectPush{clusters.push, pixels, block_grid.x, kBlockCapacity},
-                   cover(block_grid.x, block_grid.y, kernels.select.group[0], kernels.select.group[1]));
+                   cover(block_grid.x, block_grid.y, select.group[0], select.group[1]));
 
     const shared::ShadePush push{.size = pixels,
                                  .grid = clusters.push.grid,
@@ -35,13 +43,6 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
                                  .roads = clusters.maps.roads,
                                  .group_rows = group_rows,
                                  .bands = kernels.shade_bands};
-    uint32_t variant = 0;
-    if (settings.all_lights) variant |= Kernels::kEveryLight;
-    if (push.lights.powers) variant |= Kernels::kPowers;
-    if (push.lights.maps) variant |= Kernels::kMaps;
-    if (clusters.maps.has_roads) variant |= Kernels::kRoads;
-    if (settings.retro) variant |= Kernels::kRetro;
-    const Resource retro = settings.retro ? settings.retro : clusters.maps.texels;  // the binding must hold something
     graph.dispatch("shade", kernels.shade(variant),
                    {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(counts), sample(entries), sample(clusters.maps.texels), sample(retro)},
                    push, {group_grid.x, group_rows, 1});

@@ -41,7 +41,6 @@ Kernels::Kernels(const Device& device)
       shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{8, 8}),
       shade_rows(device.is_cpu() ? 8 : 1),
       shade_bands(device.is_cpu() ? 16 : 1),
-      select(device, "select.comp", select_comp),
       sky(device, "sky.comp", sky_comp, {shade_group.width, shade_group.height, shade_rows}),
       sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
@@ -61,6 +60,14 @@ const Kernel& Kernels::shade(uint32_t variant) const {
     Kernel kernel(device_, "shade.comp", shade_comp,
                   {shade_group.width, shade_group.height, shade_rows, has(kEveryLight), has(kPowers), has(kMaps), has(kRoads), has(kRetro)});
     return shade_.emplace(variant, std::move(kernel)).first->second;
+}
+
+const Kernel& Kernels::select(uint32_t variant) const {
+    variant &= kPowers | kMaps;
+    const auto found = select_.find(variant);
+    if (found != select_.end()) return found->second;
+    Kernel kernel(device_, "select.comp", select_comp, {variant & kPowers ? 1u : 0u, variant & kMaps ? 1u : 0u});
+    return select_.emplace(variant, std::move(kernel)).first->second;
 }
 
 }  // namespace vesper

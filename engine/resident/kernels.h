@@ -14,11 +14,11 @@ struct Kernels {
     VkExtent2D shade_group;  ///< invocations per workgroup of the shading kernels
     uint32_t shade_rows;     ///< pixels of a column that one invocation shades; divides shared::kBlockSize
     uint32_t shade_bands;    ///< as shared::ShadePush::bands
-    Kernel select;
-    /// Bits of a shading kernel: what it has code for.
+    /// Bits of a selecting or shading kernel: what it has code for. Selection knows kPowers and kMaps.
     enum ShadeVariant : uint32_t { kEveryLight = 1, kPowers = 2, kMaps = 4, kRoads = 8, kRetro = 16 };
     /// Made when it is first asked for.
     const Kernel& shade(uint32_t variant) const;
+    const Kernel& select(uint32_t variant) const;
     Kernel sky;
     Kernel sources;
     Kernel pyramid_first, pyramid;
@@ -36,7 +36,7 @@ struct Kernels {
 
 private:
     const Device& device_;
-    mutable std::map<uint32_t, Kernel> shade_;
+    mutable std::map<uint32_t, Kernel> shade_, select_;
 };
 
 }  // namespace vesper

@@ -1,0 +1,77 @@
+// The low beam of data/photometry on a wall at 25 m, as a headlamp is measured: UN Regulation No. 112, class B.
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "renderer.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kDistance = 25, kReflectance = 0.5;
+
+/// A wall of 40 m by 20 m, 25 m ahead of a lamp at the origin. The eye is where the lamp is.
+Scene headlamp_and_wall() {
+    Scene scene;
+    Material wall;
+    wall.base_colour = glm::vec4(float(kReflectance), float(kReflectance), float(kReflectance), 1);
+    scene.materials.push_back(wall);
+    Primitive plane;
+    for (const glm::vec2 corner : {glm::vec2(-20, -10), {20, -10}, {20, 10}, {-20, 10}}) {
+        Vertex vertex;
+        vertex.position = {corner.x, corner.y, -kDistance}, vertex.normal = {0, 0, 1};
+        plane.vertices.push_back(vertex);
+        plane.bounds.add(vertex.position);
+    }
+    plane.indices = {0, 1, 2, 0, 2, 3};
+    scene.meshes.push_back({"wall", {plane}});
+    scene.distributions.push_back(read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry/low-beam.csv"));
+    scene.lights.push_back({.name = "low beam", .kind = Light::Kind::Measured, .intensity = 1, .distribution = 0});
+    scene.nodes.resize(2);
+    scene.nodes[0].mesh = 0, scene.nodes[1].light = 0;
+    return scene;
+}
+
+struct Point {
+    const char* name;
+    double h, v, low, high;  // deg right and up; cd
+};
+// UN R112, 6.2.4, class B, right-hand traffic.
+constexpr Point kPoints[] = {{"B50L", -3.43, 0.57, 0, 350},   {"BR", 2.5, 1, 0, 1750},        {"75R", 1.15, -0.57, 10100, 1e9},
+                             {"75L", -3.43, -0.57, 0, 10600}, {"50L", -3.43, -0.86, 0, 13200}, {"50R", 1.72, -0.86, 10100, 1e9},
+                             {"50V", 0, -0.86, 5100, 1e9},    {"25L", -9, -1.72, 1700, 1e9},  {"25R", 9, -1.72, 1700, 1e9}};
+
+TEST(HeadlampOnAWall, MeetsTheRegulationInTheRenderedImage) {
+    Device device(DeviceOptions{});
+    const Scene scene = headlamp_and_wall();
+    Renderer renderer(device, scene);
+    const VkExtent2D extent{1200, 300};
+    const SceneFrame moment{world_transforms(scene, 0)};
+    const View view = View::symmetric(extent, float(2 * std::atan(0.05)), glm::mat4(1));  // 5 % up and down, 20 % aside
+    const Frame frame = renderer.render({}, view, moment, 0, {.display = false, .scene = true});
+    for (const Point& p : kPoints) {
+        // Type A angles: a vertical polar axis. Where their direction meets the wall, relative to its distance:
+        const double x = std::tan(glm::radians(p.h)), y = std::tan(glm::radians(p.v)) / std::cos(glm::radians(p.h));
+        const double column = (x / 0.2 + 1) / 2 * extent.width - 0.5, row = (1 - y / 0.05) / 2 * extent.height - 0.5;
+        const auto luminance = [&](double c, double r) {
+            return double(frame.scene[(size_t(std::floor(r)) * extent.width + size_t(std::floor(c))) * 4 + 1]);
+        };
+        const double s = column - std::floor(column), t = row - std::floor(row);
+        const double seen = (1 - t) * ((1 - s) * luminance(column, row) + s * luminance(column + 1, row)) +
+                            t * ((1 - s) * luminance(column, row + 1) + s * luminance(column + 1, row + 1));
+        // L = rho E / pi; E = I cos / d^2, with d = 25 m / cos.
+        const double illuminance = seen * std::numbers::pi / kReflectance, cosine = 1 / std::sqrt(1 + x * x + y * y);
+        const double candela = illuminance * kDistance * kDistance / (cosine * cosine * cosine);
+        EXPECT_GE(candela, p.low) << p.name;
+        EXPECT_LE(candela, p.high) << p.name;
+        // And it is the file's own intensity; pixels of 0.02 degrees blur the cut-off a little.
+        const double stated = intensity(scene.distributions[0], {x, y, -1});
+        EXPECT_NEAR(candela, stated, 0.01 * stated) << p.name;
+    }
+}
+
+}  // namespace
+}  // namespace vesper

@@ -9,8 +9,8 @@ namespace {
 
 constexpr float kNear = 1;             // m, where slice 1 begins
 // Loops over lights, slices and lists must end by themselves: lavapipe ends them after 65,535 turns of an invocation, and
-// where glossy pixels lie beside others the shading has two loops over the lights.
-constexpr uint32_t kMaxLights = 32000, kMaxSlices = 32, kMaxCapacity = 4096;
+// a lamp that a retroreflective pixel returns takes three.
+constexpr uint32_t kMaxLights = 21000, kMaxSlices = 32, kMaxCapacity = 4096;
 constexpr uint32_t kCoarseTiles = 4;   // side of a coarse cell
 constexpr uint32_t kCoarseSlices = 4;
 constexpr uint64_t kCoarseIndices = 8u << 20;  // bound on the memory of the coarse lists

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "base/error.h"
 #include "resident/outline.h"
 #include "scene/light.h"
 
@@ -104,6 +106,10 @@ void for_each_tile(const std::vector<dvec2>& polygon, VkExtent2D image, Touch to
     }
 }
 
+// The shader's loops over the outlines of a tile end by themselves well before lavapipe silently ends them, after 65,535
+// turns of the lanes of two tiles together.
+constexpr uint64_t kMostTurns = 30000;
+
 // A tile (row, column), and an entry of it.
 struct Touched {
     uint64_t tile;
@@ -148,10 +154,15 @@ SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View
         if (std::isfinite(luminance.r + luminance.g + luminance.b)) add(list, touched, seen, luminance, view.extent);
     }
     std::stable_sort(touched.begin(), touched.end(), [](const Touched& a, const Touched& b) { return a.tile < b.tile; });
+    uint64_t turns = 0;
     for (const Touched& t : touched) {
         const uint32_t row = uint32_t(t.tile >> 32), column = uint32_t(t.tile);
         if (list.tiles.empty() || list.tiles.back().x != column || list.tiles.back().y != row)
-            list.tiles.emplace_back(column, row, list.entries.size(), 0);
+            list.tiles.emplace_back(column, row, list.entries.size(), 0), turns = 0;
+        turns += 2 + uint64_t(list.sources[t.entry & ~shared::kCoversTile].vertices);
+        if (turns > kMostTurns)
+            throw Error("more than " + std::to_string(list.tiles.back().w) + " lamps are seen within the same pixels (column " +
+                        std::to_string(column * shared::kSourceTile) + ", row " + std::to_string(row * shared::kSourceTile) + "): too many to draw their openings");
         list.entries.push_back(t.entry);
         ++list.tiles.back().w;
     }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "passes/sources_reference.h"
 #include "scene/light.h"
 #include "support/sources.h"
@@ -142,6 +143,14 @@ TEST(Source, WhatCannotBeSeenIsLeftOut) {
     scene.lights = {light, lamp_with_opening(80, 0, 0), lamp_with_opening(80, 1, 1, false, Light::Kind::Directional)};
     for (uint32_t i = 0; i < 3; ++i) scene.nodes.emplace_back().light = i;
     EXPECT_EQ(placed_sources(scene).lamps.size(), 1u);
+}
+
+TEST(Source, MoreThanTheShaderCanLookAtIsAnError) {
+    Lamps lamps;
+    for (int i = 0; i < 3000; ++i) lamps.add(lamp_with_opening(900, 0.3, 0.2), aimed({0, 0, -5}, {0, 0, 1}));
+    EXPECT_NO_THROW(lamps.seen(kView));
+    for (int i = 0; i < 3000; ++i) lamps.add(lamp_with_opening(900, 0.3, 0.2), aimed({0, 0, -5}, {0, 0, 1}));
+    EXPECT_THROW(lamps.seen(kView), Error);
 }
 
 TEST(Source, TheLdrBaselineDrawsWhite) {

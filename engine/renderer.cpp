@@ -1,38 +1,11 @@
 #include "renderer.h"
 
 #include <chrono>
-#include <cstring>
+#include <optional>
 
 #include "resident/sky.h"
 
 namespace vesper {
-namespace {
-
-uint32_t tone_of(Operator tone_operator) {
-    switch (tone_operator) {
-        case Operator::Reinhard: return shared::kToneReinhard;
-        case Operator::Linear: return shared::kToneLinear;
-        case Operator::Ldr: return shared::kToneLdr;
-        default: return shared::kToneCurve;
-    }
-}
-
-// A readback of a resource; none, and no copy, unless it is wanted.
-Resource bring_back(FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes) {
-    const Resource to = graph.readback(name + " on the host", bytes);
-    graph.copy("read " + name, from, to);
-    return to;
-}
-
-template <class T>
-T read_one(const Executor& executor, Resource readback) {
-    T value;
-    std::memcpy(&value, executor.read(readback).data(), sizeof value);
-    return value;
-}
-
-}  // namespace
-
 Renderer::Renderer(Device& device, const Scene& scene)
     : kernels_(device),
       resident_(device, scene),
@@ -62,7 +35,6 @@ Renderer::TexelBuffer Renderer::upload_texels(const Device& device, const std::v
 Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
                                      const LightList& lights, const SourceList& sources, float seconds, Outputs outputs) const {
     const bool ldr = settings.tone_operator == Operator::Ldr;
-    const uint32_t tone = tone_of(settings.tone_operator);
     ClusterSettings clustering = settings.clusters;
     clustering.far = resident_.farthest_depth(frame, view.world_to_view);
     ShadeSettings shading{.all_lights = settings.all_lights};
@@ -83,25 +55,9 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
         scene = add_sky(graph, kernels_, surfaces, scene, sky, sky_sharp_side_, view, shading.lambert);
     }
     scene = add_sources(graph, kernels_, scene, surfaces.surface, sources, view);
-    const Pyramid luminance = add_pyramid(graph, kernels_, scene, view.extent);
-    const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
-    const Resource histogram = add_histogram(graph, kernels_, luminance, level, view.extent, settings.histogram);
-    const Adaptation adaptation = add_adaptation(graph, kernels_, luminance, histogram, settings.histogram, settings.tone, settings.display, seconds);
-    Resource glare;
-    if (settings.glare == Glare::Ldr)
-        glare = add_ldr_glare(graph, kernels_, scene, adaptation.curve, tone, view, settings.display, settings.ldr_glare);
-    const Resource display = add_composite(graph, kernels_, {.scene = scene, .curve = adaptation.curve, .luminance_glare = {}, .ldr_glare = glare}, tone, view, settings.display, settings.ldr_glare.gain);
-
-    const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
-    Declared declared{.display = {}, .scene = {},
-                      .curve = bring_back(graph, "tone curve", adaptation.curve, sizeof(shared::ToneCurve)),
-                      .histogram = bring_back(graph, "histogram", histogram, sizeof(shared::Histogram)),
-                      .eye = bring_back(graph, "eye", adaptation.eye.current, sizeof(shared::EyeState)),
-                      .clusters = bring_back(graph, "cluster report", clusters.report, sizeof(shared::ClusterReport)),
-                      .foveal_level = level, .far = clusters.push.far};
-    if (outputs.display) declared.display = bring_back(graph, "display", display, pixels * 4);
-    if (outputs.scene) declared.scene = bring_back(graph, "scene", scene, pixels * 16);
-    return declared;
+    return {.chain = add_tone_chain(graph, kernels_, scene, view, settings, seconds, outputs),
+            .clusters = bring_back(graph, "cluster report", clusters.report, sizeof(shared::ClusterReport)),
+            .far = clusters.push.far};
 }
 
 Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, Outputs outputs) {
@@ -118,28 +74,15 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     plan_ = graph.describe(executor_.plan());
 
     Frame result;
-    result.extent = view.extent;
-    if (declared.display) {
-        const auto codes = executor_.read_as<uint8_t>(declared.display);
-        result.display.assign(codes.begin(), codes.end());
-    }
-    if (declared.scene) {
-        const auto luminance = executor_.read_as<float>(declared.scene);
-        result.scene.assign(luminance.begin(), luminance.end());
-    }
-    result.curve = read_one<shared::ToneCurve>(executor_, declared.curve);
-    result.histogram = read_one<shared::Histogram>(executor_, declared.histogram);
-    result.eye = read_one<shared::EyeState>(executor_, declared.eye);
+    read_tone_chain(executor_, declared.chain, view.extent, result);
     result.clusters = read_one<shared::ClusterReport>(executor_, declared.clusters);
-    result.foveal_level = declared.foveal_level;
     result.lights = uint32_t(lights.lights.size());
     result.sources = uint32_t(sources.sources.size());
     result.far = declared.far;
-    result.timings = executor_.timings();
     result.milliseconds = elapsed.count();
     return result;
 }
 
-void Renderer::reset_adaptation() { executor_.reset("eye"); }
+void Renderer::reset_adaptation() { executor_.reset(kEyeHistory); }
 
 }  // namespace vesper

@@ -1,66 +1,30 @@
 // The engine's face: a scene, a view and settings in, a picture in cd/m^2 and on the display out. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "graph/executor.h"
-#include "passes/passes.h"
 #include "resident/cameras.h"
-#include "resident/kernels.h"
 #include "resident/lights.h"
 #include "resident/resident_scene.h"
 #include "resident/sources.h"
+#include "tone_chain.h"
 
 namespace vesper {
 
-/// How scene luminance becomes display luminance.
-enum class Operator : uint8_t {
-    Irawan,    ///< Irawan, Ferwerda and Marschner 2005; until its temporal model is there, the same as Ward
-    Ward,      ///< Ward, Rushmeier and Piatko 1997: histogram adjustment under the cone threshold, steady state
-    Reinhard,  ///< Reinhard et al. 2002, global
-    Linear,    ///< linear between two luminances
-    Ldr,       ///< no HDR at all: lamps and sources of 1.0, values clamped to [0, 1]
-};
-
-enum class Glare : uint8_t { None, Ldr };
-
-struct RenderSettings {
-    Operator tone_operator = Operator::Ward;
+struct RenderSettings : ToneChainSettings {
     bool paper_lambert = false;            ///< L = E R instead of E R / pi
     bool all_lights = false;               ///< shade without clusters, for comparison
     ClusterSettings clusters;
-    HistogramSettings histogram;
-    std::optional<uint32_t> foveal_level;  ///< pyramid level of the histogram; default: 1 degree per texel
-    ToneSettings tone;
-    Display display;
-    Glare glare = Glare::None;
-    LdrGlareSettings ldr_glare;
     float ldr_reference_distance = 6.5f;   ///< m: where an LDR lamp of 1.0 lights with 1.0; the paper's lamp height
 };
 
-/// What to bring back to the host.
-struct Outputs {
-    bool display = true;  ///< codes
-    bool scene = false;   ///< luminance
-};
-
 /// One rendered frame on the host.
-struct Frame {
-    VkExtent2D extent{};
-    std::vector<uint8_t> display;   ///< RGBA codes, row by row; empty unless asked for
-    std::vector<float> scene;       ///< RGBA, cd/m^2 RGB; empty unless asked for
-    shared::ToneCurve curve{};
-    shared::Histogram histogram{};
-    shared::EyeState eye{};
+struct Frame : ToneMapped {
     shared::ClusterReport clusters{};
-    uint32_t foveal_level = 0;
     uint32_t lights = 0;            ///< lamps that shine
     uint32_t sources = 0;           ///< of their openings, those in view
     float far = 0;                  ///< m: the far limit of the clusters
-    std::vector<Timing> timings;
-    double milliseconds = 0;        ///< from declaring the frame to the device being done, on the host's clock
 };
 
 /// Renders one scene on one device. Not thread-safe; several renderers may share a device in one thread.
@@ -82,8 +46,8 @@ public:
 private:
     /// The frame's resources that the host reads.
     struct Declared {
-        Resource display, scene, curve, histogram, eye, clusters;
-        uint32_t foveal_level;
+        ToneChain chain;
+        Resource clusters;
         float far;
     };
     /// A texel buffer of the scene, rgba32f.

@@ -1,0 +1,64 @@
+#include "tone_chain.h"
+
+namespace vesper {
+namespace {
+
+uint32_t tone_of(Operator tone_operator) {
+    switch (tone_operator) {
+        case Operator::Reinhard: return shared::kToneReinhard;
+        case Operator::Linear: return shared::kToneLinear;
+        case Operator::Ldr: return shared::kToneLdr;
+        default: return shared::kToneCurve;
+    }
+}
+
+template <class T>
+void read_all(const Executor& executor, Resource readback, std::vector<T>& to) {
+    to.clear();
+    if (!readback) return;
+    const auto values = executor.read_as<T>(readback);
+    to.assign(values.begin(), values.end());
+}
+
+}  // namespace
+
+Resource bring_back(FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes) {
+    const Resource to = graph.readback(name + " on the host", bytes);
+    graph.copy("read " + name, from, to);
+    return to;
+}
+
+ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource scene, const View& view, const ToneChainSettings& settings, float seconds, Outputs outputs) {
+    const uint32_t tone = tone_of(settings.tone_operator);
+    const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent);
+    const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
+    const Resource histogram = add_histogram(graph, kernels, luminance, level, view.extent, settings.histogram);
+    const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, settings.histogram, settings.tone, settings.display, seconds);
+    Resource glare;
+    if (settings.glare == Glare::Ldr)
+        glare = add_ldr_glare(graph, kernels, scene, adaptation.curve, tone, view, settings.display, settings.ldr_glare);
+    const Resource display = add_composite(graph, kernels, {.scene = scene, .curve = adaptation.curve, .luminance_glare = {}, .ldr_glare = glare}, tone, view, settings.display, settings.ldr_glare.gain);
+
+    const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
+    ToneChain chain{.display = {}, .scene = {},
+                    .curve = bring_back(graph, "tone curve", adaptation.curve, sizeof(shared::ToneCurve)),
+                    .histogram = bring_back(graph, "histogram", histogram, sizeof(shared::Histogram)),
+                    .eye = bring_back(graph, "eye", adaptation.eye.current, sizeof(shared::EyeState)),
+                    .foveal_level = level};
+    if (outputs.display) chain.display = bring_back(graph, "display", display, pixels * 4);
+    if (outputs.scene) chain.scene = bring_back(graph, "scene", scene, pixels * 16);
+    return chain;
+}
+
+void read_tone_chain(const Executor& executor, const ToneChain& chain, VkExtent2D extent, ToneMapped& to) {
+    to.extent = extent;
+    read_all(executor, chain.display, to.display);
+    read_all(executor, chain.scene, to.scene);
+    to.curve = read_one<shared::ToneCurve>(executor, chain.curve);
+    to.histogram = read_one<shared::Histogram>(executor, chain.histogram);
+    to.eye = read_one<shared::EyeState>(executor, chain.eye);
+    to.foveal_level = chain.foveal_level;
+    to.timings = executor.timings();
+}
+
+}  // namespace vesper

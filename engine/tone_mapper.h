@@ -1,0 +1,40 @@
+// Tone mapping of pictures that nobody here rendered. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "gpu/memory.h"
+#include "tone_chain.h"
+
+namespace vesper {
+
+/// A picture on the host.
+struct LuminancePicture {
+    VkExtent2D extent{};          ///< px
+    std::span<const float> rgba;  ///< cd/m^2 RGB in linear Rec. 709, rows from the top; alpha is ignored
+    double vertical_fov = 0.7;    ///< rad, in (0, pi): what angle the picture covers in height, for the foveal level
+};
+
+/// Maps pictures of any size to the display, one after the other; the eye remembers from each to the next, also when the
+/// size changes. Not thread-safe; several may share a device in one thread.
+class ToneMapper {
+public:
+    explicit ToneMapper(Device& device);
+
+    /// `seconds` have passed since the last picture. NaN and infinities are shown black and counted. Throws Error.
+    ToneMapped map(const ToneChainSettings&, const LuminancePicture&, float seconds, Outputs outputs = {});
+
+    /// Forgets what the eye was adapted to, as between pictures that have nothing to do with each other.
+    void reset_adaptation() { executor_.reset(kEyeHistory); }
+    /// The plan of the last picture as text.
+    const std::string& plan() const { return plan_; }
+
+private:
+    Device& device_;
+    Kernels kernels_;
+    Executor executor_;
+    HostBuffer pixels_;
+    std::string plan_;
+};
+
+}  // namespace vesper

@@ -1,0 +1,71 @@
+// Pictures through the whole tone chain on the device, against its parts in double. SPDX-License-Identifier: MIT
+#include "tone_mapper.h"
+
+#include <gtest/gtest.h>
+
+#include "support/tone_chain.h"
+#include "support/tones.h"
+
+namespace vesper::test {
+namespace {
+
+class ToneMapperTest : public testing::Test {
+protected:
+    std::string complaints;
+    Device device{{.select = "", .validation = true, .on_message = [this](const std::string& m) { complaints += m + "\n"; }}};
+    ToneMapper mapper{device};
+
+    ToneMapped map(const std::vector<glm::vec4>& pixels, VkExtent2D extent, const ToneChainSettings& settings = {}, float seconds = 0, Outputs outputs = {}) {
+        const std::span<const float> rgba(&pixels.front().x, pixels.size() * 4);
+        return mapper.map(settings, {extent, rgba, 0.7}, seconds, outputs);
+    }
+    void TearDown() override { EXPECT_EQ(complaints, ""); }
+};
+
+TEST_F(ToneMapperTest, EqualsTheReferencesOfItsPasses) {
+    const std::pair<Operator, uint32_t> operators[]{{Operator::Ward, shared::kToneCurve}, {Operator::Reinhard, shared::kToneReinhard},
+                                                    {Operator::Linear, shared::kToneLinear}, {Operator::Ldr, shared::kToneLdr}};
+    for (VkExtent2D extent : {VkExtent2D{1, 1}, {64, 1}, {201, 133}}) {
+        const auto pixels = night_pixels(extent, extent.width, -3, 4);
+        for (const auto& [wanted, tone] : operators) {
+            ToneChainSettings settings;
+            settings.tone_operator = wanted;
+            settings.tone.linear_high = 100;
+            const ToneMapped got = map(pixels, extent, settings);
+            const auto want = reference_codes(pixels, extent, settings, tone, got.foveal_level, 0);
+            // One pixel in 10,000; a texel on the edge of a bin may vote for either side.
+            EXPECT_LE(pixels_off(got.display, want), pixels.size() / 10000) << extent.width << " tone " << tone;
+            EXPECT_EQ(got.display.size(), pixels.size() * 4);
+        }
+    }
+}
+
+TEST_F(ToneMapperTest, TheEyeRemembersThroughAChangeOfSizeUntilItIsReset) {
+    EXPECT_EQ(map(night_pixels({30, 20}, 1), {30, 20}).eye.seconds, 0);
+    EXPECT_EQ(map(night_pixels({30, 20}, 1), {30, 20}, {}, 0.5f).eye.seconds, 0.5f);
+    EXPECT_EQ(map(night_pixels({9, 70}, 2), {9, 70}, {}, 0.25f).eye.seconds, 0.75f);
+    EXPECT_EQ(map(night_pixels({1, 1}, 2), {1, 1}, {}, 0.25f).eye.seconds, 1.0f);
+    mapper.reset_adaptation();
+    EXPECT_EQ(map(night_pixels({30, 20}, 1), {30, 20}, {}, 0.5f).eye.seconds, 0.5f);
+}
+
+TEST_F(ToneMapperTest, GivesWhatIsAskedFor) {
+    const auto pixels = night_pixels({7, 5}, 3);
+    const ToneMapped both = map(pixels, {7, 5}, {}, 0, {.display = true, .scene = true});
+    ASSERT_EQ(both.scene.size(), pixels.size() * 4);
+    EXPECT_EQ(std::memcmp(both.scene.data(), pixels.data(), pixels.size() * 16), 0);
+    const ToneMapped neither = map(pixels, {7, 5}, {}, 0, {.display = false, .scene = false});
+    EXPECT_TRUE(neither.scene.empty() && neither.display.empty());
+    EXPECT_EQ(std::memcmp(&neither.curve, &both.curve, sizeof both.curve), 0);
+    EXPECT_NE(mapper.plan().find("adapt"), std::string::npos);
+    for (const Timing& timing : neither.timings) EXPECT_NE(timing.pass, "composite") << "nobody looks";
+}
+
+TEST_F(ToneMapperTest, RefusesWhatIsNoPicture) {
+    EXPECT_THROW(map(night_pixels({3, 3}, 1), {3, 4}), Error);
+    EXPECT_THROW(map(night_pixels({3, 3}, 1), {0, 9}), Error);
+    for (double fov : {0.0, -1.0, 3.2, std::nan("")}) EXPECT_THROW(mapper.map({}, {{1, 1}, std::vector<float>(4), fov}, 0), Error);
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -55,7 +55,7 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
         scene = add_sky(graph, kernels_, surfaces, scene, sky, sky_sharp_side_, view, shading.lambert);
     }
     scene = add_sources(graph, kernels_, scene, surfaces.surface, sources, view);
-    return {.chain = add_tone_chain(graph, kernels_, scene, view, settings, seconds, outputs),
+    return {.chain = add_tone_chain(graph, kernels_, scene, view, settings, seconds, outputs, eye_ ? &*eye_ : nullptr),
             .clusters = bring_back(graph, "cluster report", clusters.report, sizeof(shared::ClusterReport)),
             .far = clusters.push.far};
 }
@@ -70,6 +70,7 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     FrameGraph graph;
     const Declared declared = declare(graph, settings, view, frame, lights, sources, seconds, outputs);
     executor_.run(graph);
+    eye_.reset();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     plan_ = graph.describe(executor_.plan());
 
@@ -83,6 +84,9 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     return result;
 }
 
-void Renderer::reset_adaptation() { executor_.reset(kEyeHistory); }
+void Renderer::reset_adaptation() {
+    executor_.reset(kEyeHistory);
+    eye_.reset();
+}
 
 }  // namespace vesper

@@ -1,6 +1,7 @@
 // The engine's face: a scene, a view and settings in, a picture in cd/m^2 and on the display out. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ public:
     const std::string& plan() const { return plan_; }
     /// Forgets what the eye was adapted to, as at a camera cut.
     void reset_adaptation();
+    /// The next frame goes on from this state, such as Frame::eye of an earlier run.
+    void set_eye(const shared::EyeState& eye) { eye_ = eye; }
     const ResidentScene& scene() const { return resident_; }
     uint64_t device_bytes() const { return resident_.bytes() + map_arena_.bytes() + executor_.heap_bytes(); }
 
@@ -72,6 +75,7 @@ private:
     float ambient_illuminance_, sky_luminance_;
     glm::vec3 ambient_colour_, sky_colour_;
     Executor executor_;
+    std::optional<shared::EyeState> eye_;  // set for the next frame
     std::string plan_;
 };
 

@@ -3,15 +3,6 @@
 namespace vesper {
 namespace {
 
-uint32_t tone_of(Operator tone_operator) {
-    switch (tone_operator) {
-        case Operator::Reinhard: return shared::kToneReinhard;
-        case Operator::Linear: return shared::kToneLinear;
-        case Operator::Ldr: return shared::kToneLdr;
-        default: return shared::kToneCurve;
-    }
-}
-
 template <class T>
 void read_all(const Executor& executor, Resource readback, std::vector<T>& to) {
     to.clear();
@@ -28,12 +19,14 @@ Resource bring_back(FrameGraph& graph, const std::string& name, Resource from, u
     return to;
 }
 
-ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource scene, const View& view, const ToneChainSettings& settings, float seconds, Outputs outputs) {
-    const uint32_t tone = tone_of(settings.tone_operator);
+ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource scene, const View& view, const ToneChainSettings& settings, float seconds, Outputs outputs, const shared::EyeState* remembered) {
+    const OperatorInfo& op = operator_info(settings.tone_operator);
+    const uint32_t tone = op.form;
     const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
     const Resource histogram = add_histogram(graph, kernels, luminance, level, view.extent, settings.histogram);
-    const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, settings.histogram, settings.tone, settings.display, seconds);
+    const FovealView fovea{level, luminance.extents[level - 1], view.extent};
+    const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, op, tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, seconds), level, remembered);
     Resource glare;
     if (settings.glare == Glare::Ldr)
         glare = add_ldr_glare(graph, kernels, scene, adaptation.curve, tone, view, settings.display, settings.ldr_glare);

@@ -11,15 +11,6 @@
 
 namespace vesper {
 
-/// How scene luminance becomes display luminance.
-enum class Operator : uint8_t {
-    Irawan,    ///< Irawan, Ferwerda and Marschner 2005; until its temporal model is there, the same as Ward
-    Ward,      ///< Ward, Rushmeier and Piatko 1997: histogram adjustment under the cone threshold, steady state
-    Reinhard,  ///< Reinhard et al. 2002, global
-    Linear,    ///< linear between two luminances
-    Ldr,       ///< no HDR at all: lamps and sources of 1.0, values clamped to [0, 1]
-};
-
 enum class Glare : uint8_t { None, Ldr };
 
 /// Everything between the luminance of a frame and its display codes.
@@ -47,10 +38,9 @@ struct ToneChain {
 
 /// Declares pyramid, histogram, adaptation, glare and composite of `scene` (rgba32f, cd/m^2 RGB; with Operator::Ldr values
 /// relative to white), `seconds` after the last frame.
+/// The eye (kEyeHistory) remembers from frame to frame, also when sizes change; `remembered` stands for the last frame.
 ToneChain add_tone_chain(FrameGraph&, const Kernels&, Resource scene, const View&, const ToneChainSettings&, float seconds,
-                         Outputs);
-/// The history that add_tone_chain keeps from frame to frame; Executor::reset of it forgets what the eye was adapted to.
-constexpr const char* kEyeHistory = "eye";
+                         Outputs, const shared::EyeState* remembered = nullptr);
 
 /// One tone-mapped frame on the host.
 struct ToneMapped {

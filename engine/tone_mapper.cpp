@@ -25,8 +25,9 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const LuminancePic
     const Resource scene = graph.transient("scene", image_shape(kSceneFormat, picture.extent));
     graph.copy("picture", graph.external("picture", pixels_.buffer(), bytes.size()), scene);
     const View view = View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1));
-    const ToneChain chain = add_tone_chain(graph, kernels_, scene, view, settings, seconds, outputs);
+    const ToneChain chain = add_tone_chain(graph, kernels_, scene, view, settings, seconds, outputs, eye_ ? &*eye_ : nullptr);
     executor_.run(graph);
+    eye_.reset();
     plan_ = graph.describe(executor_.plan());
 
     ToneMapped result;

@@ -1,6 +1,7 @@
 // Tone mapping of pictures that nobody here rendered. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "gpu/memory.h"
@@ -25,7 +26,12 @@ public:
     ToneMapped map(const ToneChainSettings&, const LuminancePicture&, float seconds, Outputs outputs = {});
 
     /// Forgets what the eye was adapted to, as between pictures that have nothing to do with each other.
-    void reset_adaptation() { executor_.reset(kEyeHistory); }
+    void reset_adaptation() {
+        executor_.reset(kEyeHistory);
+        eye_.reset();
+    }
+    /// The next picture goes on from this state, such as ToneMapped::eye of an earlier run.
+    void set_eye(const shared::EyeState& eye) { eye_ = eye; }
     /// The plan of the last picture as text.
     const std::string& plan() const { return plan_; }
 
@@ -34,6 +40,7 @@ private:
     Kernels kernels_;
     Executor executor_;
     HostBuffer pixels_;
+    std::optional<shared::EyeState> eye_;  // set for the next picture
     std::string plan_;
 };
 

@@ -21,7 +21,7 @@ vec4 statistics(uvec2 at) {
     if (kFromScene == 0u) return texel;
     const float luminance = dot(texel.rgb, vec3(kRed, kGreen, kBlue));
     const bool finite = abs(luminance) <= 3.4e38;  // false for NaN and infinities
-    return finite ? vec4(luminance, 1.0, log(max(luminance, kLuminanceFloor)), luminance) : vec4(0.0);
+    return finite ? vec4(luminance, 1.0, log(max(luminance, push.log_floor) + push.log_epsilon), luminance) : vec4(0.0);
 }
 
 void main() {

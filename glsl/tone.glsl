@@ -13,8 +13,8 @@ struct Tone {
 };
 
 Tone read_tone(samplerBuffer curve) {
-    return Tone(texelFetch(curve, 3).r, texelFetch(curve, 4).r, texelFetch(curve, 5).r, texelFetch(curve, 6).r,
-                texelFetch(curve, 7).r, texelFetch(curve, 8).r, texelFetch(curve, 9).r);
+    const vec4 a = texelFetch(curve, 0), b = texelFetch(curve, 1);
+    return Tone(a.r, a.g, a.b, a.a, b.r, b.g, b.b);
 }
 
 float luminance_of(vec3 rgb) { return dot(rgb, vec3(kRed, kGreen, kBlue)); }

@@ -162,8 +162,6 @@ void run(RenderArguments& arguments) {
     camera_view(scene, moment, arguments.camera, extent);  // a wrong name is known before a device is opened
     const std::vector<std::string> cameras = camera_names(scene);
     if (arguments.camera.empty() && !cameras.empty()) arguments.camera = cameras.front();
-    if (arguments.settings.tone_operator == Operator::Irawan)
-        std::fprintf(stderr, "note: 'irawan' equals 'ward' until its temporal model is there\n");
 
     Device device({.select = arguments.device});
     Renderer renderer(device, scene);

@@ -4,11 +4,14 @@
 
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "graph/frame_graph.h"
+#include "passes/operators.h"
+#include "perception/eye.h"
 #include "resident/formats.h"
 #include "resident/kernels.h"
 #include "resident/lights.h"
@@ -95,7 +98,8 @@ struct Pyramid {
     std::vector<Resource> levels;     ///< levels[k - 1] is level k, rgba32f, up to 1x1 (one level for a 1x1 image)
     std::vector<VkExtent2D> extents;
 };
-Pyramid add_pyramid(FrameGraph&, const Kernels&, Resource scene, VkExtent2D extent);
+/// `log_epsilon`: 0 for mean logarithms of luminance not below shared::kLuminanceFloor; otherwise cd/m^2 added to luminance.
+Pyramid add_pyramid(FrameGraph&, const Kernels&, Resource scene, VkExtent2D extent, float log_epsilon = 0);
 
 /// The pyramid level whose texels are nearest to one degree: round(log2(1 / degrees per pixel)), within the pyramid.
 uint32_t foveal_level(const View&, const Pyramid&);
@@ -104,12 +108,14 @@ struct HistogramSettings {
     uint32_t bins = 100;         ///< 1 .. 256
     float log10_low = -4;        ///< log10 of the lowest luminance, cd/m^2
     float log10_high = 6;        ///< and of the highest
+    bool split = true;           ///< a vote is shared by the two nearest bins, so that none jumps from one to the next
+    bool fine = true;            ///< half of all votes are those of level 1, so that small lamps have bins of their own
 
     float ln_low() const { return log10_low * std::numbers::ln10_v<float>; }
     float bins_per_ln() const { return float(bins) / ((log10_high - log10_low) * std::numbers::ln10_v<float>); }
 };
 
-/// Counts ln luminance over the texels of one pyramid level (1-based). A shared::Histogram.
+/// Votes of ln luminance over the texels of one pyramid level (1-based), and of level 1 as settings say. A shared::Histogram.
 Resource add_histogram(FrameGraph&, const Kernels&, const Pyramid&, uint32_t level, VkExtent2D image, const HistogramSettings&);
 
 /// A display and the light that falls on it (Mantiuk, Daly and Kerofsky 2008): L(V) = (peak - black) V^gamma + black +
@@ -131,18 +137,36 @@ struct ToneSettings {
     float white = 0;           ///< Reinhard 2002: cd/m^2 shown as white; 0: the frame's maximum
     float linear_low = 0;      ///< cd/m^2 shown as black
     float linear_high = 0;     ///< cd/m^2 shown as white; 0: the frame's maximum
+    Observer observer;         ///< whose eye it is
+    glm::vec2 gaze{0.5f};      ///< where it looks, parts of the image from its top left
+    std::optional<uint32_t> adapt_to;  ///< shared::kAdapt*; default: as the operator has it
+    std::optional<uint32_t> ceiling;   ///< shared::kCeiling*; default: as the operator has it
+    float smoothing_seconds = 0.15f;   ///< of the histogram, against flicker; not a model of the eye; 0: none
 };
+
+/// Where on the pyramid one degree is.
+struct FovealView {
+    uint32_t level;     ///< 1-based
+    VkExtent2D texels;  ///< of that level
+    VkExtent2D image;   ///< px
+};
+
+shared::ToneParameters tone_parameters(const OperatorInfo&, const HistogramSettings&, const ToneSettings&, const Display&, const FovealView&,
+                                       float seconds);
 
 struct Adaptation {
     Resource curve;  ///< shared::ToneCurve
     History eye;     ///< shared::EyeState
 };
 
-/// Turns the frame's statistics into a tone curve: histogram adjustment after Ward, Rushmeier and Piatko 1997 with the
-/// cone threshold of Ferwerda et al. 1996 as ceiling, steady state, and the parameters of Reinhard 2002 and of the
-/// linear operator. The adaptation luminance is the log average of the frame.
-Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource histogram, const HistogramSettings&,
-                          const ToneSettings&, const Display&, float seconds);
+/// What add_adaptation keeps from frame to frame; Executor::reset of it forgets what the eye was adapted to.
+constexpr const char* kEyeHistory = "eye";
+
+/// Lets the eye adapt to what it looks at (perception/eye.h; exact for any time step, at once in the first frame), smooths
+/// the histogram, and turns both into a tone curve or into the parameters of the operator's form. `remembered`: what the
+/// eye remembers instead of the last frame.
+Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource histogram, const OperatorInfo&, const shared::ToneParameters&,
+                          uint32_t foveal_level, const shared::EyeState* remembered = nullptr);
 
 struct LdrGlareSettings {
     float threshold = 0.9f;      ///< displayed luminance relative to white from which a pixel glares

@@ -3,10 +3,11 @@
 #include <string>
 
 #include "passes/passes.h"
+#include "shared/photometry.h"
 
 namespace vesper {
 
-Pyramid add_pyramid(FrameGraph& graph, const Kernels& kernels, Resource scene, VkExtent2D extent) {
+Pyramid add_pyramid(FrameGraph& graph, const Kernels& kernels, Resource scene, VkExtent2D extent, float log_epsilon) {
     Pyramid pyramid;
     Resource from = scene;
     do {
@@ -15,7 +16,7 @@ Pyramid add_pyramid(FrameGraph& graph, const Kernels& kernels, Resource scene, V
         const Resource to = graph.transient(name, image_shape(kSceneFormat, half));
         const Kernel& kernel = pyramid.levels.empty() ? kernels.pyramid_first : kernels.pyramid;
         graph.dispatch(name, kernel, {load(from), store(to)},
-                       shared::PyramidPush{{extent.width, extent.height}, {half.width, half.height}},
+                       shared::PyramidPush{{extent.width, extent.height}, {half.width, half.height}, log_epsilon > 0 ? 0 : shared::kLuminanceFloor, log_epsilon},
                        cover(half.width, half.height, kernel.group[0], kernel.group[1]));
         pyramid.levels.push_back(to);
         pyramid.extents.push_back(half);

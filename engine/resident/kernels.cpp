@@ -18,6 +18,12 @@ namespace {
 
 constexpr uint32_t kTones = shared::kToneLdr + 1;
 
+std::vector<Kernel> make_adapt(const Device& device) {
+    std::vector<Kernel> kernels;
+    for (uint32_t model = 0; model < shared::kModels; ++model) kernels.emplace_back(device, "adapt.comp", adapt_comp, std::initializer_list{model});
+    return kernels;
+}
+
 std::vector<Kernel> make_bright(const Device& device) {
     std::vector<Kernel> kernels;
     for (uint32_t tone = 0; tone < kTones; ++tone) kernels.emplace_back(device, "bright.comp", bright_comp, std::initializer_list{tone});
@@ -45,8 +51,9 @@ Kernels::Kernels(const Device& device)
       sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),
-      histogram(device, "histogram.comp", histogram_comp),
-      adapt(device, "adapt.comp", adapt_comp),
+      histogram_rows(device.is_cpu() ? 8 : 1),
+      histogram(device, "histogram.comp", histogram_comp, {histogram_rows}),
+      adapt(make_adapt(device)),
       bright(make_bright(device)),
       blur(device, "blur.comp", blur_comp),
       composite_rows(device.is_cpu() ? 4 : 1),

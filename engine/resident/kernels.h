@@ -22,7 +22,9 @@ struct Kernels {
     Kernel sky;
     Kernel sources;
     Kernel pyramid_first, pyramid;
-    Kernel histogram, adapt;
+    uint32_t histogram_rows;        ///< texels of a column that one invocation of the histogram does
+    Kernel histogram;
+    std::vector<Kernel> adapt;      ///< by shared::kModel*
     std::vector<Kernel> bright;     ///< by shared::kTone*
     Kernel blur;
     uint32_t composite_rows;        ///< pixels of a column that one invocation of the composite does

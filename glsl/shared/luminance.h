@@ -6,32 +6,38 @@ SHARED_BEGIN
 
 // Texel (x, y) of level k covers the pixels [x 2^k, (x+1) 2^k) x [y 2^k, (y+1) 2^k) that exist, and holds
 // r: mean luminance of its finite pixels, cd/m^2;  g: how many those are;
-// b: mean of ln max(luminance, kLuminanceFloor);   a: largest luminance, cd/m^2.
+// b: mean of ln(max(luminance, log_floor) + log_epsilon);   a: largest luminance, cd/m^2.
 struct PyramidPush {
-    uvec2 from_size;  // texels of the level below
-    uvec2 to_size;    // texels of this level: half, rounded up
+    uvec2 from_size;    // texels of the level below
+    uvec2 to_size;      // texels of this level: half, rounded up
+    float log_floor;    // cd/m^2; used where the scene itself is read
+    float log_epsilon;  // cd/m^2
 };
-SHARED_SIZE(PyramidPush, 16)
+SHARED_SIZE(PyramidPush, 24)
 
 const uint kMaxBins = 256u;
 
 struct HistogramPush {
     uvec2 image_size;   // px of the full image
-    uvec2 level_size;   // texels of the foveal level
+    uvec2 level_size;   // texels of the level that votes
     uint level;
     uint bins;          // 1 .. kMaxBins
     float ln_low;       // ln of the luminance at the bottom of bin 0, cd/m^2; darker texels count there
     float bins_per_ln;  // bins per unit of ln luminance; brighter texels count in the last bin
+    uint votes;         // of one pixel
+    uint split;         // 1: votes are shared by the two bins whose middles are nearest, linearly; 0: one bin has them
+    uint census;        // 1: this level also counts pixels
 };
-SHARED_SIZE(HistogramPush, 32)
+SHARED_SIZE(HistogramPush, 44)
 
-// Zeroed every frame. A texel votes with its finite pixels, so that finite + non_finite is the number of pixels.
+// Zeroed every frame. Integers, so that the order of the votes does not matter. A texel stands for its finite pixels.
 struct Histogram {
-    uint finite;
+    uint finite;        // pixels; finite + non_finite are all of the image
     uint non_finite;    // pixels left out: NaN or infinite
+    uint votes;         // sum of count
     uint count[kMaxBins];
 };
-SHARED_SIZE(Histogram, 1032)
+SHARED_SIZE(Histogram, 1036)
 
 SHARED_END
 #endif

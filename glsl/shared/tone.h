@@ -5,51 +5,110 @@
 SHARED_BEGIN
 
 // How the composite maps luminance.
-const uint kToneCurve = 0u;     // the table below: histogram adjustment
+const uint kToneCurve = 0u;     // the table below
 const uint kToneReinhard = 1u;  // Reinhard et al. 2002, global
 const uint kToneLinear = 2u;    // linear between two luminances
 const uint kToneLdr = 3u;       // none: values in [0, 1] are shown as they are
 
-struct AdaptPush {
-    uint bins;            // of the histogram
-    float ln_low;         // as in HistogramPush
-    float bins_per_ln;
-    float display_low;    // darkest and brightest luminance the display shows, ambient included, cd/m^2
-    float display_high;
-    float key;            // Reinhard: luminance the log average is mapped to, relative to white
-    float white;          // Reinhard: scene luminance shown as white, cd/m^2; 0: the largest of the frame
-    float linear_low;     // linear: scene luminance shown as black, cd/m^2
-    float linear_high;    // linear: scene luminance shown as white, cd/m^2; 0: the largest of the frame
-    float seconds;        // since the last frame
-};
-SHARED_SIZE(AdaptPush, 40)
+// What makes the parameters of a frame (specialization of adapt.comp).
+const uint kModelFixed = 0u;      // the statistics of the frame: Reinhard, linear
+const uint kModelHistogram = 1u;  // histogram adjustment: Ward et al. 1997, Irawan et al. 2005
+const uint kModels = 2u;
 
-// What a frame's statistics make of the operator. Also read as a texel buffer of r32f, hence no other types.
+// Histogram adjustment: the threshold T that bounds the slope, d Ld / d L <= T_display(Ld) / T_scene(L).
+const uint kCeilingEye = 0u;     // scene: the eye in its present state; display: adapted cones
+const uint kCeilingHuman = 1u;   // both: adapted cones and rods merged (Ward et al. 1997)
+const uint kCeilingCones = 2u;   // both: adapted cones
+const uint kCeilingLinear = 3u;  // none beyond the contrast of the scene: d ln Ld / d ln L <= 1
+
+// What the eye adapts to.
+const uint kAdaptGaze = 0u;      // log average of 3 x 3 texels of the foveal level about the gaze, linear in its position
+const uint kAdaptGazeMean = 1u;  // their mean: a headlamp there sets what everything else is seen with
+const uint kAdaptTexel = 2u;     // mean of the texel of the foveal level at the gaze
+const uint kAdaptAverage = 3u;   // the log average of the frame
+
+// Cones or rods, see perception/eye.h. Luminances cd/m^2, times s.
+struct ReceptorParameters {
+    float response_step;    // Delta R, times the factor of the observer
+    float dark_sigma;
+    float factor;           // of all thresholds
+    float fast_seconds;
+    float slow_seconds;
+    float fast_share;
+    float bleach_seconds;
+    float bleach_trolands;
+};
+SHARED_SIZE(ReceptorParameters, 32)
+
+struct ToneParameters {
+    uint bins;                 // of the histogram
+    float ln_low;              // as in HistogramPush
+    float bins_per_ln;
+    float display_low;         // darkest and brightest luminance the display shows, ambient included, cd/m^2
+    float display_high;
+    float key;                 // Reinhard: luminance the log average is mapped to, relative to white
+    float white;               // Reinhard: scene luminance shown as white, cd/m^2; 0: the largest of the frame
+    float linear_low;          // linear: scene luminance shown as black, cd/m^2
+    float linear_high;         // linear: scene luminance shown as white, cd/m^2; 0: the largest of the frame
+    float seconds;             // since the last frame
+    float smoothing_seconds;   // time constant of histogram and placement, against flicker; 0: none
+    uint adapt_to;
+    vec2 gaze;                 // texels of the foveal level from its top left, (0.5, 0.5) is the middle of the first
+    uvec2 foveal_size;         // texels
+    uint ceiling;
+    uint use_rods;             // 1: the eye sees with the better of cones and rods
+    float cone_break;          // log10 L from which Weber's law holds
+    float rod_break;
+    ReceptorParameters cones;
+    ReceptorParameters rods;
+};
+SHARED_SIZE(ToneParameters, 144)
+
+const uint kMaxNodes = 1024u;
+
+// What a frame's statistics make of the operator. Also read as a texel buffer of rgba32f.
 struct ToneCurve {
-    float adaptation;      // luminance the eye is adapted to, cd/m^2
-    float log_average;     // exp(mean ln L), cd/m^2
-    float maximum;         // largest luminance, cd/m^2
-    float reinhard_scale;  // X = reinhard_scale * L
+    float reinhard_scale;  // texel 0; X = reinhard_scale * L
     float reinhard_white;  // 1 / Xwhite^2
     float linear_low;      // cd/m^2
     float linear_gain;     // 1 / (high - low), m^2/cd
-    float ln_low;          // ln L of node 0
+    float ln_low;          // texel 1; ln L of node 0
     float bins_per_ln;     // nodes per unit of ln L
-    float bins;            // the curve has bins + 1 nodes, at the edges of the bins
-    float ceiling;         // 1 if the display range is not filled: every slope is at its ceiling; else 0
-    float slack;           // and the part of ln(display_high / display_low) that is left over
-    float node[kMaxBins + 1u];  // ln of display luminance, cd/m^2
+    float bins;            // the curve has bins + 1 nodes
+    float under_full;      // 1 if the display range is not filled: slopes are as steep as they may be; else 0
+    float adaptation;      // texel 2; luminance the eye looks at, cd/m^2
+    float log_average;     // exp(mean ln L), cd/m^2
+    float maximum;         // largest luminance, cd/m^2
+    float slack;           // part of ln(display_high / display_low) that is left over
+    float cone_sigma;      // texel 3; half saturation of the eye, cd/m^2
+    float rod_sigma;       // scotopic cd/m^2
+    float unused[2];
+    vec4 node[kMaxNodes + 1u];  // r: ln of display luminance, cd/m^2
 };
-SHARED_SIZE(ToneCurve, 1076)
+SHARED_SIZE(ToneCurve, 16464)
 
-const uint kToneNode0 = 12u;  // texel of node[0]
+const uint kToneNode0 = 4u;  // texel of node[0]
 
-// What the eye remembers from frame to frame.
+struct ReceptorMemory {
+    float pigment;  // unbleached part
+    float fast;     // log10 of what fast neural adaptation multiplies sigma with
+    float slow;
+};
+SHARED_SIZE(ReceptorMemory, 12)
+
+// What the eye, and what smooths the picture, remember from frame to frame.
 struct EyeState {
-    float adaptation;  // cd/m^2; 0 before the first frame
-    float seconds;     // time since the first frame
+    float adaptation;     // cd/m^2; 0 before the first frame
+    float seconds;        // time since the first frame
+    ReceptorMemory cones;
+    ReceptorMemory rods;
+    float ln_placed;      // smoothed ln of the adaptation luminance, for placing a curve that does not fill the display
+    float bins;           // of the histogram below
+    float ln_low;
+    float bins_per_ln;
+    float share[kMaxBins];  // smoothed shares of the votes
 };
-SHARED_SIZE(EyeState, 8)
+SHARED_SIZE(EyeState, 1072)
 
 SHARED_END
 #endif

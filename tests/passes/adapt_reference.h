@@ -1,35 +1,29 @@
-// Adaptation luminance and tone curve from the frame's statistics. SPDX-License-Identifier: MIT
+// What the eye adapts to, its state, the smoothed histogram and the tone curve. SPDX-License-Identifier: MIT
 // Histogram adjustment: Ward Larson, Rushmeier and Piatko 1997, solved exactly for given ceilings; thresholds of
-// Ferwerda, Pattanaik, Shirley and Greenberg 1996 (cones); Reinhard, Stark, Shirley and Ferwerda 2002 (global).
+// Ferwerda, Pattanaik, Shirley and Greenberg 1996; the eye of perception/eye.h; Reinhard, Stark, Shirley and Ferwerda 2002.
 #pragma once
 
+#include <functional>
 #include <numeric>
 #include <vector>
 
 #include "passes/pyramid_reference.h"
+#include "perception/eye.h"
 #include "shared/tone.h"
 
 namespace vesper::reference {
 
-/// Threshold versus intensity of the cones, cd/m^2, with the published break points (Ferwerda et al. 1996).
-inline double cone_threshold(double luminance) {
-    const double l = std::log10(luminance);
-    if (l <= -2.6) return std::pow(10, -0.72);
-    if (l < 1.9) return std::pow(10, std::pow(0.249 * l + 0.65, 2.7) - 0.72);
-    return std::pow(10, l - 1.255);
+/// Shares of the votes with 1e-5 of them spread evenly over all bins, so that no part of the curve is flat.
+inline std::vector<double> with_spread(std::vector<double> share) {
+    constexpr double kSpread = 1e-5;
+    if (std::accumulate(share.begin(), share.end(), 0.0) == 0) return share;
+    for (double& s : share) s = (s + kSpread / double(share.size())) / (1 + kSpread);
+    return share;
 }
 
-/// Fractions of the votes per bin, with 1e-4 of them spread evenly from the first to the last occupied bin, so that
-/// what the foveal texels average away does not land on a plateau.
-inline std::vector<double> fractions(const shared::Histogram& histogram, uint32_t bins) {
+inline std::vector<double> shares(const shared::Histogram& histogram, uint32_t bins) {
     std::vector<double> h(bins, 0.0);
-    uint32_t first = bins, last = 0;
-    for (uint32_t i = 0; i < bins; ++i)
-        if (histogram.count[i] != 0) first = std::min(first, i), last = i;
-    if (histogram.finite == 0 || first == bins) return h;
-    constexpr double kSpread = 1e-4;
-    for (uint32_t i = first; i <= last; ++i)
-        h[i] = (histogram.count[i] / double(histogram.finite) + kSpread / (last - first + 1)) / (1 + kSpread);
+    for (uint32_t i = 0; i < bins && histogram.votes; ++i) h[i] = histogram.count[i] / double(histogram.votes);
     return h;
 }
 
@@ -41,8 +35,9 @@ struct Slopes {
 };
 
 /// s_i = min(lambda h_i, c_i) with sum s_i delta = range: the fixed point of Ward's clipping (1997, section 4.4) for
-/// given ceilings c. Exact: bins reach their ceilings in the order of c_i / h_i.
-inline Slopes fill(const std::vector<double>& h, const std::vector<double>& c, double delta, double range) {
+/// given ceilings c. Exact: bins reach their ceilings in the order of c_i / h_i. lambda goes no higher than `limit`; where that
+/// does not fill the range, something is left over.
+inline Slopes fill(const std::vector<double>& h, const std::vector<double>& c, double delta, double range, double limit) {
     Slopes out{std::vector<double>(h.size(), 0.0), 0, false};
     std::vector<size_t> order;
     for (size_t i = 0; i < h.size(); ++i)
@@ -51,18 +46,19 @@ inline Slopes fill(const std::vector<double>& h, const std::vector<double>& c, d
 
     std::vector<double> free(order.size() + 1, 0.0);  // sum of h over the bins from the k-th on
     for (size_t k = order.size(); k-- > 0;) free[k] = free[k + 1] + h[order[k]];
-    double clipped = 0, lambda = 0;
-    out.under = true;
-    for (size_t k = 0; k < order.size() && out.under; ++k) {
+    double clipped = 0, lambda = limit;
+    for (size_t k = 0; k < order.size(); ++k) {
         const size_t i = order[k];
         lambda = (range / delta - clipped) / free[k];
-        if (lambda * h[i] <= c[i])
-            out.under = false;
-        else
-            clipped += c[i];
+        if (lambda * h[i] <= c[i]) break;
+        clipped += c[i];
+        lambda = limit;
     }
-    for (size_t i : order) out.s[i] = out.under ? c[i] : std::min(lambda * h[i], c[i]);
-    if (out.under) out.slack = range - delta * clipped;
+    out.under = lambda >= limit;
+    lambda = std::min(lambda, limit);
+    double filled = 0;
+    for (size_t i : order) out.s[i] = std::min(lambda * h[i], c[i]), filled += out.s[i] * delta;
+    if (out.under) out.slack = std::max(range - filled, 0.0);
     return out;
 }
 
@@ -86,9 +82,33 @@ struct Adjusted {
     bool under = false;
 };
 
-/// Histogram adjustment, Ward et al. 1997: dLd / dL <= T(Ld) / T(L), with T of the cones on both sides.
-inline Adjusted adjust(const std::vector<double>& h, double adaptation, const shared::AdaptPush& p) {
+/// Thresholds on both sides of the ceiling, cd/m^2.
+struct Thresholds {
+    std::function<double(double)> scene, display;
+};
+
+inline Thresholds thresholds_of(const shared::ToneParameters& p, const ReceptorModel& cones, double cone_sigma, const ReceptorModel& rods, double rod_sigma) {
+    const ThresholdBreaks breaks{p.cone_break, p.rod_break};
+    const auto linear = [](double l) { return l; };
+    const auto human = [=](double l) { return human_threshold(l, breaks); };
+    const auto adapted = [=](double l) { return cone_threshold(l, breaks); };
+    const auto eye = [=, &cones, &rods](double l) {
+        const double t = cones.threshold(l, cone_sigma);
+        return p.use_rods ? std::min(t, rods.threshold(l, rod_sigma)) : t;
+    };
+    switch (p.ceiling) {
+        case shared::kCeilingLinear: return {linear, linear};
+        case shared::kCeilingHuman: return {human, human};
+        case shared::kCeilingCones: return {adapted, adapted};
+        default: return {eye, adapted};
+    }
+}
+
+/// Histogram adjustment, Ward et al. 1997: dLd / dL <= T_display(Ld) / T_scene(L). `placed`: luminance whose visibility is
+/// kept where the range is not filled.
+inline Adjusted adjust(const std::vector<double>& h, double placed, const Thresholds& threshold, const shared::ToneParameters& p) {
     constexpr int kIterations = 24;
+    constexpr double kSteepest = 1024;  // times plain equalization
     const double delta = 1 / double(p.bins_per_ln), low = std::log(double(p.display_low));
     const double range = std::log(double(p.display_high)) - low;
     const size_t bins = h.size();
@@ -102,17 +122,16 @@ inline Adjusted adjust(const std::vector<double>& h, double adaptation, const sh
         for (size_t i = 0; i < bins; ++i) {
             const double scene = std::exp(p.ln_low + (double(i) + 0.5) * delta);
             const double shown = std::exp((node[i] + node[i + 1]) / 2);
-            ceiling[i] = (cone_threshold(shown) / shown) / (cone_threshold(scene) / scene);
+            ceiling[i] = (threshold.display(shown) / shown) / (threshold.scene(scene) / scene);
         }
-        const Slopes slopes = fill(h, ceiling, delta, range);
+        const Slopes slopes = fill(h, ceiling, delta, range, kSteepest * range / delta);
         Curve next{p.ln_low, p.bins_per_ln, std::vector<double>(bins + 1, low)};
         for (size_t i = 0; i < bins; ++i) next.node[i + 1] = next.node[i] + slopes.s[i] * delta;
         if (slopes.under) {
-            // The whole curve moves so that the adaptation luminance is as visible as on a display half as bright as
-            // white (Ferwerda et al. 1996), as far as the display allows.
-            const double shown = p.display_high / 2.0;
-            const double want = std::log(adaptation * cone_threshold(shown) / cone_threshold(adaptation));
-            const double offset = std::clamp(want - next.at(std::log(adaptation)), 0.0, slopes.slack);
+            // The whole curve moves so that the luminance is as visible as on a display half as bright as white (Ferwerda
+            // et al. 1996), as far as the display allows.
+            const double want = std::log(placed * threshold.display(p.display_high / 2.0) / threshold.scene(placed));
+            const double offset = std::clamp(want - next.at(std::log(placed)), 0.0, slopes.slack);
             for (double& y : next.node) y += offset;
         }
         for (size_t i = 0; i <= bins; ++i) node[i] = (node[i] + next.node[i]) / 2;
@@ -121,24 +140,85 @@ inline Adjusted adjust(const std::vector<double>& h, double adaptation, const sh
     return out;
 }
 
-/// Everything the pass writes.
+/// Mean or log average of the finite pixels of 3 x 3 texels about the gaze, linear in its position: the mean over squares about
+/// the four texels nearest to it, each weighted as in bilinear interpolation. 0 if there are none.
+inline double gaze_luminance(const PyramidLevel& fovea, const shared::ToneParameters& p) {
+    const auto texel = [&](double x, double y) {
+        const bool inside = x >= 0 && y >= 0 && x < fovea.width && y < fovea.height;
+        return inside ? fovea.at(uint32_t(x), uint32_t(y)) : dvec4(0);
+    };
+    if (p.adapt_to == shared::kAdaptTexel)
+        return texel(std::clamp(std::floor(double(p.gaze.x)), 0.0, fovea.width - 1.0), std::clamp(std::floor(double(p.gaze.y)), 0.0, fovea.height - 1.0)).x;
+    const dvec2 at = dvec2(p.gaze) - 0.5, base = glm::floor(at), part = at - base;
+    double sum = 0, pixels = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+        const dvec2 middle = base + dvec2(corner & 1, corner >> 1);
+        const double weight = (corner & 1 ? part.x : 1 - part.x) * (corner >> 1 ? part.y : 1 - part.y);
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x) {
+                const dvec4 t = texel(middle.x + x, middle.y + y);
+                sum += weight * t.y * (p.adapt_to == shared::kAdaptGaze ? t.z : t.x), pixels += weight * t.y;
+            }
+    }
+    if (pixels == 0) return 0;
+    return p.adapt_to == shared::kAdaptGaze ? std::exp(sum / pixels) : sum / pixels;
+}
+
+/// Everything the pass reads.
+struct AdaptInputs {
+    shared::Histogram histogram{};
+    dvec4 top{0};         ///< the 1x1 level of the pyramid
+    PyramidLevel fovea;
+    shared::EyeState previous{};
+    shared::ToneParameters parameters{};
+    Observer observer;
+    uint32_t model = shared::kModelHistogram;
+};
+
+/// Everything the pass writes, in double where it matters.
 struct Adapted {
     Adjusted adjusted;
+    ReceptorState cones, rods;
+    std::vector<double> share;
     shared::ToneCurve tone{};
     shared::EyeState eye{};
 };
 
-/// `top` is the 1x1 level of the pyramid.
-inline Adapted adapt(const shared::Histogram& histogram, dvec4 top, shared::EyeState previous,
-                     const shared::AdaptPush& p) {
+inline Adapted adapt(const AdaptInputs& in) {
+    const shared::ToneParameters& p = in.parameters;
     Adapted out;
-    const bool empty = histogram.finite == 0;
-    const double log_average = empty ? kFloor : std::max(std::exp(top.z), kFloor), maximum = empty ? 0.0 : top.w;
-    out.adjusted = adjust(fractions(histogram, p.bins), log_average, p);
+    const bool empty = in.histogram.finite == 0, first = !(in.previous.adaptation > 0);
+    const double log_average = empty ? kFloor : std::exp(in.top.z), maximum = empty ? 0.0 : in.top.w;
+    const double looked_at = p.adapt_to == shared::kAdaptAverage ? log_average : gaze_luminance(in.fovea, p);
+    const double adaptation = std::clamp(empty && !first ? double(in.previous.adaptation) : looked_at, kFloor, 1e6);
+
+    const ThresholdBreaks breaks{p.cone_break, p.rod_break};
+    const ReceptorModel cones(ReceptorKind::Cones, in.observer.observed_cones(), breaks), rods(ReceptorKind::Rods, in.observer.observed_rods(), breaks);
+    const auto step = [&](const ReceptorModel& model, const shared::ReceptorMemory& m) {
+        return first ? model.adapted(adaptation) : model.after({m.pigment, m.fast, m.slow}, adaptation, p.seconds);
+    };
+    out.cones = step(cones, in.previous.cones), out.rods = step(rods, in.previous.rods);
+    const double cone_sigma = cones.sigma(out.cones), rod_sigma = rods.sigma(out.rods);
+
+    const bool same_bins = in.previous.bins == float(p.bins) && in.previous.ln_low == p.ln_low && in.previous.bins_per_ln == p.bins_per_ln;
+    const double kept = p.smoothing_seconds > 0 ? std::exp(-double(p.seconds) / p.smoothing_seconds) : 0;
+    out.share = shares(in.histogram, p.bins);
+    for (uint32_t i = 0; i < p.bins; ++i) {
+        const double before = !first && same_bins ? in.previous.share[i] : 0;
+        if (empty)
+            out.share[i] = before;
+        else if (!first && same_bins)
+            out.share[i] += (before - out.share[i]) * kept;
+    }
+    const double ln = std::log(adaptation), placed = first ? ln : ln + (in.previous.ln_placed - ln) * kept;
+    if (in.model == shared::kModelHistogram)
+        out.adjusted = adjust(with_spread(out.share), std::exp(placed), thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
+    else
+        out.adjusted = {{p.ln_low, p.bins_per_ln, std::vector<double>(p.bins + 1, std::log(double(p.display_low)))}, 0, false};
 
     shared::ToneCurve& t = out.tone;
-    t.adaptation = t.log_average = float(log_average);
-    t.maximum = float(maximum);
+    t.adaptation = float(adaptation), t.log_average = float(log_average), t.maximum = float(maximum);
+    t.cone_sigma = float(cone_sigma), t.rod_sigma = float(rod_sigma);
     const double scale = p.key / log_average;  // Reinhard et al. 2002, Eq. 2 and 4
     const double white = scale * (p.white > 0 ? double(p.white) : std::max(maximum, kFloor));
     t.reinhard_scale = float(scale);
@@ -147,10 +227,16 @@ inline Adapted adapt(const shared::Histogram& histogram, dvec4 top, shared::EyeS
     t.linear_low = p.linear_low;
     t.linear_gain = float(1 / std::max(high - p.linear_low, kFloor));
     t.ln_low = p.ln_low, t.bins_per_ln = p.bins_per_ln, t.bins = float(p.bins);
-    t.ceiling = out.adjusted.under ? 1.0f : 0.0f;
+    t.under_full = out.adjusted.under ? 1.0f : 0.0f;
     t.slack = float(out.adjusted.slack);
-    for (size_t i = 0; i <= p.bins; ++i) t.node[i] = float(out.adjusted.curve.node[i]);
-    out.eye = {float(log_average), previous.seconds + p.seconds};
+    for (size_t i = 0; i <= p.bins; ++i) t.node[i].x = float(out.adjusted.curve.node[i]);
+
+    const auto memory = [](const ReceptorState& s) { return shared::ReceptorMemory{float(s.pigment), float(s.fast), float(s.slow)}; };
+    out.eye.adaptation = float(adaptation), out.eye.seconds = in.previous.seconds + p.seconds;
+    out.eye.cones = memory(out.cones), out.eye.rods = memory(out.rods);
+    out.eye.ln_placed = float(placed);
+    out.eye.bins = float(p.bins), out.eye.ln_low = p.ln_low, out.eye.bins_per_ln = p.bins_per_ln;
+    for (uint32_t i = 0; i < p.bins; ++i) out.eye.share[i] = float(out.share[i]);
     return out;
 }
 

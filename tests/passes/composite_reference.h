@@ -22,7 +22,7 @@ inline double tone_mapped(double y, uint32_t tone, const shared::ToneCurve& c, d
         const double t =
             std::clamp((std::log(std::max(y, kFloor)) - c.ln_low) * double(c.bins_per_ln), 0.0, double(c.bins));
         const uint32_t i = std::min(uint32_t(t), uint32_t(c.bins) - 1);
-        const double ln = c.node[i] + (double(c.node[i + 1]) - c.node[i]) * (t - i);
+        const double ln = c.node[i].x + (double(c.node[i + 1].x) - c.node[i].x) * (t - i);
         d = (std::exp(ln) - display_low) / (display_high - display_low);
     } else if (tone == shared::kToneReinhard) {  // Reinhard et al. 2002, Eq. 4
         const double x = c.reinhard_scale * y;

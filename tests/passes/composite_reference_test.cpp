@@ -15,7 +15,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::nu
 shared::ToneCurve identity() {
     shared::ToneCurve c{};
     c.bins = 20, c.ln_low = 0, c.bins_per_ln = float(20 / std::log(100.0));
-    for (int i = 0; i <= 20; ++i) c.node[i] = float(std::log(100.0) * i / 20);
+    for (int i = 0; i <= 20; ++i) c.node[i].x = float(std::log(100.0) * i / 20);
     return c;
 }
 

@@ -29,7 +29,7 @@ std::vector<uint8_t> composite(PassRig& rig, const Inputs& in, uint32_t tone) {
     View view;
     view.extent = in.extent;
     CompositeInputs inputs{rig.image(graph, "scene", kSceneFormat, in.extent, in.scene),
-                           graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32_SFLOAT),
+                           graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT),
                            {},
                            {}};
     if (!in.veil.empty()) inputs.luminance_glare = rig.image(graph, "veil", kSceneFormat, in.extent, in.veil);

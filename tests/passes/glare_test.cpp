@@ -25,7 +25,7 @@ View view_of(VkExtent2D extent) {
 Picture glare(PassRig& rig, const Inputs& in, uint32_t tone) {
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, in.view.extent, in.scene);
-    const Resource curve = graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32_SFLOAT);
+    const Resource curve = graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT);
     const Resource kept = keep<uint64_t>(
         graph, add_ldr_glare(graph, rig.kernels(), scene, curve, tone, in.view, in.display, in.settings));
     rig.run(graph);

@@ -15,44 +15,43 @@ inline uint32_t bin_at(double position, uint32_t bins) {
     return uint32_t(std::clamp(std::floor(position), 0.0, double(bins) - 1));
 }
 
-/// Counts as the pass must give them, with the votes that rounding could put on either side of a bin's edge.
-struct HistogramBounds {
-    shared::Histogram exact{};
-    std::vector<uint32_t> low, high;  ///< per bin: certain votes, and those with every doubtful one
+/// Votes in double, as the pass must give them but for rounding.
+struct Votes {
+    shared::Histogram counted{};   ///< finite, non_finite, votes; not count
+    std::vector<double> count;     ///< per bin
 
-    /// True if `got` has the right totals, and every bin between its bounds.
-    bool admits(const shared::Histogram& got) const {
-        if (got.finite != exact.finite || got.non_finite != exact.non_finite) return false;
+    /// True if `got` has the right totals, every vote once, and every bin within `allowed` votes.
+    bool admits(const shared::Histogram& got, double allowed) const {
+        if (got.finite != counted.finite || got.non_finite != counted.non_finite || got.votes != counted.votes) return false;
         uint64_t sum = 0;
-        for (size_t i = 0; i < low.size(); ++i) {
-            if (got.count[i] < low[i] || got.count[i] > high[i]) return false;
+        for (size_t i = 0; i < shared::kMaxBins; ++i) {
+            if (std::abs(got.count[i] - (i < count.size() ? count[i] : 0)) > (i < count.size() ? allowed : 0)) return false;
             sum += got.count[i];
         }
-        for (size_t i = low.size(); i < shared::kMaxBins; ++i)
-            if (got.count[i] != 0) return false;
-        return sum == exact.finite;  // each pixel once
+        return sum == counted.votes;
     }
 };
 
-/// Every texel votes with its finite pixels. `doubt`: part of a bin by which a texel's position may be rounded.
+/// Every texel has `votes` for each of its finite pixels: one bin, or the two whose middles are nearest, linearly.
 template <class Texel>
-HistogramBounds histogram(std::span<const Texel> level, const shared::HistogramPush& p, double doubt = 0) {
-    HistogramBounds out;
-    out.low.resize(p.bins), out.high.resize(p.bins);
+void vote(Votes& out, std::span<const Texel> level, const shared::HistogramPush& p) {
+    out.count.resize(p.bins);
     for (uint32_t y = 0; y < p.level_size.y; ++y)
         for (uint32_t x = 0; x < p.level_size.x; ++x) {
             const auto& texel = level[size_t(y) * p.level_size.x + x];
-            const uint32_t votes = uint32_t(texel.y);
-            out.exact.finite += votes;
-            out.exact.non_finite += covered(p.image_size.x, p.image_size.y, p.level, x, y) - votes;
-            if (votes == 0) continue;
-            const double at = bin_position(texel.x, p);
-            out.exact.count[bin_at(at, p.bins)] += votes;
-            const uint32_t first = bin_at(at - doubt, p.bins), last = bin_at(at + doubt, p.bins);
-            if (first == last) out.low[first] += votes;
-            for (uint32_t bin = first; bin <= last; ++bin) out.high[bin] += votes;
+            const uint32_t pixels = uint32_t(texel.y);
+            if (p.census) out.counted.finite += pixels, out.counted.non_finite += covered(p.image_size.x, p.image_size.y, p.level, x, y) - pixels;
+            if (pixels == 0) continue;
+            const double votes = double(pixels) * p.votes, at = bin_position(texel.x, p);
+            out.counted.votes += pixels * p.votes;
+            if (p.split) {
+                const double middle = std::clamp(at - 0.5, 0.0, p.bins - 1.0);
+                const uint32_t bin = bin_at(middle, p.bins);
+                out.count[bin] += votes * (1 - (middle - bin));
+                if (bin + 1 < p.bins) out.count[bin + 1] += votes * (middle - bin);
+            } else
+                out.count[bin_at(at, p.bins)] += votes;
         }
-    return out;
 }
 
 }  // namespace vesper::reference

@@ -9,15 +9,16 @@
 namespace vesper::reference {
 namespace {
 
-/// 100 bins of a tenth of a decade from 1e-4 to 1e6 cd/m^2.
-shared::HistogramPush tenths(shared::uvec2 image, uint32_t level) {
+/// 100 bins of a tenth of a decade from 1e-4 to 1e6 cd/m^2. One vote per pixel.
+shared::HistogramPush tenths(shared::uvec2 image, uint32_t level, bool split = false) {
     const uint32_t side = 1u << level;
-    return {image,
-            {(image.x + side - 1) / side, (image.y + side - 1) / side},
-            level,
-            100,
-            float(std::log(1e-4)),
-            float(10 / std::log(10.0))};
+    return {image, {(image.x + side - 1) / side, (image.y + side - 1) / side}, level, 100, float(std::log(1e-4)), float(10 / std::log(10.0)), 1, split ? 1u : 0u, 1};
+}
+
+Votes histogram(const std::vector<dvec4>& level, const shared::HistogramPush& p) {
+    Votes votes;
+    vote(votes, std::span<const dvec4>(level), p);
+    return votes;
 }
 
 TEST(HistogramReference, ATenthOfADecadePerBin) {
@@ -43,36 +44,49 @@ TEST(HistogramReference, EachPixelVotesOnce) {
     for (size_t i = 0; i < image.size(); i += 7) image[i].y = std::numeric_limits<double>::quiet_NaN();
     for (uint32_t level = 1; level <= 6; ++level) {
         const PyramidLevel texels = pyramid_level(std::span<const dvec3>(image), w, h, level);
-        const auto got = histogram(std::span<const dvec4>(texels.texels), tenths({w, h}, level)).exact;
-        EXPECT_EQ(got.finite + got.non_finite, w * h);
-        EXPECT_EQ(got.non_finite, 305u);
-        EXPECT_EQ(std::accumulate(std::begin(got.count), std::end(got.count), 0u), got.finite);
+        for (bool split : {false, true}) {
+            const Votes got = histogram(texels.texels, tenths({w, h}, level, split));
+            EXPECT_EQ(got.counted.finite + got.counted.non_finite, w * h);
+            EXPECT_EQ(got.counted.non_finite, 305u);
+            EXPECT_EQ(got.counted.votes, got.counted.finite);
+            EXPECT_NEAR(std::accumulate(got.count.begin(), got.count.end(), 0.0), got.counted.finite, 1e-9);
+        }
     }
 }
 
-TEST(HistogramReference, TexelsVoteWithTheirFinitePixels) {
-    const auto p = tenths({3, 3}, 1);
+TEST(HistogramReference, TexelsVoteForTheirFinitePixels) {
     const std::vector<dvec4> level{{1.05, 4, 0, 0}, {1.05, 1, 0, 0}, {105, 2, 0, 0}, {0, 0, 0, 0}};
-    const auto got = histogram(std::span<const dvec4>(level), p).exact;
-    EXPECT_EQ(got.count[40], 5u);
-    EXPECT_EQ(got.count[60], 2u);
-    EXPECT_EQ(got.finite, 7u);
-    EXPECT_EQ(got.non_finite, 2u);  // one of the second texel's two, and the corner pixel
+    const Votes got = histogram(level, tenths({3, 3}, 1));
+    EXPECT_EQ(got.count[40], 5);
+    EXPECT_EQ(got.count[60], 2);
+    EXPECT_EQ(got.counted.finite, 7u);
+    EXPECT_EQ(got.counted.non_finite, 2u);  // one of the second texel's two, and the corner pixel
 }
 
-TEST(HistogramReference, AVoteAtAnEdgeMayFallOnEitherSideAndNoOther) {
-    const auto p = tenths({4, 2}, 1);
-    const std::vector<dvec4> level{{1.0, 4, 0, 0}, {30, 4, 0, 0}};
-    const auto bounds = histogram(std::span<const dvec4>(level), p, 1e-3);
-    shared::Histogram got = bounds.exact;
-    EXPECT_TRUE(bounds.admits(got));
-    std::swap(got.count[39], got.count[40]);
-    EXPECT_TRUE(bounds.admits(got));
-    got.count[39] = got.count[40] = 4;
-    EXPECT_FALSE(bounds.admits(got)) << "voted twice";
-    got = bounds.exact;
-    std::swap(got.count[54], got.count[55]);
-    EXPECT_FALSE(bounds.admits(got)) << "30 cd/m^2 is well within a bin";
+TEST(HistogramReference, VotesAreSharedByTheNearestTwo) {
+    const double middle = std::pow(10, 0.05), edge = 1, quarter = std::pow(10, 0.075);  // of bin 40
+    const Votes got = histogram({{middle, 4, 0, 0}}, tenths({2, 2}, 1, true));
+    EXPECT_NEAR(got.count[40], 4, 1e-5);
+    const Votes two = histogram({{edge, 4, 0, 0}}, tenths({2, 2}, 1, true));
+    EXPECT_NEAR(two.count[39], 2, 1e-5);
+    EXPECT_NEAR(two.count[40], 2, 1e-5);
+    const Votes three = histogram({{quarter, 4, 0, 0}}, tenths({2, 2}, 1, true));
+    EXPECT_NEAR(three.count[40], 3, 1e-5);
+    EXPECT_NEAR(three.count[41], 1, 1e-5);
+    for (double outside : {0.0, 1e-9, 1.01e-4}) EXPECT_EQ(histogram({{outside, 4, 0, 0}}, tenths({2, 2}, 1, true)).count[0], 4) << outside;
+    for (double outside : {0.99e6, 1e30}) EXPECT_EQ(histogram({{outside, 4, 0, 0}}, tenths({2, 2}, 1, true)).count[99], 4) << outside;
+}
+
+TEST(HistogramReference, AdmitsRoundingAndNothingElse) {
+    const Votes votes = histogram({{1.05, 4, 0, 0}, {30, 4, 0, 0}}, tenths({4, 2}, 1));
+    shared::Histogram got = votes.counted;
+    got.count[40] = 4, got.count[54] = 4;
+    EXPECT_TRUE(votes.admits(got, 0.5));
+    got.count[54] = 3, got.count[55] = 1;
+    EXPECT_FALSE(votes.admits(got, 0.5));
+    EXPECT_TRUE(votes.admits(got, 1));
+    got.count[55] = 2;
+    EXPECT_FALSE(votes.admits(got, 2)) << "voted twice";
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace vesper::test {
 namespace {
 
-// A texel within this part of a bin of an edge may fall on either side: ln and the bin's position, up to 256, in float.
+// Part of a bin by which a texel's position may be off: ln and the bin's position, up to 256, in float.
 constexpr double kDoubt = 2e-4;
 
 /// A level as the pyramid makes it: every texel with at most the pixels it covers.
@@ -30,22 +30,27 @@ std::vector<glm::vec4> random_level(shared::HistogramPush p, float log10_low, fl
 
 shared::HistogramPush push_of(VkExtent2D image, uint32_t level, const HistogramSettings& s) {
     const uint32_t side = 1u << level;
+    const uint64_t pixels = uint64_t(image.width) * image.height;
     return {{image.width, image.height},
             {(image.width + side - 1) / side, (image.height + side - 1) / side},
             level,
             s.bins,
             s.ln_low(),
-            s.bins_per_ln()};
+            s.bins_per_ln(),
+            uint32_t(std::clamp<uint64_t>(0xffffffffu / (2 * pixels), 1, 4096)),
+            s.split ? 1u : 0u,
+            1};
 }
 
-shared::Histogram count(PassRig& rig, const std::vector<glm::vec4>& texels, VkExtent2D image,
-                        const shared::HistogramPush& p, const HistogramSettings& s) {
+/// `fine`: texels of level 1, if it votes too.
+shared::Histogram count(PassRig& rig, const std::vector<glm::vec4>& texels, VkExtent2D image, const shared::HistogramPush& p,
+                        const HistogramSettings& s, const std::vector<glm::vec4>& fine = {}) {
     FrameGraph graph;
-    const VkExtent2D size{p.level_size.x, p.level_size.y};
+    const VkExtent2D size{p.level_size.x, p.level_size.y}, first{(image.width + 1) / 2, (image.height + 1) / 2};
     const Resource level = rig.image(graph, "level", kSceneFormat, size, texels);
-    const Pyramid pyramid{std::vector<Resource>(p.level, level), std::vector<VkExtent2D>(p.level, size)};
-    const Resource kept =
-        keep<shared::Histogram>(graph, add_histogram(graph, rig.kernels(), pyramid, p.level, image, s));
+    Pyramid pyramid{std::vector<Resource>(p.level, level), std::vector<VkExtent2D>(p.level, size)};
+    if (!fine.empty()) pyramid.levels[0] = rig.image(graph, "first", kSceneFormat, first, fine), pyramid.extents[0] = first;
+    const Resource kept = keep<shared::Histogram>(graph, add_histogram(graph, rig.kernels(), pyramid, p.level, image, s));
     rig.run(graph);
     return rig.got<shared::Histogram>(kept).at(0);
 }
@@ -56,15 +61,42 @@ TEST(Histogram, MatchesTheReferenceAtEverySizeAndLevel) {
         for (uint32_t level : {1u, 2u, 5u})
             for (uint32_t bins : {1u, 100u, 256u}) {
                 const HistogramSettings settings{.bins = bins};
-                const auto p = push_of(image, level, settings);
+                auto p = push_of(image, level, settings);
                 const auto texels = random_level(p, -6, 9, image.width + level);
-                const auto want = reference::histogram(std::span<const glm::vec4>(texels), p, kDoubt);
-                const auto got = count(rig, texels, image, p, settings);
-                EXPECT_EQ(got.finite, want.exact.finite);
-                EXPECT_EQ(got.non_finite, want.exact.non_finite);
-                EXPECT_TRUE(want.admits(got))
+                reference::Votes want;
+                reference::vote(want, std::span<const glm::vec4>(texels), p);
+                std::vector<glm::vec4> fine;
+                if (level > 1) {
+                    auto first = push_of(image, 1, settings);
+                    first.census = 0;
+                    fine = random_level(first, -6, 9, image.width);
+                    reference::vote(want, std::span<const glm::vec4>(fine), first);
+                }
+                // Each texel rounds its votes, and its position is in doubt; errors of many add up like a random walk, so
+                // that a thousandth of a bin's votes is far more than they come to.
+                const double rounding = std::sqrt(double(texels.size() + fine.size())) + 1;
+                const double allowed = rounding + kDoubt * want.counted.votes / std::sqrt(double(texels.size() + fine.size()));
+                EXPECT_TRUE(want.admits(count(rig, texels, image, p, settings, fine), allowed))
                     << image.width << " x " << image.height << " level " << level << ", " << bins << " bins";
             }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// As the paper has it: whole votes of the foveal level alone. A texel at an edge may fall on either side.
+TEST(Histogram, WholeVotesOfOneLevel) {
+    PassRig rig;
+    const VkExtent2D image{1680, 1050};
+    const HistogramSettings settings{.split = false, .fine = false};
+    const auto p = push_of(image, 5, settings);
+    const auto texels = random_level(p, -6, 9, 3);
+    reference::Votes want;
+    reference::vote(want, std::span<const glm::vec4>(texels), p);
+    const auto got = count(rig, texels, image, p, settings);
+    EXPECT_EQ(got.votes, got.finite * p.votes);
+    EXPECT_TRUE(want.admits(got, 1024.0 * p.votes));
+    int whole = 0;
+    for (uint32_t i = 0; i < settings.bins; ++i) whole += got.count[i] == want.count[i];
+    EXPECT_GE(whole, 98) << "one texel at an edge at most";
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -76,7 +108,7 @@ TEST(Histogram, OneTexelInEveryBin) {
     std::vector<glm::vec4> texels;
     for (int i = 0; i < 100; ++i) texels.emplace_back(std::pow(10.0, -4 + (i + 0.5) / 10), 4, 0, 0);
     const auto got = count(rig, texels, image, p, settings);
-    for (uint32_t i = 0; i < 100; ++i) EXPECT_EQ(got.count[i], 4u) << "bin " << i;
+    for (uint32_t i = 0; i < 100; ++i) EXPECT_NEAR(got.count[i], 4 * p.votes, 4 * p.votes * kDoubt) << "bin " << i;
     EXPECT_EQ(got.finite, 400u);
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -88,8 +120,8 @@ TEST(Histogram, BlackNegativeAndExtremeTexelsCountInTheEndBins) {
     const std::vector<glm::vec4> texels{{0, 4, 0, 0},     {-5, 4, 0, 0},   {1e-30f, 4, 0, 0},
                                         {1e30f, 4, 0, 0}, {1e8f, 3, 0, 0}, {0, 0, 0, 0}};
     const auto got = count(rig, texels, {12, 2}, p, settings);
-    EXPECT_EQ(got.count[0], 12u);
-    EXPECT_EQ(got.count[99], 7u);
+    EXPECT_EQ(got.count[0], 12u * p.votes);
+    EXPECT_EQ(got.count[99], 7u * p.votes);
     EXPECT_EQ(got.finite, 19u);
     EXPECT_EQ(got.non_finite, 5u);
     EXPECT_EQ(rig.complaints(), "");
@@ -120,7 +152,10 @@ TEST(Histogram, CountsThePyramidsTexels) {
     const auto got = rig.got<shared::Histogram>(kept).at(0);
     EXPECT_EQ(got.non_finite, 51u);
     EXPECT_EQ(got.finite, 561u - 51u);
-    EXPECT_EQ(got.count[34], got.finite) << "log10 0.3 = -0.523";
+    // log10 0.3 = -0.5229: 0.27 bins above the middle of bin 34. Both levels vote.
+    EXPECT_EQ(got.count[34] + got.count[35], got.votes);
+    EXPECT_EQ(got.votes % (2 * got.finite), 0u);
+    EXPECT_NEAR(double(got.count[35]) / got.votes, 0.271213, kDoubt);
     EXPECT_EQ(rig.complaints(), "");
 }
 

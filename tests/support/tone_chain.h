@@ -16,11 +16,18 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
     const auto& level = levels.at(foveal_level - 1);
     const HistogramSettings& bins = settings.histogram;
     const Display& display = settings.display;
-    const shared::HistogramPush votes{{extent.width, extent.height}, {level.width, level.height}, foveal_level, bins.bins, bins.ln_low(), bins.bins_per_ln()};
-    const shared::AdaptPush push{bins.bins, bins.ln_low(), bins.bins_per_ln(), display.low(), display.high(), settings.tone.key, settings.tone.white,
-                                 settings.tone.linear_low, settings.tone.linear_high, seconds};
-    const auto histogram = reference::histogram(std::span<const glm::dvec4>(level.texels), votes).exact;
-    const auto adapted = reference::adapt(histogram, levels.back().texels.at(0), previous, push);
+    const OperatorInfo& op = operator_info(settings.tone_operator);
+    const auto push_of = [&](uint32_t k, bool census) {
+        return shared::HistogramPush{{extent.width, extent.height}, {levels[k - 1].width, levels[k - 1].height}, k, bins.bins, bins.ln_low(), bins.bins_per_ln(),
+                                     uint32_t(std::clamp<uint64_t>(0xffffffffu / (uint64_t(2) * extent.width * extent.height), 1, 4096)), bins.split ? 1u : 0u, census ? 1u : 0u};
+    };
+    reference::Votes votes;
+    reference::vote(votes, std::span<const glm::dvec4>(level.texels), push_of(foveal_level, true));
+    if (bins.fine && foveal_level > 1) reference::vote(votes, std::span<const glm::dvec4>(levels[0].texels), push_of(1, false));
+    shared::Histogram histogram = votes.counted;
+    for (size_t i = 0; i < votes.count.size(); ++i) histogram.count[i] = uint32_t(std::lround(votes.count[i]));
+    const shared::ToneParameters parameters = tone_parameters(op, bins, settings.tone, display, {foveal_level, {level.width, level.height}, extent}, seconds);
+    const auto adapted = reference::adapt({histogram, levels.back().texels.at(0), level, previous, parameters, settings.tone.observer, op.model});
     const shared::CompositePush show{{extent.width, extent.height}, display.low(), display.high(), 1 / display.gamma, 0};
     const reference::CompositeFrame<glm::vec4> frame{scene, {}, {}};
     std::vector<glm::dvec3> codes;

@@ -27,7 +27,7 @@ inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 1
     for (uint32_t i = 0; i < bins; ++i) steps.push_back(i % 7 == 3 ? 0 : 1 + std::sin(0.3 * i)), sum += steps.back();
     double at = 0;
     for (uint32_t i = 0; i <= bins; ++i) {
-        c.node[i] = float(low + range * at / sum);
+        c.node[i].x = float(low + range * at / sum);
         if (i < bins) at += steps[i];
     }
     return c;

@@ -24,12 +24,13 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"base", {}},
     {"io", {"base"}},
     {"photometry", {"base", "io"}},
-    {"scene", {"base", "io", "photometry"}},
+    {"perception", {"base", "io", "photometry"}},
+    {"scene", {"base", "io", "photometry", "perception"}},
     {"gpu", {"base"}},
     {"graph", {"base", "gpu"}},
     {"resident", {"base", "photometry", "scene", "gpu", "glsl"}},
-    {"passes", {"base", "photometry", "scene", "gpu", "graph", "resident", "glsl"}},
-    {"", {"base", "io", "photometry", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
+    {"passes", {"base", "photometry", "perception", "scene", "gpu", "graph", "resident", "glsl"}},
+    {"", {"base", "io", "photometry", "perception", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
 };
 
 std::string text_of(const fs::path& file) {

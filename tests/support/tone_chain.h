@@ -21,11 +21,10 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
                                  settings.tone.linear_low, settings.tone.linear_high, seconds};
     const auto histogram = reference::histogram(std::span<const glm::dvec4>(level.texels), votes).exact;
     const auto adapted = reference::adapt(histogram, levels.back().texels.at(0), previous, push);
-    const shared::CompositePush show{{extent.width, extent.height}, display.low(), display.high(), 1 / display.gamma, 0};
-    const reference::CompositeFrame<glm::vec4> frame{scene, {}, {}};
+    const reference::CompositeFrame<glm::vec4> frame{scene, {}, {}, {extent.width, extent.height}};
     std::vector<glm::dvec3> codes;
     for (uint32_t y = 0; y < extent.height; ++y)
-        for (uint32_t x = 0; x < extent.width; ++x) codes.push_back(reference::composite(frame, {x, y}, tone, adapted.tone, show));
+        for (uint32_t x = 0; x < extent.width; ++x) codes.push_back(reference::composite(frame, {x, y}, tone, adapted.tone, display));
     return codes;
 }
 

@@ -33,15 +33,24 @@ float displayed_luminance(samplerBuffer curve, Tone tone, float luminance, float
     return (exp(mix(below, above, at - bin)) - display_low) / (display_high - display_low);
 }
 
-// Displayed light of a pixel, RGB in [0, 1]. Colour keeps its ratios; where a channel would exceed white the pixel fades
-// towards the grey of its own luminance. Pixels that are not finite, or have no luminance, are black.
-vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, float display_low, float display_high) {
-    if (kTone == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(rgb, 0.0, 1.0) : vec3(0.0);
+// Displayed light of a pixel, RGB in [0, 1]; `own` is its colour in the display's primaries. Colour keeps its ratios; where
+// a channel would exceed white the pixel fades towards the grey of its own luminance. Pixels that are not finite, or have
+// no luminance, are black.
+vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, vec3 own, float display_low, float display_high) {
+    if (kTone == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(own, 0.0, 1.0) : vec3(0.0);
     const float luminance = luminance_of(rgb);
     if (!(luminance > 0.0 && luminance <= 3.4e38)) return vec3(0.0);
     const float d = clamp(displayed_luminance(curve, tone, luminance, display_low, display_high), 0.0, 1.0);
-    const vec3 light = max(rgb * (d / luminance), vec3(0.0));
+    const vec3 light = max(own * (d / luminance), vec3(0.0));
     const float brightest = max(light.r, max(light.g, light.b));
     if (brightest <= 1.0) return light;
     return clamp(d + (light - d) * ((1.0 - d) / (brightest - d)), 0.0, 1.0);
+}
+
+// The same in Rec. 709, whatever the display's limits.
+vec3 displayed_unbounded(samplerBuffer curve, Tone tone, vec3 rgb, float display_low, float display_high) {
+    if (kTone == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(rgb, 0.0, 1.0) : vec3(0.0);
+    const float luminance = luminance_of(rgb);
+    if (!(luminance > 0.0 && luminance <= 3.4e38)) return vec3(0.0);
+    return rgb * (max(displayed_luminance(curve, tone, luminance, display_low, display_high), 0.0) / luminance);
 }

@@ -13,29 +13,27 @@
 #include "renderer.h"
 #include "scene/gltf.h"
 #include "statistics.h"
+#include "tone_log.h"
+#include "tone_options.h"
 
 namespace vesper {
 namespace {
 
 struct RenderArguments {
-    std::string scene, camera, size = "1680x1050", device, lambert = "physical", tone_operator = "ward", glare = "none";
+    std::string scene, camera, size = "1680x1050", device, lambert = "physical", glare = "none";
     std::vector<std::string> outputs;
     std::string statistics_file;
     RenderSettings settings;
-    int foveal_level = 0;
+    ToneOptions tone;
+    std::string log_file, replay_file;
     unsigned frames = 1;
     double dt = 1.0 / 30, start = 0;
     bool statistics = false, plan = false;
 };
 
-const std::map<std::string, Operator> kOperators{{"irawan", Operator::Irawan}, {"ward", Operator::Ward}, {"reinhard", Operator::Reinhard}, {"linear", Operator::Linear}, {"ldr", Operator::Ldr}};
 const std::map<std::string, Glare> kGlares{{"none", Glare::None}, {"ldr", Glare::Ldr}};
 
-std::string name_of(Operator wanted) {
-    for (const auto& [name, value] : kOperators)
-        if (value == wanted) return name;
-    return {};
-}
+std::string name_of(Operator wanted) { return std::string(operator_info(wanted).name); }
 
 VkExtent2D parse_size(const std::string& text) {
     unsigned width = 0, height = 0;
@@ -72,7 +70,7 @@ Header describe_frame(const RenderArguments& arguments, const Device& device, co
     std::string pose;
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + number(double(view.world_to_view[c][r]));
-    return {{"vesper:version", VESPER_VERSION},
+    Header header{{"vesper:version", VESPER_VERSION},
             {"vesper:scene", arguments.scene},
             {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
             {"vesper:camera", arguments.camera},
@@ -88,6 +86,13 @@ Header describe_frame(const RenderArguments& arguments, const Device& device, co
             {"vesper:displayLow", number(double(arguments.settings.display.low()))},
             {"vesper:displayHigh", number(double(arguments.settings.display.high()))},
             {"vesper:device", device.name() + ", " + device.driver()}};
+    for (const auto& [name, value] : named_state(frame.eye)) header.emplace_back("vesper:eye:" + name, number(value));
+    std::string shares, curve;
+    for (uint32_t i = 0; i < uint32_t(frame.eye.bins); ++i) shares += (shares.empty() ? "" : " ") + number(double(frame.eye.share[i]));
+    header.emplace_back("vesper:eye:shares", shares);
+    for (double shown : curve_samples(frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display)) curve += (curve.empty() ? "" : " ") + number(shown);
+    header.emplace_back("vesper:toneCurve", "display cd/m^2 at 1e-4 to 1e6 cd/m^2 in tenths of a decade: " + curve);
+    return header;
 }
 
 void print_statistics(const RenderArguments& arguments, const Device& device, const Renderer& renderer, const Frame& frame,
@@ -129,10 +134,9 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
 // Everything that can be wrong with the arguments alone, and what follows from them.
 void check_arguments(RenderArguments& arguments) {
     RenderSettings& settings = arguments.settings;
-    settings.tone_operator = kOperators.at(arguments.tone_operator);
+    apply(arguments.tone, settings);
     settings.glare = kGlares.at(arguments.glare);
     settings.paper_lambert = arguments.lambert == "paper";
-    if (arguments.foveal_level > 0) settings.foveal_level = uint32_t(arguments.foveal_level);
     for (const std::string& output : arguments.outputs) {
         const bool exr = ends_with(output, ".exr");
         if (!exr && !ends_with(output, ".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
@@ -140,25 +144,47 @@ void check_arguments(RenderArguments& arguments) {
         check_folder("-o", file_of_frame(output, 0, arguments.frames));
     }
     if (!arguments.statistics_file.empty()) check_folder("--stats-json", arguments.statistics_file);
-    if (arguments.outputs.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan)
-        throw Error("nothing to do: give -o, --stats, --stats-json or --plan");
-    if (settings.tone.linear_high > 0 && settings.tone.linear_high <= settings.tone.linear_low)
-        throw Error("--linear-max must be more than --linear-min");
+    if (!arguments.log_file.empty()) check_folder("--log", arguments.log_file);
+    if (arguments.outputs.empty() && arguments.log_file.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan)
+        throw Error("nothing to do: give -o, --stats, --stats-json, --log or --plan");
     if (settings.display.peak <= settings.display.black) throw Error("--display-peak must be more than --display-black");
 }
 
+// A frame to render: its time, how long after the one before, and, in a replay, what the eye remembers.
+struct Moment {
+    double seconds = 0;
+    float step = 0;
+    std::optional<shared::EyeState> eye;
+};
+
+std::vector<Moment> moments_of(const RenderArguments& arguments) {
+    std::vector<Moment> moments;
+    if (arguments.replay_file.empty()) {
+        for (unsigned i = 0; i < arguments.frames; ++i) moments.push_back({arguments.start + i * arguments.dt, i == 0 ? 0.0f : float(arguments.dt), {}});
+        return moments;
+    }
+    const std::vector<LoggedFrame> log = read_log(arguments.replay_file);
+    const unsigned frames = arguments.tone.command->count("--frames") ? arguments.frames : ~0u;
+    for (size_t i = 0; i < log.size() && moments.size() < frames; ++i)
+        if (log[i].seconds >= arguments.start) moments.push_back({log[i].seconds, log[i].step, i == 0 ? shared::EyeState{} : log[i - 1].eye});
+    if (moments.empty()) throw Error(arguments.replay_file + ": no frame from --start on");
+    return moments;
+}
+
 void run(RenderArguments& arguments) {
-    const VkExtent2D extent = parse_size(arguments.size);
     check_arguments(arguments);
+    const VkExtent2D extent = parse_size(preset_size(arguments.tone, arguments.size));
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
     Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs) (ends_with(output, ".png") ? outputs.display : outputs.scene) = true;
 
+    const std::vector<Moment> moments = moments_of(arguments);
+    arguments.frames = unsigned(moments.size());
     LoadedScene loaded = read_gltf(arguments.scene);
     loaded.scene.name = arguments.scene;
     for (const std::string& note : loaded.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     const Scene& scene = loaded.scene;
-    SceneFrame moment{world_transforms(scene, arguments.start)};
+    SceneFrame moment{world_transforms(scene, moments.front().seconds)};
     camera_view(scene, moment, arguments.camera, extent);  // a wrong name is known before a device is opened
     const std::vector<std::string> cameras = camera_names(scene);
     if (arguments.camera.empty() && !cameras.empty()) arguments.camera = cameras.front();
@@ -167,15 +193,18 @@ void run(RenderArguments& arguments) {
     Renderer renderer(device, scene);
     Progress progress("rendering", arguments.frames);
     std::vector<double> milliseconds;
+    std::string log = log_heading();
     for (unsigned index = 0; index < arguments.frames; ++index) {
-        const double seconds = arguments.start + index * arguments.dt;
+        const auto& [seconds, step, eye] = moments[index];
+        if (eye) renderer.set_eye(*eye);
         moment.world = world_transforms(scene, seconds);
         const View view = camera_view(scene, moment, arguments.camera, extent);
         const bool last = index + 1 == arguments.frames;
-        const Frame frame = renderer.render(arguments.settings, view, moment, index == 0 ? 0.0f : float(arguments.dt),
+        const Frame frame = renderer.render(arguments.settings, view, moment, step,
                                             {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
         write_outputs(arguments, device, view, frame, index, seconds);
+        if (!arguments.log_file.empty()) log += log_line(index, {seconds, step, frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display);
         if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);
         if (last) {
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
@@ -184,6 +213,7 @@ void run(RenderArguments& arguments) {
         }
         progress.step();
     }
+    if (!arguments.log_file.empty()) write_text(arguments.log_file, log);
 }
 
 }  // namespace
@@ -195,10 +225,12 @@ void add_render(CLI::App& program) {
     command->add_option("--output,-o", a->outputs, "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
     command->add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");
     command->add_option("--size,-s", a->size, "WIDTHxHEIGHT, px")->capture_default_str();
-    command->add_option("--operator", a->tone_operator, "How luminance is shown")->check(CLI::IsMember({"irawan", "ward", "reinhard", "linear", "ldr"}))->capture_default_str();
+    add_tone_options(*command, a->tone, a->settings);
     command->add_option("--glare", a->glare, "ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr"}))->capture_default_str();
     command->add_option("--frames", a->frames, "How many frames; files are numbered")->check(CLI::Range(1u, 1000000u))->capture_default_str();
     command->add_option("--dt", a->dt, "Time between frames, s")->check(between(1e-6, 3600.0))->capture_default_str();
+    command->add_option("--log", a->log_file, "Write the state of the eye and the tone curve of every frame to a CSV file");
+    command->add_option("--replay", a->replay_file, "Take times and the state of the eye from such a log: the same frames to the last bit; --start and --frames choose from them");
     command->add_option("--start", a->start, "Time of the first frame, s")->check(between(0.0, 1e6))->capture_default_str();
     command->add_flag("--stats", a->statistics, "Print luminances and milliseconds of the last frame");
     command->add_option("--stats-json", a->statistics_file, "Write the luminances of the last frame to a JSON file");
@@ -206,12 +238,6 @@ void add_render(CLI::App& program) {
     command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     command->add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")->check(CLI::IsMember({"physical", "paper"}))->capture_default_str();
     command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")->check(between(1e-9, 1e3))->capture_default_str();
-    command->add_option("--bins", a->settings.histogram.bins, "Bins of the histogram")->check(CLI::Range(1u, shared::kMaxBins))->capture_default_str();
-    command->add_option("--foveal-level", a->foveal_level, "Pyramid level of the histogram (default: 1 degree per texel; the paper: 5)")->check(CLI::Range(1, 14));
-    command->add_option("--key", a->settings.tone.key, "Reinhard: what the log average is shown as, relative to white")->check(between(1e-4, 10.0))->capture_default_str();
-    command->add_option("--white", a->settings.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
-    command->add_option("--linear-min", a->settings.tone.linear_low, "linear: luminance shown as black, cd/m^2")->check(between(0.0, 1e9))->capture_default_str();
-    command->add_option("--linear-max", a->settings.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
     command->add_option("--display-peak", a->settings.display.peak, "Display: luminance of white in the dark, cd/m^2")->check(between(0.1, 1e5))->capture_default_str();
     command->add_option("--display-black", a->settings.display.black, "Display: luminance of black in the dark, cd/m^2")->check(between(1e-6, 1e3))->capture_default_str();
     command->add_option("--display-gamma", a->settings.display.gamma, "Display: exponent")->check(between(0.5, 5.0))->capture_default_str();

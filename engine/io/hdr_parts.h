@@ -1,22 +1,10 @@
 // What the readers of HDR pictures share; not for others. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <glm/glm.hpp>
-
 #include "io/hdr_image.h"
+#include "io/primaries.h"
 
 namespace vesper::hdr {
-
-/// CIE xy chromaticities of the primaries and of white.
-struct Primaries {
-    glm::dvec2 red, green, blue, white;
-};
-constexpr Primaries kRec709{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}};
-constexpr Primaries kXyz{{1, 0}, {0, 1}, {0, 0}, {1.0 / 3, 1.0 / 3}};
-
-/// Colours of these primaries as Rec. 709: the same X, Y and Z, with Y(1, 1, 1) = 1 on both sides (SMPTE RP 177).
-/// Throws Error if the primaries span no volume.
-glm::dmat3 to_rec709(const Primaries&);
 
 /// Applies a matrix to all pixels; the identity leaves them as they are.
 void transform(HdrImage&, const glm::dmat3&);

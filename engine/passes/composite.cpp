@@ -1,15 +1,43 @@
 #include "passes/passes.h"
 
 namespace vesper {
+namespace {
+
+struct Show {
+    const Kernel& kernel;
+    shared::CompositePush push;
+    Resource luminance_glare, ldr_glare;  // a binding that the variant does not read still has to be bound: the scene stands in
+    Groups groups;
+};
+
+Show show(const Kernels& kernels, const CompositeInputs& in, uint32_t tone, const View& view, const Display& display, float ldr_glare_gain, bool light) {
+    const bool primaries = !light && display.primaries != kRec709;
+    const Kernel& kernel = kernels.composite({tone, bool(in.luminance_glare), bool(in.ldr_glare), primaries, light});
+    const auto [width, height] = view.extent;
+    const glm::mat3 rows(glm::transpose(glm::inverse(to_rec709(display.primaries))));
+    return {kernel,
+            {{width, height}, display.low(), display.high(), ldr_glare_gain, {}, rows[0], rows[1], rows[2]},
+            in.luminance_glare ? in.luminance_glare : in.scene,
+            in.ldr_glare ? in.ldr_glare : in.scene,
+            cover(width, height, kernel.group[0], kernel.group[1] * kernels.composite_rows)};
+}
+
+}  // namespace
 
 Resource add_composite(FrameGraph& graph, const Kernels& kernels, const CompositeInputs& in, uint32_t tone, const View& view, const Display& display, float ldr_glare_gain) {
+    Show s = show(kernels, in, tone, view, display, ldr_glare_gain, false);
+    const Encoding encoding = make_encoding(display);
+    s.push.encode = encoding.push;
+    const Resource cells = graph.upload("code cells", encoding.cells, VK_FORMAT_R32G32B32A32_SFLOAT);
     const Resource image = graph.transient("display", image_shape(kDisplayFormat, view.extent));
-    const Kernel& kernel = kernels.composite[Kernels::composite_index(tone, bool(in.luminance_glare), bool(in.ldr_glare))];
-    const shared::CompositePush push{{view.extent.width, view.extent.height}, display.low(), display.high(), 1 / display.gamma, ldr_glare_gain};
-    // A binding that the variant does not read still has to be bound: the scene stands in.
-    graph.dispatch("composite", kernel,
-                   {load(in.scene), sample(in.curve), load(in.luminance_glare ? in.luminance_glare : in.scene), sample(in.ldr_glare ? in.ldr_glare : in.scene), store(image)},
-                   push, cover(view.extent.width, view.extent.height, kernel.group[0], kernel.group[1] * kernels.composite_rows));
+    graph.dispatch("composite", s.kernel, {load(in.scene), sample(in.curve), load(s.luminance_glare), sample(s.ldr_glare), sample(cells), store(image)}, s.push, s.groups);
+    return image;
+}
+
+Resource add_display_light(FrameGraph& graph, const Kernels& kernels, const CompositeInputs& in, uint32_t tone, const View& view, const Display& display, float ldr_glare_gain) {
+    const Show s = show(kernels, in, tone, view, display, ldr_glare_gain, true);
+    const Resource image = graph.transient("display light", image_shape(kDisplayLightFormat, view.extent));
+    graph.dispatch("display light", s.kernel, {load(in.scene), sample(in.curve), load(s.luminance_glare), sample(s.ldr_glare), store(image)}, s.push, s.groups);
     return image;
 }
 

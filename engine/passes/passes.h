@@ -11,6 +11,7 @@
 
 #include "graph/frame_graph.h"
 #include "passes/operators.h"
+#include "perception/display.h"
 #include "perception/eye.h"
 #include "resident/formats.h"
 #include "resident/kernels.h"
@@ -118,20 +119,6 @@ struct HistogramSettings {
 /// Votes of ln luminance over the texels of one pyramid level (1-based), and of level 1 as settings say. A shared::Histogram.
 Resource add_histogram(FrameGraph&, const Kernels&, const Pyramid&, uint32_t level, VkExtent2D image, const HistogramSettings&);
 
-/// A display and the light that falls on it (Mantiuk, Daly and Kerofsky 2008): L(V) = (peak - black) V^gamma + black +
-/// reflection * ambient / pi.
-struct Display {
-    float peak = 100;        ///< cd/m^2, of code 1 in the dark
-    float black = 0.1f;      ///< cd/m^2, of code 0 in the dark
-    float gamma = 2.2f;
-    float ambient = 5;       ///< illuminance on the screen, lx
-    float reflection = 0.01f;///< diffuse reflectance of the screen
-
-    /// Luminance of code 0 and of code 1, cd/m^2.
-    float low() const { return black + reflection * ambient / std::numbers::pi_v<float>; }
-    float high() const { return peak + reflection * ambient / std::numbers::pi_v<float>; }
-};
-
 struct ToneSettings {
     float key = 0.18f;         ///< Reinhard 2002
     float white = 0;           ///< Reinhard 2002: cd/m^2 shown as white; 0: the frame's maximum
@@ -186,9 +173,23 @@ struct CompositeInputs {
     Resource ldr_glare;        ///< optional: what add_ldr_glare gave; added after the curve
 };
 
-/// Maps scene luminance to display codes, rgba8: tone curve, colour at the mapped luminance (desaturated, at constant
-/// luminance, where a channel would exceed white), glare, inverse display model. Non-finite pixels are black.
+/// Maps scene luminance to display codes: tone curve, colour at the mapped luminance (desaturated, at constant
+/// luminance, where a channel of the display would exceed white), glare, and the codes of the display. One word per
+/// pixel, r32ui, red in its lowest bits: 8 bits a channel and alpha 255, or 10 bits and alpha 3. A channel's code is
+/// the whole number nearest to what the display would need, exactly. Pixels that are not finite show the darkest.
 Resource add_composite(FrameGraph&, const Kernels&, const CompositeInputs&, uint32_t tone, const View&, const Display&,
                        float ldr_glare_gain);
+
+/// The same without the limits of the display, rgba32f, cd/m^2 in Rec. 709: what it would emit and reflect if it had
+/// every colour and no peak.
+Resource add_display_light(FrameGraph&, const Kernels&, const CompositeInputs&, uint32_t tone, const View&,
+                           const Display&, float ldr_glare_gain);
+
+/// Displayed light to codes: cells of light, see shared/encode.h.
+struct Encoding {
+    std::vector<glm::vec4> cells;
+    shared::EncodePush push;
+};
+Encoding make_encoding(const Display&);
 
 }  // namespace vesper

@@ -5,6 +5,7 @@
 #include "shaders/bright.comp.inc"
 #include "shaders/cluster.comp.inc"
 #include "shaders/composite.comp.inc"
+#include "shaders/display_light.comp.inc"
 #include "shaders/histogram.comp.inc"
 #include "shaders/pyramid.comp.inc"
 #include "shaders/select.comp.inc"
@@ -30,15 +31,6 @@ std::vector<Kernel> make_bright(const Device& device) {
     return kernels;
 }
 
-std::vector<Kernel> make_composite(const Device& device, uint32_t rows) {
-    std::vector<Kernel> kernels;
-    for (uint32_t tone = 0; tone < kTones; ++tone)
-        for (uint32_t luminance_glare : {0u, 1u})
-            for (uint32_t ldr_glare : {0u, 1u})
-                kernels.emplace_back(device, "composite.comp", composite_comp, std::initializer_list{tone, luminance_glare, ldr_glare, rows});
-    return kernels;
-}
-
 }  // namespace
 
 // A CPU device fetches a light once for eight pixels and works on rows of 32; a GPU on squares, a pixel each.
@@ -57,7 +49,6 @@ Kernels::Kernels(const Device& device)
       bright(make_bright(device)),
       blur(device, "blur.comp", blur_comp),
       composite_rows(device.is_cpu() ? 4 : 1),
-      composite(make_composite(device, composite_rows)),
       device_(device) {}
 
 const Kernel& Kernels::shade(uint32_t variant) const {
@@ -75,6 +66,14 @@ const Kernel& Kernels::select(uint32_t variant) const {
     if (found != select_.end()) return found->second;
     Kernel kernel(device_, "select.comp", select_comp, {variant & kPowers ? 1u : 0u, variant & kMaps ? 1u : 0u});
     return select_.emplace(variant, std::move(kernel)).first->second;
+}
+
+const Kernel& Kernels::composite(const CompositeVariant& variant) const {
+    const auto found = composite_.find(variant);
+    if (found != composite_.end()) return found->second;
+    const std::initializer_list<uint32_t> constants{variant.tone, variant.luminance_glare, variant.ldr_glare, composite_rows, variant.primaries};
+    Kernel kernel = variant.light ? Kernel(device_, "display_light.comp", display_light_comp, constants) : Kernel(device_, "composite.comp", composite_comp, constants);
+    return composite_.emplace(variant, std::move(kernel)).first->second;
 }
 
 }  // namespace vesper

@@ -1,6 +1,7 @@
 // The compute shaders of the frame, made once per device. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <compare>
 #include <map>
 #include <vector>
 
@@ -28,17 +29,22 @@ struct Kernels {
     std::vector<Kernel> bright;     ///< by shared::kTone*
     Kernel blur;
     uint32_t composite_rows;        ///< pixels of a column that one invocation of the composite does
-    std::vector<Kernel> composite;  ///< see composite_index
+    /// What the composite and display_light.comp have code for. Made when first asked for.
+    struct CompositeVariant {
+        uint32_t tone = 0;  ///< shared::kTone*
+        bool luminance_glare = false, ldr_glare = false;
+        bool primaries = false;  ///< others than Rec. 709
+        bool light = false;      ///< display_light.comp
+        auto operator<=>(const CompositeVariant&) const = default;
+    };
+    const Kernel& composite(const CompositeVariant&) const;
 
     explicit Kernels(const Device& device);
-
-    static size_t composite_index(uint32_t tone, bool luminance_glare, bool ldr_glare) {
-        return tone * 4 + (luminance_glare ? 2 : 0) + (ldr_glare ? 1 : 0);
-    }
 
 private:
     const Device& device_;
     mutable std::map<uint32_t, Kernel> shade_, select_;
+    mutable std::map<CompositeVariant, Kernel> composite_;
 };
 
 }  // namespace vesper

@@ -1,6 +1,7 @@
-// Glare of the display image, and the last step to codes. SPDX-License-Identifier: MIT
+// Glare of the display image, and the way to its codes. SPDX-License-Identifier: MIT
 #ifndef VESPER_SHARED_COMPOSITE_H
 #define VESPER_SHARED_COMPOSITE_H
+#include "encode.h"
 #include "tone.h"
 SHARED_BEGIN
 
@@ -27,10 +28,11 @@ struct CompositePush {
     uvec2 size;           // px
     float display_low;    // cd/m^2
     float display_high;
-    float inverse_gamma;  // code = displayed light ^ inverse_gamma
     float ldr_glare;      // gain of the LDR glare; 0: none
+    EncodePush encode;    // of composite.comp only
+    vec3 red, green, blue;  // of the display = dot(these, linear Rec. 709), where its primaries are others
 };
-SHARED_SIZE(CompositePush, 24)
+SHARED_SIZE(CompositePush, 72)
 
 SHARED_END
 #endif

@@ -68,11 +68,49 @@ TEST_F(Program, DrawsLampsThatHaveAnOpening) {
     }
 }
 
+// A street of one bright wall that comes nearer: states and curves in the log, and any frame again from it.
+TEST_F(Program, LogsTheEyeAndReplaysItToTheLastBit) {
+    std::ofstream(folder / "empty.gltf")
+        << R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],)"
+        << R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":500}]}},)"
+        << R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],)"
+        << R"("nodes":[{"name":"eye","camera":0},{"translation":[0,0,-10],"extensions":{"KHR_lights_punctual":{"light":0}}}],)"
+        << R"("extras":{"vesper":{"version":1,"openings":[{"light":0,"width_m":3,"height_m":2}]}}})";
+    for (const char* op : {"irawan", "ward", "reinhard"}) {
+        const std::string chosen = "--operator " + std::string(op);
+        ASSERT_EQ(render(chosen + " --frames 6 --dt 0.05 --log log.csv -o a%d.png -o a%d.exr"), 0) << said;
+        const std::string log = text_of(folder / "log.csv");
+        EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 7);
+        ASSERT_EQ(render(chosen + " --replay log.csv --start 0.17 --frames 2 --log again.csv -o b%d.png"), 0) << said;
+        EXPECT_EQ(text_of(folder / "b0.png"), text_of(folder / "a4.png")) << op;
+        EXPECT_EQ(text_of(folder / "b1.png"), text_of(folder / "a5.png")) << op;
+        ASSERT_EQ(render(chosen + " --replay log.csv --log again.csv"), 0) << said;
+        EXPECT_EQ(text_of(folder / "again.csv"), log) << op;
+    }
+    const std::string header = text_of(folder / "a5.exr").substr(0, 20000);
+    for (const char* name : {"vesper:eye:cone_pigment", "vesper:eye:shares", "vesper:toneCurve"}) EXPECT_NE(header.find(name), std::string::npos) << name;
+    for (const char* bad : {"", "frame\n1\n"}) {
+        std::ofstream(folder / "bad.csv") << bad;
+        expect_refused("--replay bad.csv -o c.png");
+    }
+    std::ofstream(folder / "bad.csv") << text_of(folder / "log.csv").substr(0, 5000);
+    expect_refused("--replay bad.csv -o c.png");
+    expect_refused("--replay none.csv -o c.png");
+    expect_refused("--replay log.csv --start 9 -o c.png");
+}
+
+TEST_F(Program, HasThePresetOfThePaper) {
+    ASSERT_EQ(render("--preset paper --stats -o a.png"), 0) << said;
+    const std::string report = text_of(folder / "out.txt");
+    EXPECT_NE(report.find("irawan"), std::string::npos) << report;
+    EXPECT_NE(report.find("16x8"), std::string::npos) << "--size was given";
+}
+
 TEST_F(Program, RefusesWhatCannotBeInOneLine) {
     for (const char* arguments : {"", "-o a.tiff", "-o none/a.png", "-o a.png --stats-json none/a.json", "-o a.png --operator foo", "-o a.exr --operator ldr",
                                   "-o a.png --threshold nan", "-o a.png --dt nan", "-o a.png --frames 0", "-o a.png --frames 2 -o b%99d.png",
                                   "-o a.png --linear-min 5 --linear-max 1", "-o a.png --display-peak 1 --display-black 5", "-o a.png --camera nope",
-                                  "-o a.png --foveal-level 14", "-o a.png --nonsense", "-o a.png --size 0x5", "-o a.png --device nowhere"})
+                                  "-o a.png --foveal-level 14", "-o a.png --gaze 0.5", "-o a.png --gaze 2,0", "-o a.png --age 0", "-o a.png --smoothing -1", "-o a.png --adapt-to sun", "-o a.png --nonsense", "-o a.png --size 0x5", "-o a.png --device nowhere"})
         expect_refused(arguments);
     EXPECT_FALSE(fs::exists(folder / "a.png"));
     EXPECT_NE(render("-o a.png --camera nope"), 0);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "passes/pyramid_reference.h"
+#include "perception/display.h"
 #include "shared/composite.h"
 
 namespace vesper::reference {
@@ -33,15 +34,28 @@ inline double tone_mapped(double y, uint32_t tone, const shared::ToneCurve& c, d
     return std::clamp(d, 0.0, 1.0);
 }
 
+/// From linear Rec. 709 to a display's primaries: the same XYZ (Lindbloom, "RGB/XYZ matrices").
+inline glm::dmat3 from_rec709(const Primaries& to) {
+    const auto to_xyz = [](const Primaries& p) {
+        const auto xyz = [](dvec2 c) { return dvec3(c.x / c.y, 1, (1 - c.x - c.y) / c.y); };
+        const glm::dmat3 m(xyz(p.red), xyz(p.green), xyz(p.blue));
+        const dvec3 s = glm::inverse(m) * xyz(p.white);
+        return glm::dmat3(m[0] * s.x, m[1] * s.y, m[2] * s.z);
+    };
+    return glm::inverse(to_xyz(to)) * to_xyz(kRec709);
+}
+
 /// Displayed light of a scene colour: the colour at the mapped luminance, no channel negative, and where one would
-/// exceed white the colour moved towards the grey of the mapped luminance. Non-finite pixels are black.
-inline dvec3 displayed(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high) {
+/// exceed white the colour moved towards the grey of the mapped luminance. Non-finite pixels are black. `to_own` gives
+/// the colour in the display's primaries.
+inline dvec3 displayed(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high,
+                       const glm::dmat3& to_own = glm::dmat3(1)) {
     if (!finite(rgb)) return dvec3(0);
-    if (tone == shared::kToneLdr) return glm::clamp(rgb, 0.0, 1.0);
+    if (tone == shared::kToneLdr) return glm::clamp(to_own * rgb, 0.0, 1.0);
     const double y = luminance(rgb);
     if (!(y > 0)) return dvec3(0);
     const double d = tone_mapped(y, tone, c, display_low, display_high);
-    const dvec3 colour = glm::max(rgb / y * d, dvec3(0));
+    const dvec3 colour = glm::max(to_own * rgb / y * d, dvec3(0));
     const double most = std::max({colour.x, colour.y, colour.z});
     if (!(most > 1)) return colour;
     if (d >= 1) return dvec3(1);
@@ -60,9 +74,31 @@ dvec3 bilinear(std::span<const Rgb> image, uint32_t width, uint32_t height, dvec
                     glm::mix(texel(low.x, low.y + 1), texel(low.x + 1, low.y + 1), f.x), f.y);
 }
 
-/// Code of displayed light, in [0, 255], not yet rounded.
-inline dvec3 code(dvec3 shown, double inverse_gamma) {
-    return 255.0 * glm::pow(glm::clamp(shown, 0.0, 1.0), dvec3(inverse_gamma));
+/// Signal in [0, 1] for which a display emits a luminance, cd/m^2: the transfer functions as their standards give the
+/// inverse. A table is searched.
+inline double signal_of(double luminance, const Display& display) {
+    const double black = double(display.black), peak = double(display.peak), light = std::clamp((luminance - black) / (peak - black), 0.0, 1.0);
+    switch (display.eotf) {
+        case Eotf::Gamma: return std::pow(light, 1 / double(display.gamma));
+        case Eotf::Srgb: return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+        case Eotf::Pq: {  // ST 2084, 5.2
+            const double y = std::pow(std::clamp(luminance, black, peak) / 10000, 0.1593017578125);
+            return std::pow((0.8359375 + 18.8515625 * y) / (1 + 18.6875 * y), 78.84375);
+        }
+        case Eotf::Table: break;
+    }
+    const DisplayCurve curve(display);
+    double low = 0, high = 1;
+    for (int i = 0; i < 60; ++i) (curve.emitted((low + high) / 2) < luminance ? low : high) = (low + high) / 2;
+    return high;
+}
+
+/// Codes of displayed light, not yet rounded.
+inline dvec3 code(dvec3 shown, const Display& display) {
+    dvec3 codes;
+    for (int c = 0; c < 3; ++c)
+        codes[c] = display.largest_code() * signal_of(double(display.black) + (double(display.peak) - double(display.black)) * std::clamp(shown[c], 0.0, 1.0), display);
+    return codes;
 }
 
 /// What the composite needs beside the scene. The glares may be absent.
@@ -71,26 +107,41 @@ struct CompositeFrame {
     std::span<const Rgb> scene;            ///< cd/m^2
     std::span<const Rgb> luminance_glare;  ///< cd/m^2, full size
     std::span<const Rgb> ldr_glare;        ///< displayed light, a quarter of the size
+    shared::uvec2 size;                    ///< px
+    double gain = 1;                       ///< of the LDR glare
 };
 
 /// Unrounded codes of one pixel.
 template <class Rgb>
 dvec3 composite(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t tone, const shared::ToneCurve& curve,
-                const shared::CompositePush& p) {
+                const Display& display) {
     const auto load = [&](std::span<const Rgb> image) {
-        const auto& t = image[size_t(pixel.y) * p.size.x + pixel.x];
+        const auto& t = image[size_t(pixel.y) * frame.size.x + pixel.x];
         return dvec3(t.x, t.y, t.z);
     };
     dvec3 light = load(frame.scene);
     if (!frame.luminance_glare.empty()) light += load(frame.luminance_glare);
-    dvec3 shown = displayed(light, tone, curve, p.display_low, p.display_high);
+    const glm::dmat3 to_own = from_rec709(display.primaries);
+    dvec3 shown = displayed(light, tone, curve, double(display.low()), double(display.high()), to_own);
     if (!frame.ldr_glare.empty()) {
         const double shrink = shared::kGlareShrink;
-        const uint32_t width = (p.size.x + shared::kGlareShrink - 1) / shared::kGlareShrink;
-        const uint32_t height = (p.size.y + shared::kGlareShrink - 1) / shared::kGlareShrink;
-        shown += double(p.ldr_glare) * bilinear(frame.ldr_glare, width, height, (dvec2(pixel) + 0.5) / shrink - 0.5);
+        const uint32_t width = (frame.size.x + shared::kGlareShrink - 1) / shared::kGlareShrink;
+        const uint32_t height = (frame.size.y + shared::kGlareShrink - 1) / shared::kGlareShrink;
+        shown += to_own * (frame.gain * bilinear(frame.ldr_glare, width, height, (dvec2(pixel) + 0.5) / shrink - 0.5));
     }
-    return code(shown, p.inverse_gamma);
+    return code(shown, display);
+}
+
+/// What the display would show of a scene colour without its limits, cd/m^2: colour keeps its ratios.
+inline dvec3 display_light(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, const Display& display) {
+    const double low = double(display.low()), range = double(display.high()) - low, y = luminance(rgb);
+    if (tone == shared::kToneLdr) return low + range * displayed(rgb, tone, c, low, low + range);
+    if (!finite(rgb) || !(y > 0)) return dvec3(low);
+    const double x = c.reinhard_scale * y;
+    const double d = tone == shared::kToneReinhard ? x * (1 + x * c.reinhard_white) / (1 + x)
+                     : tone == shared::kToneLinear ? std::max((y - c.linear_low) * c.linear_gain, 0.0)
+                                                   : tone_mapped(y, tone, c, low, low + range);
+    return low + range * d * rgb / y;
 }
 
 }  // namespace vesper::reference

@@ -104,20 +104,39 @@ TEST(CompositeReference, BilinearHitsTexelsAndTheMeansBetween) {
     EXPECT_EQ(bilinear(texels, 2, 2, {9, 9}), dvec3(8));
 }
 
-TEST(CompositeReference, CodesInvertTheDisplaysGamma) {
-    EXPECT_EQ(code(dvec3(0, 1, 4), 1 / 2.2), dvec3(0, 255, 255));
-    EXPECT_NEAR(code(dvec3(std::pow(0.5, 2.2)), 1 / 2.2).x, 127.5, 1e-9);
+TEST(CompositeReference, CodesInvertTheDisplay) {
+    const Display gamma{.gamma = 2};
+    EXPECT_EQ(code(dvec3(0, 1, 4), gamma), dvec3(0, 255, 255));
+    EXPECT_NEAR(code(dvec3(0.25), gamma).x, 127.5, 1e-9);
+    const Display srgb{.eotf = Eotf::Srgb};  // IEC 61966-2-1: 18 % grey is 117.6, and the line below 0.0031308
+    EXPECT_NEAR(code(dvec3(0.18), srgb).x, 117.6, 0.1);
+    EXPECT_NEAR(code(dvec3(0.001), srgb).x, 255 * 0.01292, 1e-6);
+    // ITU-R BT.2408: 100 cd/m^2 is 50.8 %, 203 cd/m^2 is 58.1 %, 1000 cd/m^2 is 75.2 % of PQ.
+    const Display pq{.peak = 10000, .black = 0, .eotf = Eotf::Pq, .bits = 10};
+    EXPECT_NEAR(code({0.01, 0.0203, 0.1}, pq).x / 1023, 0.508, 5e-4);
+    EXPECT_NEAR(code({0.01, 0.0203, 0.1}, pq).y / 1023, 0.581, 5e-4);
+    EXPECT_NEAR(code({0.01, 0.0203, 0.1}, pq).z / 1023, 0.752, 5e-4);
+    const Display table{.peak = 100, .black = 1, .eotf = Eotf::Table, .table = {{0, 1}, {0.25, 5}, {0.7, 60}, {1, 100}}};
+    EXPECT_NEAR(code(dvec3(59.0 / 99), table).x, 0.7 * 255, 1e-6);
+}
+
+TEST(CompositeReference, PrimariesKeepTheColour) {
+    // ITU-R BT.2087: Rec. 709 red, green and blue in Rec. 2020.
+    const glm::dmat3 m = from_rec709(kRec2020);
+    const glm::dmat3 want{{0.6274, 0.0691, 0.0164}, {0.3293, 0.9195, 0.0880}, {0.0433, 0.0114, 0.8956}};
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(glm::length(m[c] - want[c]), 0, 1e-4) << c;
+    EXPECT_NEAR(glm::length(m * dvec3(1) - dvec3(1)), 0, 1e-12) << "white";
 }
 
 TEST(CompositeReference, GlareOfEitherKindIsAdded) {
     shared::ToneCurve c{};
     c.linear_gain = 0.01f;
     const std::vector<dvec3> scene(25, dvec3(20)), veil(25, dvec3(30)), ldr(4, dvec3(0.1));
-    const shared::CompositePush p{{5, 5}, 0, 1, 1, 2};
+    Display display{.peak = 1, .black = 0, .gamma = 1, .ambient = 0};
     const auto value = [&](bool with_veil, bool with_ldr) {
         const CompositeFrame<dvec3> frame{scene, with_veil ? std::span(veil) : std::span<const dvec3>{},
-                                          with_ldr ? std::span(ldr) : std::span<const dvec3>{}};
-        return composite(frame, {4, 2}, shared::kToneLinear, c, p).y / 255;
+                                          with_ldr ? std::span(ldr) : std::span<const dvec3>{}, {5, 5}, 2};
+        return composite(frame, {4, 2}, shared::kToneLinear, c, display).y / 255;
     };
     EXPECT_NEAR(value(false, false), 0.2, 1e-7);
     EXPECT_NEAR(value(true, false), 0.5, 1e-7) << "luminance, before the curve";

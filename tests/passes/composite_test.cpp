@@ -24,10 +24,7 @@ struct Inputs {
 
 VkExtent2D quarter(VkExtent2D e) { return {(e.width + 3) / 4, (e.height + 3) / 4}; }
 
-std::vector<uint8_t> composite(PassRig& rig, const Inputs& in, uint32_t tone) {
-    FrameGraph graph;
-    View view;
-    view.extent = in.extent;
+CompositeInputs inputs_of(PassRig& rig, FrameGraph& graph, const Inputs& in) {
     CompositeInputs inputs{rig.image(graph, "scene", kSceneFormat, in.extent, in.scene),
                            graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT),
                            {},
@@ -35,25 +32,42 @@ std::vector<uint8_t> composite(PassRig& rig, const Inputs& in, uint32_t tone) {
     if (!in.veil.empty()) inputs.luminance_glare = rig.image(graph, "veil", kSceneFormat, in.extent, in.veil);
     if (!in.glare.empty())
         inputs.ldr_glare = rig.image(graph, "glare", kGlareFormat, quarter(in.extent), to_halves(in.glare));
-    const Resource kept =
-        keep<glm::u8vec4>(graph, add_composite(graph, rig.kernels(), inputs, tone, view, in.display, in.gain));
-    rig.run(graph);
-    return rig.got<uint8_t>(kept);
+    return inputs;
 }
 
-void expect_reference(const std::vector<uint8_t>& got, const Inputs& in, uint32_t tone) {
+View view_of(VkExtent2D extent) {
+    View view;
+    view.extent = extent;
+    return view;
+}
+
+/// Codes, RGBA.
+std::vector<uint16_t> composite(PassRig& rig, const Inputs& in, uint32_t tone) {
+    FrameGraph graph;
+    const CompositeInputs inputs = inputs_of(rig, graph, in);
+    const Resource kept = keep<uint32_t>(
+        graph, add_composite(graph, rig.kernels(), inputs, tone, view_of(in.extent), in.display, in.gain));
+    rig.run(graph);
+    std::vector<uint16_t> codes;
+    for (const uint32_t word : rig.got<uint32_t>(kept)) {
+        for (uint32_t c = 0; c < 3; ++c) codes.push_back(uint16_t(word >> c * in.display.bits & in.display.largest_code()));
+        codes.push_back(uint16_t(word >> 3 * in.display.bits));
+    }
+    return codes;
+}
+
+void expect_reference(const std::vector<uint16_t>& got, const Inputs& in, uint32_t tone) {
     const auto [w, h] = in.extent;
-    const shared::CompositePush p{{w, h}, in.display.low(), in.display.high(), 1 / in.display.gamma, in.gain};
-    const reference::CompositeFrame<glm::vec4> frame{in.scene, in.veil, in.glare};
+    const reference::CompositeFrame<glm::vec4> frame{in.scene, in.veil, in.glare, {w, h}, double(in.gain)};
     Picture got_codes(w, h, 3), want(w, h, 3);
     for (uint32_t y = 0; y < h; ++y)
         for (uint32_t x = 0; x < w; ++x) {
-            const auto code = reference::composite(frame, {x, y}, tone, in.curve, p);
+            const auto code = reference::composite(frame, {x, y}, tone, in.curve, in.display);
             for (uint32_t c = 0; c < 3; ++c) {
                 got_codes.at(x, y, c) = got[4 * (size_t(y) * w + x) + c];
                 want.at(x, y, c) = code[int(c)];
             }
-            EXPECT_EQ(got[4 * (size_t(y) * w + x) + 3], 255) << "alpha";
+            EXPECT_EQ(got[4 * (size_t(y) * w + x) + 3], in.display.bits == 8 ? 255 : 3) << "alpha";
         }
     EXPECT_TRUE(same_codes("tone " + std::to_string(tone), got_codes, want, kBeyond));
 }
@@ -128,6 +142,84 @@ TEST(Composite, DisplaysShowTheLightThatFallsOnThem) {
     const Display lcd{200, 0.8f, 2.2f, 60, 0.01f};  // Mantiuk et al. 2008, as in pfstools
     EXPECT_NEAR(lcd.low(), reference::display_luminance(0, 200, 0.8, 2.2, 60, 0.01), 1e-6);
     EXPECT_NEAR(lcd.high(), reference::display_luminance(1, 200, 0.8, 2.2, 60, 0.01), 1e-4);
+}
+
+/// A display measured at uneven codes, of an odd shape.
+Display measured_display(uint32_t bits = 8) {
+    return {.peak = 90, .black = 0.3f, .ambient = 20, .eotf = Eotf::Table, .bits = bits,
+            .table = {{0, 0.3f}, {0.02, 0.305}, {0.1, 0.5}, {0.3, 5}, {0.31, 8}, {0.6, 30}, {0.9, 80}, {1, 90}}};
+}
+
+TEST(Composite, EveryKindOfDisplay) {
+    PassRig rig;
+    const VkExtent2D extent{70, 40};
+    std::vector<Display> displays{measured_display(), measured_display(10)};
+    for (const NamedDisplay& known : known_displays()) displays.push_back(known.display);
+    displays.push_back({.eotf = Eotf::Srgb, .bits = 10, .primaries = kDisplayP3});
+    displays.push_back({.primaries = {{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}});
+    for (const Display& display : displays)
+        for (uint32_t tone : kEveryTone) {
+            Inputs in{extent, night_pixels(extent, tone), {}, {}, crooked_curve(display), display};
+            expect_reference(composite(rig, in, tone), in, tone);
+            in.glare = night_pixels(quarter(extent), 5, -3, 0);
+            for (auto& g : in.glare) g = glm::round(g * 1024.0f) / 1024.0f;
+            expect_reference(composite(rig, in, tone), in, tone);
+        }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// The operator without a curve passes lights on as they are: so codes are exactly the nearest ones, for lights that lie
+// densely over [0, 1], evenly and by decades, and one float below and above each light where a code begins.
+TEST(Composite, CodesAreTheNearest) {
+    PassRig rig;
+    std::vector<Display> displays{measured_display(), measured_display(10)};
+    for (const NamedDisplay& known : known_displays()) displays.push_back(known.display);
+    for (Display display : displays) {
+        display.primaries = kRec709;
+        std::vector<float> lights{0, -0.0f, 1};
+        for (int i = 0; i <= 20000; ++i) lights.push_back(float(i) / 20000), lights.push_back(std::pow(10.0f, -9 * float(i) / 20000));
+        const DisplayCurve curve(display);
+        const double black = double(display.black), range = double(display.peak) - black;
+        for (double code = 0.5; code < display.largest_code(); ++code) {
+            const float at = float((curve.emitted(code / display.largest_code()) - black) / range);
+            for (float light : {std::nextafter(at, 0.0f), at, std::nextafter(at, 1.0f)}) lights.push_back(light);
+        }
+        lights.resize((lights.size() + 63) / 64 * 64, 0.5f);
+        Inputs in{{64, uint32_t(lights.size() / 64)}, {}, {}, {}, crooked_curve(display), display};
+        for (float light : lights) in.scene.emplace_back(light, light, light, 1);
+        const auto got = composite(rig, in, shared::kToneLdr);
+        size_t wrong = 0;
+        for (size_t i = 0; i < lights.size(); ++i) {
+            const double want = reference::code(glm::dvec3(double(lights[i])), display).x;
+            // At the very edge, half a float of the light decides.
+            const double doubt = want - std::floor(want) - 0.5;
+            if (got[4 * i] != std::lround(want) && std::abs(doubt) > 1e-4) ++wrong;
+        }
+        EXPECT_EQ(wrong, 0u) << int(display.eotf) << " with " << display.bits << " bits";
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Composite, LightOfTheDisplayWithoutItsLimits) {
+    PassRig rig;
+    const VkExtent2D extent{37, 21};
+    for (uint32_t tone : kEveryTone) {
+        Inputs in{extent, night_pixels(extent, tone), {}, {}, crooked_curve({}), {}};
+        in.scene[5] = {kNan, 1, 1, 1}, in.scene[6] = {1, kInf, 1, 1}, in.scene[7] = {-5, -5, -5, 1}, in.scene[8] = {90, -1, 20, 1};
+        FrameGraph graph;
+        const CompositeInputs inputs = inputs_of(rig, graph, in);
+        const Resource kept = keep<glm::vec4>(graph, add_display_light(graph, rig.kernels(), inputs, tone, view_of(extent), in.display, 1));
+        rig.run(graph);
+        const auto got = rig.got<glm::vec4>(kept);
+        Picture got_light(extent.width, extent.height, 3), want = got_light;
+        for (size_t i = 0; i < got.size(); ++i) {
+            const auto light = reference::display_light(glm::dvec3(in.scene[i]), tone, in.curve, in.display);
+            for (size_t c = 0; c < 3; ++c) got_light.values[3 * i + c] = double(got[i][int(c)]), want.values[3 * i + c] = light[int(c)];
+        }
+        // log and exp in float, as the curve is steep, and the sum with the black level.
+        EXPECT_TRUE(same_light("light " + std::to_string(tone), got_light, want, {1e-5, 0.1}));
+    }
+    EXPECT_EQ(rig.complaints(), "");
 }
 
 TEST(Composite, GreyStaysGreyAndRampsStayMonotone) {

@@ -28,11 +28,10 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
     for (size_t i = 0; i < votes.count.size(); ++i) histogram.count[i] = uint32_t(std::lround(votes.count[i]));
     const shared::ToneParameters parameters = tone_parameters(op, bins, settings.tone, display, {foveal_level, {level.width, level.height}, extent}, seconds);
     const auto adapted = reference::adapt({histogram, levels.back().texels.at(0), level, previous, parameters, settings.tone.observer, op.model});
-    const shared::CompositePush show{{extent.width, extent.height}, display.low(), display.high(), 1 / display.gamma, 0};
-    const reference::CompositeFrame<glm::vec4> frame{scene, {}, {}};
+    const reference::CompositeFrame<glm::vec4> frame{scene, {}, {}, {extent.width, extent.height}};
     std::vector<glm::dvec3> codes;
     for (uint32_t y = 0; y < extent.height; ++y)
-        for (uint32_t x = 0; x < extent.width; ++x) codes.push_back(reference::composite(frame, {x, y}, tone, adapted.tone, show));
+        for (uint32_t x = 0; x < extent.width; ++x) codes.push_back(reference::composite(frame, {x, y}, tone, adapted.tone, display));
     return codes;
 }
 

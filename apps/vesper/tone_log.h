@@ -1,0 +1,30 @@
+// What the eye remembered and how luminance was shown, frame by frame, as a CSV file. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tone_chain.h"
+
+namespace vesper {
+
+/// One line: a frame, what the eye remembers after it, and its tone curve.
+struct LoggedFrame {
+    double seconds = 0;      ///< of the scene
+    float step = 0;          ///< since the frame before, s
+    shared::EyeState eye{};
+};
+
+/// Lines of a log. The first names the columns; numbers are written so that they read back to the last bit.
+std::string log_heading();
+std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form, const Display& display);
+
+/// Reads a log. Throws Error, naming file and line.
+std::vector<LoggedFrame> read_log(const std::string& file);
+
+/// Luminances of the display, cd/m^2, for scene luminances of 10^-4 to 10^6 cd/m^2 in tenths of a decade.
+std::vector<double> curve_samples(const shared::ToneCurve& curve, uint32_t form, const Display& display);
+/// The state of the eye in words and numbers, for headers.
+std::vector<std::pair<std::string, double>> named_state(const shared::EyeState& eye);
+
+}  // namespace vesper

@@ -1,0 +1,30 @@
+// A pixel of the scene (and light scattered in the eye) as displayed light, for composite.comp and display_light.comp.
+
+#include "tone.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 1) const uint kLuminanceGlare = 0u;
+layout(constant_id = 2) const uint kLdrGlare = 0u;
+layout(constant_id = 3) const uint kRows = 1u;       // pixels of a column that one invocation does
+layout(constant_id = 4) const uint kPrimaries = 0u;  // the display has others than Rec. 709
+
+layout(binding = 0, rgba32f) readonly uniform image2D scene_image;
+layout(binding = 1) uniform samplerBuffer curve;
+layout(binding = 2, rgba32f) readonly uniform image2D luminance_glare;  // cd/m^2; the scene itself where there is none
+layout(binding = 3) uniform sampler2D ldr_glare;                        // displayed light; likewise
+layout(push_constant, scalar) uniform Push { CompositePush push; };
+
+vec3 of_the_display(vec3 rgb) {
+    return kPrimaries == 0u ? rgb : vec3(dot(push.red, rgb), dot(push.green, rgb), dot(push.blue, rgb));
+}
+
+vec3 scene_light(uvec2 at) {
+    const vec3 rgb = imageLoad(scene_image, ivec2(at)).rgb;
+    return kLuminanceGlare == 0u ? rgb : rgb + imageLoad(luminance_glare, ivec2(at)).rgb;
+}
+
+vec3 glare_light(uvec2 at) {
+    // The glare texture covers whole blocks: its last row and column may reach beyond the image.
+    const vec2 blocks = vec2(textureSize(ldr_glare, 0));
+    return push.ldr_glare * textureLod(ldr_glare, (vec2(at) + 0.5) / (float(kGlareShrink) * blocks), 0.0).rgb;
+}

@@ -58,7 +58,8 @@ void main() {
     const float looked_at = parameters.adapt_to == kAdaptAverage ? log_average : gaze_luminance();
     const float goal = empty && !first ? previous.adaptation : looked_at;
     const float adaptation = clamp(goal, kLuminanceFloor, kBrightest);
-    const float cones_see = cone_threshold(adaptation, parameters.cone_break), rods_see = rod_threshold(adaptation, parameters.rod_break);
+    const float l = log10_of(adaptation);
+    const float cones_see = power_of_ten(cone_log_threshold(l, parameters.cone_break)), rods_see = power_of_ten(rod_log_threshold(l, parameters.rod_break));
     ReceptorMemory cones, rods;
     if (first) {
         cones = adapted(parameters.cones, adaptation, cones_see);
@@ -78,19 +79,20 @@ void main() {
     const float share = empty ? remembered : remembers ? blend(remembered, now, kept) : now;
     const float ln_adaptation = log(adaptation);
     const float placed = first ? ln_adaptation : blend(previous.ln_placed, ln_adaptation, kept);
-    const float voters = sum_of(vec2(share, 0.0)).x;
+    const float voters = sum_of(share);
 
+    // Its nodes lie at the edges of the bins.
     bool under_full = false;
     float left_over = 0.0;
     const float ln_display_low = log(parameters.display_low);
-    if (kModel == kModelHistogram) {
+    float lowest = ln_display_low, here = ln_display_low;
+    if (kModel == kModelHistogram && voters > 0.0) {
         const float spread = bin < parameters.bins ? kSpread / float(parameters.bins) : 0.0;
-        left_over = adjust(voters > 0.0 ? (share + spread) / (1.0 + kSpread) : 0.0, eye, placed, under_full);
+        here = adjust((share + spread) / (1.0 + kSpread), eye, placed, lowest, under_full, left_over);
     }
-    for (uint i = bin; i <= kMaxNodes; i += kMaxBins) {
-        const bool black = kModel != kModelHistogram || voters <= 0.0;
-        curve.node[i] = vec4(black ? ln_display_low : node[min(i, parameters.bins)], 0.0, 0.0, 0.0);
-    }
+    if (bin < parameters.bins) curve.node[bin + 1u] = vec4(here, 0.0, 0.0, 0.0);
+    if (bin == 0u) curve.node[0] = vec4(lowest, 0.0, 0.0, 0.0);
+    for (uint i = parameters.bins + 1u + bin; i <= kMaxNodes; i += kMaxBins) curve.node[i] = vec4(0.0);
     current.share[bin] = share;
     if (bin != 0u) return;
 

@@ -1,8 +1,8 @@
 // Sums over a workgroup of kMaxBins invocations. Every invocation must call them. For adapt.comp.
 
-shared vec2 scratch[kMaxBins];
+shared float scratch[kMaxBins];
 
-vec2 sum_of(vec2 value) {
+float sum_of(float value) {
     const uint mine = gl_LocalInvocationIndex;
     barrier();
     scratch[mine] = value;
@@ -12,19 +12,4 @@ vec2 sum_of(vec2 value) {
     }
     barrier();
     return scratch[0];
-}
-
-// Sum over this invocation and those before it.
-float running_sum(float value) {
-    const uint mine = gl_LocalInvocationIndex;
-    barrier();
-    scratch[mine].x = value;
-    for (uint step = 1u; step < kMaxBins; step *= 2u) {
-        barrier();
-        const float left = mine >= step ? scratch[mine - step].x : 0.0;
-        barrier();
-        scratch[mine].x += left;
-    }
-    barrier();
-    return scratch[mine].x;
 }

@@ -100,7 +100,7 @@ TEST_F(Program, LogsTheEyeAndReplaysItToTheLastBit) {
 }
 
 TEST_F(Program, HasThePresetOfThePaper) {
-    ASSERT_EQ(render("--preset paper --stats -o a.png"), 0) << said;
+    ASSERT_EQ(render("--preset paper --foveal-level 2 --stats -o a.png"), 0) << said;
     const std::string report = text_of(folder / "out.txt");
     EXPECT_NE(report.find("irawan"), std::string::npos) << report;
     EXPECT_NE(report.find("16x8"), std::string::npos) << "--size was given";

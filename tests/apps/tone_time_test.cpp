@@ -54,7 +54,9 @@ TEST_F(ToneTime, ALampThatFlickersMovesNothingElse) {
         for (int frame = 0; frame < 60; ++frame) {
             const double t = frame / 60.0;
             const auto got = map(mapper, road(float(3000 * (1 + 0.8 * std::sin(2 * 3.14159265 * 90 * t + 0.3)))), frame ? 1.0f / 60 : 0, op);
-            if (frame > 12) EXPECT_LE(largest_step(got.display, before, true), 1) << "frame " << frame;
+            if (frame > 12) {
+                EXPECT_LE(largest_step(got.display, before, true), 1) << "frame " << frame;
+            }
             before = got.display;
         }
     }
@@ -66,7 +68,9 @@ TEST_F(ToneTime, NothingJumpsAsPixelsCrossTheEdgesOfBins) {
     std::vector<uint8_t> before;
     for (int frame = 0; frame < 120; ++frame) {
         const auto got = map(mapper, road(3000, 4 * std::pow(1.002f, float(frame))), frame ? 1.0f / 60 : 0);
-        if (frame > 1) EXPECT_LE(largest_step(got.display, before, false), 1) << "frame " << frame;
+        if (frame > 1) {
+            EXPECT_LE(largest_step(got.display, before, false), 1) << "frame " << frame;
+        }
         before = got.display;
     }
 }

@@ -104,39 +104,45 @@ inline Thresholds thresholds_of(const shared::ToneParameters& p, const ReceptorM
     }
 }
 
-/// Histogram adjustment, Ward et al. 1997: dLd / dL <= T_display(Ld) / T_scene(L). `placed`: luminance whose visibility is
-/// kept where the range is not filled.
+/// Histogram adjustment, Ward et al. 1997: slopes min(lambda h, c), so that dLd / dL <= T_display(Ld) / T_scene(L) in the
+/// middle of every bin. The curve is climbed from below, and lambda found by bisection, so that it fills the display; up to a
+/// limit. `placed`: luminance whose visibility is kept where the range is not filled.
 inline Adjusted adjust(const std::vector<double>& h, double placed, const Thresholds& threshold, const shared::ToneParameters& p) {
-    constexpr int kIterations = 24;
-    constexpr double kSteepest = 1024;  // times plain equalization
-    const double delta = 1 / double(p.bins_per_ln), low = std::log(double(p.display_low));
-    const double range = std::log(double(p.display_high)) - low;
+    constexpr double kSteepest = 64;  // times plain equalization
+    const double delta = 1 / double(p.bins_per_ln), low = std::log(double(p.display_low)), high = std::log(double(p.display_high));
     const size_t bins = h.size();
     Adjusted out{{p.ln_low, p.bins_per_ln, std::vector<double>(bins + 1, low)}, 0, false};
     if (std::accumulate(h.begin(), h.end(), 0.0) == 0) return out;
 
-    std::vector<double>& node = out.curve.node;
-    for (size_t i = 0; i < bins; ++i) node[i + 1] = node[i] + range * h[i];  // plain histogram equalisation
-    for (int iteration = 0; iteration < kIterations; ++iteration) {
-        std::vector<double> ceiling(bins);
+    const auto climb = [&](double lambda, double start) {
+        Curve curve{p.ln_low, p.bins_per_ln, {start}};
         for (size_t i = 0; i < bins; ++i) {
-            const double scene = std::exp(p.ln_low + (double(i) + 0.5) * delta);
-            const double shown = std::exp((node[i] + node[i + 1]) / 2);
-            ceiling[i] = (threshold.display(shown) / shown) / (threshold.scene(scene) / scene);
+            const double y = curve.node.back(), scene = std::exp(p.ln_low + (double(i) + 0.5) * delta), contrast = threshold.scene(scene) / scene;
+            double slope = 0;
+            for (int k = 0; k < 4; ++k) {  // three corrections of the middle's luminance: its fixed point within 1e-3
+                const double shown = std::exp(y + slope * delta / 2);
+                slope = std::min(lambda * h[i], threshold.display(shown) / shown / contrast);
+            }
+            curve.node.push_back(y + slope * delta);
         }
-        const Slopes slopes = fill(h, ceiling, delta, range, kSteepest * range / delta);
-        Curve next{p.ln_low, p.bins_per_ln, std::vector<double>(bins + 1, low)};
-        for (size_t i = 0; i < bins; ++i) next.node[i + 1] = next.node[i] + slopes.s[i] * delta;
-        if (slopes.under) {
-            // The whole curve moves so that the luminance is as visible as on a display half as bright as white (Ferwerda
-            // et al. 1996), as far as the display allows.
-            const double want = std::log(placed * threshold.display(p.display_high / 2.0) / threshold.scene(placed));
-            const double offset = std::clamp(want - next.at(std::log(placed)), 0.0, slopes.slack);
-            for (double& y : next.node) y += offset;
-        }
-        for (size_t i = 0; i <= bins; ++i) node[i] = (node[i] + next.node[i]) / 2;
-        out.slack = slopes.slack, out.under = slopes.under;
+        return curve;
+    };
+    const auto bisect = [](double a, double b, const auto& is_beyond) {
+        for (int k = 0; k < 60; ++k) (is_beyond((a + b) / 2) ? b : a) = (a + b) / 2;
+        return a;
+    };
+    const double plain = (high - low) / delta, limit = kSteepest * plain;
+    out.curve = climb(limit, low);
+    out.under = out.curve.node.back() <= high;
+    if (!out.under) {
+        out.curve = climb(std::exp(bisect(std::log(plain), std::log(limit), [&](double x) { return climb(std::exp(x), low).node.back() > high; })), low);
+        return out;
     }
+    out.slack = high - out.curve.node.back();
+    // The curve starts higher, so that the luminance is as visible as on a display half as bright as white (Ferwerda et al.
+    // 1996), but by no more than is left over.
+    const double want = std::log(placed * threshold.display(p.display_high / 2.0) / threshold.scene(placed));
+    out.curve = climb(limit, low + bisect(0, out.slack, [&](double o) { return climb(limit, low + o).at(std::log(placed)) > want; }));
     return out;
 }
 

@@ -110,6 +110,26 @@ std::vector<double> ward(std::vector<double> f, const std::vector<double>& c, do
     return f;
 }
 
+// The curve that is climbed is the fixed point of Ward's clipping for the ceilings that belong to it.
+TEST(AdaptReference, TheCurveIsAFixedPointOfItsCeilings) {
+    for (uint32_t ceiling : {shared::kCeilingHuman, shared::kCeilingCones, shared::kCeilingLinear}) {
+        const auto p = parameters_of(1, 100, ceiling);
+        const Thresholds t = thresholds_of(p, kCones, 1, kRods, 1);
+        const std::vector<double> h = with_spread(shares(night(2), kBins));
+        const Adjusted a = adjust(h, 1, t, p);
+        EXPECT_FALSE(a.under);
+        const double delta = 1 / double(p.bins_per_ln);
+        std::vector<double> c;
+        for (uint32_t i = 0; i < kBins; ++i) {
+            const double scene = std::exp(p.ln_low + (i + 0.5) * delta), shown = std::exp((a.curve.node[i] + a.curve.node[i + 1]) / 2);
+            c.push_back(t.display(shown) / shown / (t.scene(scene) / scene));
+        }
+        const Slopes filled = fill(h, c, delta, std::log(100), kNoLimit);
+        // 1e-3: the middle of a bin is corrected three times.
+        for (uint32_t i = 0; i < kBins; ++i) EXPECT_NEAR((a.curve.node[i + 1] - a.curve.node[i]) / delta, filled.s[i], 1e-3 * (1 + filled.s[i])) << i;
+    }
+}
+
 TEST(AdaptReference, FillIsTheFixedPointOfWardsClipping) {
     const std::vector<double> h = with_spread(shares(night(), kBins));
     std::vector<double> c(kBins);
@@ -136,7 +156,7 @@ TEST(AdaptReference, CurveIsMonotoneAndFillsTheDisplay) {
     for (uint32_t seed : {1u, 2u, 3u}) {
         const Adjusted a = curve_of(night(seed), 0.3, p);
         EXPECT_FALSE(a.under);
-        EXPECT_NEAR(a.curve.node.front(), std::log(0.5), 1e-6) << "24 halvings of what the first round was off";
+        EXPECT_NEAR(a.curve.node.front(), std::log(0.5), 1e-12);
         EXPECT_NEAR(a.curve.node.back(), std::log(200), 1e-6);
         for (size_t i = 0; i < kBins; ++i) EXPECT_GE(a.curve.node[i + 1], a.curve.node[i]);
     }
@@ -164,9 +184,9 @@ TEST(AdaptReference, FogKeepsItsContrastAndSitsWhereItIsVisible) {
     const Adjusted a = curve_of(fog(73, 75), la, p);
     EXPECT_TRUE(a.under);
     const double delta = 1 / double(p.bins_per_ln);
-    // The empty bins take up to 1024 * 1e-7 of the range each.
+    // The empty bins take up to 64 * 1e-7 of the range each.
     EXPECT_LE(a.slack, std::log(200) - 3 * delta);
-    EXPECT_GE(a.slack, std::log(200) * (1 - 97 * 1024e-7) - 3 * delta);
+    EXPECT_GE(a.slack, std::log(200) * (1 - 97 * 64e-7) - 3 * delta);
     for (size_t i = 73; i <= 75; ++i) EXPECT_NEAR(a.curve.node[i + 1] - a.curve.node[i], delta, 1e-4);
     // T_c(10000) / T_c(La) La = 10000 there: La is shown at half of white.
     EXPECT_NEAR(std::exp(a.curve.at(std::log(la))), 10000, 10);
@@ -347,7 +367,8 @@ TEST(AdaptReference, TimeIsWhatCountsAndNotFrames) {
 }
 
 // More and more of the picture goes dark while the rest stays: what is bright is shown brighter and brighter, and never pops:
-// 5 % fewer bright pixels are at most 8 % more light.
+// 5 % fewer bright pixels are at most 8 % more light. (Below 5 % of the picture, where lambda may be at its limit, what is
+// left of their share of the range goes, by at most 1 % of light a step.)
 TEST(AdaptReference, DarkPixelsMakeTheRestBrighterAndNeverPop) {
     for (uint32_t ceiling : {shared::kCeilingEye, shared::kCeilingCones, shared::kCeilingHuman})
         for (double adaptation : {0.1, 3.0, 30.0}) {
@@ -360,7 +381,7 @@ TEST(AdaptReference, DarkPixelsMakeTheRestBrighterAndNeverPop) {
                 share[25] = 1 - bright;
                 const double shown = adjust(with_spread(share), adaptation, t, p).curve.at(std::log(20));
                 if (bright < 1) {
-                    EXPECT_GE(shown, before - 1e-5) << bright << " ceiling " << ceiling << " at " << adaptation;
+                    EXPECT_GE(shown, before - (bright > 0.05 ? 1e-6 : 0.011)) << bright << " ceiling " << ceiling << " at " << adaptation;
                     EXPECT_LE(shown, before + 0.08) << bright << " ceiling " << ceiling << " at " << adaptation;
                 }
                 before = shown;

@@ -24,7 +24,9 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource sce
     const uint32_t tone = op.form;
     const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
-    const Resource histogram = add_histogram(graph, kernels, luminance, level, view.extent, settings.histogram);
+    HistogramSettings votes = settings.histogram;
+    votes.fine = votes.fine && op.model != shared::kModelFixed;  // nobody would look at them
+    const Resource histogram = add_histogram(graph, kernels, luminance, level, view.extent, votes);
     const FovealView fovea{level, luminance.extents[level - 1], view.extent};
     const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, op, tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, seconds), level, remembered);
     Resource glare;

@@ -23,6 +23,7 @@ layout(binding = 6, scalar) writeonly buffer Curve { ToneCurve curve; };
 #include "eye.glsl"
 #include "reduce.glsl"
 #include "adjust.glsl"
+#include "trim.glsl"
 
 const float kBrightest = 1e6;  // cd/m^2 to which an eye adapts
 
@@ -90,6 +91,7 @@ void main() {
         const float spread = bin < parameters.bins ? kSpread / float(parameters.bins) : 0.0;
         here = adjust((share + spread) / (1.0 + kSpread), eye, placed, lowest, under_full, left_over);
     }
+    if (kModel == kModelTrimmed && voters > 0.0) here = trim(share, eye, placed, lowest, under_full);
     if (bin < parameters.bins) curve.node[bin + 1u] = vec4(here, 0.0, 0.0, 0.0);
     if (bin == 0u) curve.node[0] = vec4(lowest, 0.0, 0.0, 0.0);
     for (uint i = parameters.bins + 1u + bin; i <= kMaxNodes; i += kMaxBins) curve.node[i] = vec4(0.0);

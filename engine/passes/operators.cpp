@@ -11,7 +11,7 @@ constexpr OperatorInfo kOperators[]{
     {Operator::Irawan, "irawan", "Irawan, Ferwerda, Marschner 2005 (reconstructed): histogram adjustment for an eye that adapts over time",
      kToneCurve, kModelHistogram, kCeilingEye, kAdaptGaze, true},
     {Operator::Ward, "ward", "Ward Larson, Rushmeier, Piatko 1997: histogram adjustment for an adapted eye",
-     kToneCurve, kModelHistogram, kCeilingHuman, kAdaptAverage, false},
+     kToneCurve, kModelTrimmed, kCeilingHuman, kAdaptAverage, false},
     {Operator::Reinhard, "reinhard", "Reinhard, Stark, Shirley, Ferwerda 2002, global", kToneReinhard, kModelFixed, kCeilingEye, kAdaptGaze, false},
     {Operator::Linear, "linear", "linear between two luminances", kToneLinear, kModelFixed, kCeilingEye, kAdaptGaze, false},
     {Operator::Ldr, "ldr", "no HDR: lamps of 1.0, sums clamped to 1", kToneLdr, kModelFixed, kCeilingEye, kAdaptGaze, false},

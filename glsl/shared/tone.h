@@ -12,8 +12,9 @@ const uint kToneLdr = 3u;       // none: values in [0, 1] are shown as they are
 
 // What makes the parameters of a frame (specialization of adapt.comp).
 const uint kModelFixed = 0u;      // the statistics of the frame: Reinhard, linear
-const uint kModelHistogram = 1u;  // histogram adjustment: Ward et al. 1997, Irawan et al. 2005
-const uint kModels = 2u;
+const uint kModelHistogram = 1u;  // histogram adjustment, solved: Irawan et al. 2005
+const uint kModelTrimmed = 2u;    // histogram adjustment by trimming: Ward et al. 1997
+const uint kModels = 3u;
 
 // Histogram adjustment: the threshold T that bounds the slope, d Ld / d L <= T_display(Ld) / T_scene(L).
 const uint kCeilingEye = 0u;     // scene: the eye in its present state; display: adapted cones
@@ -75,7 +76,7 @@ struct ToneCurve {
     float ln_low;          // texel 1; ln L of node 0
     float bins_per_ln;     // nodes per unit of ln L
     float bins;            // the curve has bins + 1 nodes
-    float under_full;      // 1 if the display range is not filled: slopes are as steep as they may be; else 0
+    float under_full;      // 1 if the display range is not filled: slopes are as steep as they may be, or linear; else 0
     float adaptation;      // texel 2; luminance the eye looks at, cd/m^2
     float log_average;     // exp(mean ln L), cd/m^2
     float maximum;         // largest luminance, cd/m^2

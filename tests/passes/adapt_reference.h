@@ -146,6 +146,39 @@ inline Adjusted adjust(const std::vector<double>& h, double placed, const Thresh
     return out;
 }
 
+/// Ward's own way, as pcond of Radiance has it (tone-mapping.md, section 3): clip counts to their ceilings, again with the new
+/// total, until what is clipped is within 2.5 % of it; the curve is that before the last clip. Linear where the range of the scene
+/// is no more than the display's, or hardly any counts are left; `average` is then shown at the geometric middle.
+inline Adjusted trim(std::vector<double> f, double average, const Thresholds& threshold, const shared::ToneParameters& p) {
+    constexpr double kTolerance = 0.025;
+    const double low = std::log(double(p.display_low)), high = std::log(double(p.display_high)), range = high - low, delta = 1 / double(p.bins_per_ln);
+    Adjusted out{{p.ln_low, p.bins_per_ln, std::vector<double>(f.size() + 1, low)}, 0, false};
+    const double original = std::accumulate(f.begin(), f.end(), 0.0);
+    if (original == 0) return out;
+    const auto occupied = [](double n) { return n > 0; };
+    const auto first = std::find_if(f.begin(), f.end(), occupied);
+    const auto last = std::find_if(f.rbegin(), f.rend(), occupied).base();
+    out.under = double(last - first) * delta <= range;
+    while (!out.under) {
+        const double total = std::accumulate(f.begin(), f.end(), 0.0);
+        if (total <= kTolerance * original) {
+            out.under = true;
+            break;
+        }
+        double trimmed = 0;
+        for (size_t i = 0; i < f.size(); ++i) out.curve.node[i + 1] = out.curve.node[i] + range * f[i] / total;
+        for (size_t i = 0; i < f.size(); ++i) {
+            const double scene = std::exp(p.ln_low + (double(i) + 0.5) * delta), shown = std::exp((out.curve.node[i] + out.curve.node[i + 1]) / 2);
+            const double most = total * delta / range * (threshold.display(shown) / shown) / (threshold.scene(scene) / scene);
+            if (f[i] > most) trimmed += f[i] - most, f[i] = most;
+        }
+        if (trimmed <= kTolerance * total) return out;
+    }
+    const double middle = std::exp((low + high) / 2), scale = threshold.display(middle) / threshold.scene(average);
+    for (size_t i = 0; i <= f.size(); ++i) out.curve.node[i] = std::clamp(p.ln_low + double(i) * delta + std::log(scale), low, high);
+    return out;
+}
+
 /// Mean or log average of the finite pixels of 3 x 3 texels about the gaze, linear in its position: the mean over squares about
 /// the four texels nearest to it, each weighted as in bilinear interpolation. 0 if there are none.
 inline double gaze_luminance(const PyramidLevel& fovea, const shared::ToneParameters& p) {
@@ -219,6 +252,8 @@ inline Adapted adapt(const AdaptInputs& in) {
     const double ln = std::log(adaptation), placed = first ? ln : ln + (in.previous.ln_placed - ln) * kept;
     if (in.model == shared::kModelHistogram)
         out.adjusted = adjust(with_spread(out.share), std::exp(placed), thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
+    else if (in.model == shared::kModelTrimmed)
+        out.adjusted = trim(out.share, std::exp(placed), thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
     else
         out.adjusted = {{p.ln_low, p.bins_per_ln, std::vector<double>(p.bins + 1, std::log(double(p.display_low)))}, 0, false};
 

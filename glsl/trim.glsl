@@ -1,0 +1,43 @@
+// Histogram adjustment as Ward Larson, Rushmeier and Piatko 1997 do it, and Radiance's pcond: clip what exceeds its ceiling,
+// again with the new total, until little is clipped; a linear scale where hardly anything is left. For adapt.comp.
+
+const float kTolerance = 0.025;  // of the total: what may still be clipped, and what has to be left
+
+shared float trimmed_node[kMaxBins + 1u];
+
+// ln Ld at the upper edge of this invocation's bin, as adjust() gives it. `ln_average`: ln of what a linear scale shows at the
+// geometric middle of the display.
+float trim(float h, Thresholds eye, float ln_average, out float lowest, out bool is_linear) {
+    const uint bin = gl_LocalInvocationIndex;
+    const float ln_low = log(parameters.display_low), ln_high = log(parameters.display_high), range = ln_high - ln_low;
+    const float width = 1.0 / parameters.bins_per_ln;
+    const float ln_luminance = parameters.ln_low + (float(min(bin, parameters.bins - 1u)) + 0.5) * width;
+    const float luminance = exp(ln_luminance), contrast = scene_threshold(eye, luminance) / luminance;
+    const vec2 ends = extremes_of(h > 0.0, float(bin));
+    const float original = sum_of(h);
+
+    is_linear = (ends.y - ends.x + 1.0) * width <= range;
+    float left = h, here = ln_low;
+    for (uint round = 0u; round < 200u && !is_linear; ++round) {
+        const float total = sum_of(left);
+        is_linear = total <= kTolerance * original;
+        if (is_linear) break;
+        here = ln_low + range * running_sum(left) / total;
+        barrier();
+        if (bin == 0u) trimmed_node[0] = ln_low;
+        trimmed_node[bin + 1u] = here;
+        barrier();
+        const float most = total * width / range * display_contrast(0.5 * (trimmed_node[bin] + here)) / contrast;
+        const float clipped = max(left - most, 0.0);
+        left -= clipped;
+        if (sum_of(clipped) <= kTolerance * total) break;
+    }
+    lowest = ln_low;
+    if (is_linear) {
+        const float middle = 0.5 * (ln_low + ln_high);
+        const float shift = middle + log(display_contrast(middle)) - log(scene_threshold(eye, exp(ln_average)));
+        lowest = clamp(parameters.ln_low + shift, ln_low, ln_high);
+        here = clamp(parameters.ln_low + float(bin + 1u) * width + shift, ln_low, ln_high);
+    }
+    return here;
+}

@@ -72,6 +72,7 @@ std::string digits(double value) { return format("%.9g", value); }
 Header describe_tone(const ToneChainSettings& settings, const ToneMapped& shown) {
     return {{"vesper:operator", name_of(settings.tone_operator)},
             {"vesper:adaptationLuminance", digits(double(shown.curve.adaptation))},
+            {"vesper:eyeSeconds", digits(double(shown.eye.seconds))},
             {"vesper:fovealLevel", std::to_string(shown.foveal_level)},
             {"vesper:displayLow", digits(double(settings.display.low()))},
             {"vesper:displayHigh", digits(double(settings.display.high()))}};

@@ -34,10 +34,8 @@ std::vector<std::string> command_line(const std::string& to, uint32_t width, uin
     const auto add = [&](std::initializer_list<const char*> more) { words.insert(words.end(), more.begin(), more.end()); };
     add({"-vf", filter.c_str(), "-c:v", wide ? "libx265" : "libx264", "-crf", "14", "-preset", "medium", "-pix_fmt", wide ? "yuv420p10le" : "yuv420p"});
     if (wide) add({"-x265-params", "log-level=error", "-tag:v", "hvc1"});
-    if (pq)
-        add({"-color_primaries", "bt2020", "-color_trc", "smpte2084", "-colorspace", "bt2020nc", "-color_range", "tv"});
-    else
-        add({"-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-colorspace", "bt709", "-color_range", "tv"});
+    add({"-color_primaries", display.primaries == kRec2020 ? "bt2020" : display.primaries == kDisplayP3 ? "smpte432" : "bt709"});
+    add({"-color_trc", pq ? "smpte2084" : "iec61966-2-1", "-colorspace", pq ? "bt2020nc" : "bt709", "-color_range", "tv"});
     add({"-movflags", "+faststart", "-f", "mp4", to.c_str()});
     return words;
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/tone_chain.h"
+#include "support/reference_chain.h"
 #include "support/tones.h"
 
 namespace vesper::test {

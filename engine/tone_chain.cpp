@@ -32,15 +32,20 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource sce
     Resource glare;
     if (settings.glare == Glare::Ldr)
         glare = add_ldr_glare(graph, kernels, scene, adaptation.curve, tone, view, settings.display, settings.ldr_glare);
-    const Resource display = add_composite(graph, kernels, {.scene = scene, .curve = adaptation.curve, .luminance_glare = {}, .ldr_glare = glare}, tone, view, settings.display, settings.ldr_glare.gain);
+    const CompositeInputs inputs{.scene = scene, .curve = adaptation.curve, .luminance_glare = {}, .ldr_glare = glare};
+    const Resource display = add_composite(graph, kernels, inputs, tone, view, settings.display, settings.ldr_glare.gain);
 
     const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
-    ToneChain chain{.display = {}, .scene = {},
+    ToneChain chain{.display = {}, .scene = {}, .light = {},
                     .curve = bring_back(graph, "tone curve", adaptation.curve, sizeof(shared::ToneCurve)),
                     .histogram = bring_back(graph, "histogram", histogram, sizeof(shared::Histogram)),
                     .eye = bring_back(graph, "eye", adaptation.eye.current, sizeof(shared::EyeState)),
                     .foveal_level = level};
     if (outputs.display) chain.display = bring_back(graph, "display", display, pixels * 4);
+    if (outputs.light) {
+        const Resource light = add_display_light(graph, kernels, inputs, tone, view, settings.display, settings.ldr_glare.gain);
+        chain.light = bring_back(graph, "display light", light, pixels * 16);
+    }
     if (outputs.scene) chain.scene = bring_back(graph, "scene", scene, pixels * 16);
     return chain;
 }
@@ -49,6 +54,7 @@ void read_tone_chain(const Executor& executor, const ToneChain& chain, VkExtent2
     to.extent = extent;
     read_all(executor, chain.display, to.display);
     read_all(executor, chain.scene, to.scene);
+    read_all(executor, chain.light, to.light);
     to.curve = read_one<shared::ToneCurve>(executor, chain.curve);
     to.histogram = read_one<shared::Histogram>(executor, chain.histogram);
     to.eye = read_one<shared::EyeState>(executor, chain.eye);

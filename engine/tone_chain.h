@@ -28,11 +28,12 @@ struct ToneChainSettings {
 struct Outputs {
     bool display = true;  ///< codes
     bool scene = false;   ///< luminance
+    bool light = false;   ///< luminance of the display, without its limits
 };
 
 /// What the chain leaves for the host. Resources that were not asked for are none.
 struct ToneChain {
-    Resource display, scene, curve, histogram, eye;
+    Resource display, scene, light, curve, histogram, eye;
     uint32_t foveal_level = 0;
 };
 
@@ -45,8 +46,10 @@ ToneChain add_tone_chain(FrameGraph&, const Kernels&, Resource scene, const View
 /// One tone-mapped frame on the host.
 struct ToneMapped {
     VkExtent2D extent{};
-    std::vector<uint8_t> display;   ///< RGBA codes, row by row; empty unless asked for
+    /// Codes, row by row, 4 bytes a pixel: RGBA, or words of A2B10G10R10 where the display has 10 bits; empty unless asked for.
+    std::vector<uint8_t> display;
     std::vector<float> scene;       ///< RGBA, cd/m^2 RGB; empty unless asked for
+    std::vector<float> light;       ///< RGBA, cd/m^2 RGB: what the display would emit and reflect without its limits; likewise
     shared::ToneCurve curve{};
     shared::Histogram histogram{};
     shared::EyeState eye{};

@@ -1,7 +1,6 @@
 #include "tone_mapper.h"
 
 #include <chrono>
-#include <cstring>
 #include <numbers>
 
 namespace vesper {
@@ -11,19 +10,25 @@ ToneMapper::ToneMapper(Device& device) : device_(device), kernels_(device), exec
 ToneMapped ToneMapper::map(const ToneChainSettings& settings, const LuminancePicture& picture, float seconds, Outputs outputs) {
     const auto start = std::chrono::steady_clock::now();
     const auto [width, height] = picture.extent;
-    if (width == 0 || height == 0 || picture.rgba.size() != uint64_t{4} * width * height)
-        throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) + " px does not have " + std::to_string(picture.rgba.size()) + " values");
+    const uint64_t pixels = uint64_t{width} * height, bytes = pixels * 4 * sizeof(float);
+    if (pixels == 0 || (picture.channels != 3 && picture.channels != 4) || picture.values.size() != pixels * picture.channels)
+        throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) + " px does not have " + std::to_string(picture.values.size()) + " values");
     if (!(picture.vertical_fov > 0 && picture.vertical_fov < std::numbers::pi)) throw Error("a picture covers more than 0 and less than 180 degrees in height");
 
-    const auto bytes = std::as_bytes(picture.rgba);
-    if (pixels_.bytes() < bytes.size())
-        pixels_ = HostBuffer(device_, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
-    std::memcpy(pixels_.data(), bytes.data(), bytes.size());
+    if (pixels_.bytes() < bytes) {
+        pixels_ = {};  // before the next one takes its memory
+        pixels_ = HostBuffer(device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
+    }
+    float* to = reinterpret_cast<float*>(pixels_.data());
+    for (const float *from = picture.values.data(), *end = from + picture.values.size(); from != end; from += picture.channels) {
+        for (size_t c = 0; c < 3; ++c) *to++ = picture.scale * from[c];
+        *to++ = 1;
+    }
     pixels_.flush();
 
     FrameGraph graph;
     const Resource scene = graph.transient("scene", image_shape(kSceneFormat, picture.extent));
-    graph.copy("picture", graph.external("picture", pixels_.buffer(), bytes.size()), scene);
+    graph.copy("picture", graph.external("picture", pixels_.buffer(), bytes), scene);
     const View view = View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1));
     const ToneChain chain = add_tone_chain(graph, kernels_, scene, view, settings, seconds, outputs, eye_ ? &*eye_ : nullptr);
     executor_.run(graph);

@@ -11,9 +11,11 @@ namespace vesper {
 
 /// A picture on the host.
 struct LuminancePicture {
-    VkExtent2D extent{};          ///< px
-    std::span<const float> rgba;  ///< cd/m^2 RGB in linear Rec. 709, rows from the top; alpha is ignored
-    double vertical_fov = 0.7;    ///< rad, in (0, pi): what angle the picture covers in height, for the foveal level
+    VkExtent2D extent{};            ///< px
+    std::span<const float> values;  ///< RGB (or RGBA, alpha ignored) in linear Rec. 709, rows from the top
+    uint32_t channels = 3;          ///< 3 or 4
+    float scale = 1;                ///< cd/m^2 per unit
+    double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height, for the foveal level
 };
 
 /// Maps pictures of any size to the display, one after the other; the eye remembers from each to the next, also when the

@@ -14,5 +14,7 @@ void add_convert(CLI::App& program);
 void add_road(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_inspect(CLI::App& program);
+void add_tonemap(CLI::App& program);
+void add_display(CLI::App& program);
 
 }  // namespace vesper

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -9,31 +8,27 @@
 #include "arguments.h"
 #include "commands.h"
 #include "io/image_file.h"
+#include "numbered_files.h"
 #include "progress.h"
 #include "renderer.h"
 #include "scene/gltf.h"
 #include "statistics.h"
+#include "tone_arguments.h"
 #include "tone_log.h"
-#include "tone_options.h"
 
 namespace vesper {
 namespace {
 
 struct RenderArguments {
-    std::string scene, camera, size = "1680x1050", device, lambert = "physical", glare = "none";
+    std::string scene, camera, size = "1680x1050", device, lambert = "physical";
+    ToneArguments tone;
     std::vector<std::string> outputs;
-    std::string statistics_file;
+    std::string statistics_file, log_file, replay_file;
     RenderSettings settings;
-    ToneOptions tone;
-    std::string log_file, replay_file;
     unsigned frames = 1;
     double dt = 1.0 / 30, start = 0;
     bool statistics = false, plan = false;
 };
-
-const std::map<std::string, Glare> kGlares{{"none", Glare::None}, {"ldr", Glare::Ldr}};
-
-std::string name_of(Operator wanted) { return std::string(operator_info(wanted).name); }
 
 VkExtent2D parse_size(const std::string& text) {
     unsigned width = 0, height = 0;
@@ -45,53 +40,29 @@ VkExtent2D parse_size(const std::string& text) {
 
 // The file of one frame of several: %04d is replaced by its number, or the number is put before the extension.
 std::string file_of_frame(const std::string& pattern, unsigned index, unsigned frames) {
-    char number[16];
-    const size_t percent = pattern.find('%');
-    if (percent != std::string::npos) {
-        const size_t d = pattern.find('d', percent);
-        const std::string digits = d == std::string::npos ? "x" : pattern.substr(percent + 1, d - percent - 1);
-        if (digits.size() > 2 || (digits.size() == 2 && digits > "10") || !std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c); }))
-            throw Error("-o " + pattern + ": only a number such as %04d may follow a %");
-        std::snprintf(number, sizeof number, "%0*u", digits.empty() ? 1 : std::stoi(digits), index);
-        return pattern.substr(0, percent) + number + pattern.substr(d + 1);
-    }
+    if (const auto name = numbered_name("-o", pattern)) return name->at(index);
     if (frames == 1) return pattern;
-    std::snprintf(number, sizeof number, ".%04u", index);
     const size_t dot = pattern.rfind('.');
-    return pattern.substr(0, dot) + number + pattern.substr(dot);
+    return pattern.substr(0, dot) + format(".%04u", index) + pattern.substr(dot);
 }
 
 Header describe_frame(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, double seconds) {
-    const auto number = [](double value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.9g", value);
-        return std::string(text);
-    };
     std::string pose;
     for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + number(double(view.world_to_view[c][r]));
+        for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + digits(double(view.world_to_view[c][r]));
     Header header{{"vesper:version", VESPER_VERSION},
             {"vesper:scene", arguments.scene},
             {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
             {"vesper:camera", arguments.camera},
             {"vesper:worldToView", pose},
-            {"vesper:tangents", number(double(view.tangent_low.x)) + " " + number(double(view.tangent_low.y)) + " " + number(double(view.tangent_high.x)) + " " + number(double(view.tangent_high.y))},
-            {"vesper:seconds", number(seconds)},
+            {"vesper:tangents", digits(double(view.tangent_low.x)) + " " + digits(double(view.tangent_low.y)) + " " + digits(double(view.tangent_high.x)) + " " + digits(double(view.tangent_high.y))},
+            {"vesper:seconds", digits(seconds)},
             {"vesper:lights", std::to_string(frame.lights)},
-            {"vesper:illuminanceThreshold", number(double(arguments.settings.clusters.threshold))},
+            {"vesper:illuminanceThreshold", digits(double(arguments.settings.clusters.threshold))},
             {"vesper:lambert", arguments.lambert},
-            {"vesper:operator", name_of(arguments.settings.tone_operator)},
-            {"vesper:adaptationLuminance", number(double(frame.curve.adaptation))},
-            {"vesper:fovealLevel", std::to_string(frame.foveal_level)},
-            {"vesper:displayLow", number(double(arguments.settings.display.low()))},
-            {"vesper:displayHigh", number(double(arguments.settings.display.high()))},
             {"vesper:device", device.name() + ", " + device.driver()}};
-    for (const auto& [name, value] : named_state(frame.eye)) header.emplace_back("vesper:eye:" + name, number(value));
-    std::string shares, curve;
-    for (uint32_t i = 0; i < uint32_t(frame.eye.bins); ++i) shares += (shares.empty() ? "" : " ") + number(double(frame.eye.share[i]));
-    header.emplace_back("vesper:eye:shares", shares);
-    for (double shown : curve_samples(frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display)) curve += (curve.empty() ? "" : " ") + number(shown);
-    header.emplace_back("vesper:toneCurve", "display cd/m^2 at 1e-4 to 1e6 cd/m^2 in tenths of a decade: " + curve);
+    const Header tone = describe_tone(arguments.settings, frame);
+    header.insert(header.end(), tone.begin(), tone.end());
     return header;
 }
 
@@ -125,7 +96,7 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
     for (const std::string& output : arguments.outputs) {
         const std::string file = file_of_frame(output, index, arguments.frames);
         if (ends_with(output, ".png"))
-            write_png(file, frame.extent.width, frame.extent.height, frame.display);
+            write_codes(file, frame, arguments.settings.display);
         else
             write_exr(file, frame.extent.width, frame.extent.height, frame.scene, describe_frame(arguments, device, view, frame, seconds));
     }
@@ -134,8 +105,7 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
 // Everything that can be wrong with the arguments alone, and what follows from them.
 void check_arguments(RenderArguments& arguments) {
     RenderSettings& settings = arguments.settings;
-    apply(arguments.tone, settings);
-    settings.glare = kGlares.at(arguments.glare);
+    static_cast<ToneChainSettings&>(settings) = tone_settings(arguments.tone);
     settings.paper_lambert = arguments.lambert == "paper";
     for (const std::string& output : arguments.outputs) {
         const bool exr = ends_with(output, ".exr");
@@ -147,7 +117,6 @@ void check_arguments(RenderArguments& arguments) {
     if (!arguments.log_file.empty()) check_folder("--log", arguments.log_file);
     if (arguments.outputs.empty() && arguments.log_file.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan)
         throw Error("nothing to do: give -o, --stats, --stats-json, --log or --plan");
-    if (settings.display.peak <= settings.display.black) throw Error("--display-peak must be more than --display-black");
 }
 
 // A frame to render: its time, how long after the one before, and, in a replay, what the eye remembers.
@@ -164,7 +133,7 @@ std::vector<Moment> moments_of(const RenderArguments& arguments) {
         return moments;
     }
     const std::vector<LoggedFrame> log = read_log(arguments.replay_file);
-    const unsigned frames = arguments.tone.command->count("--frames") ? arguments.frames : ~0u;
+    const unsigned frames = arguments.tone.eye.command->count("--frames") ? arguments.frames : ~0u;
     for (size_t i = 0; i < log.size() && moments.size() < frames; ++i)
         if (log[i].seconds >= arguments.start) moments.push_back({log[i].seconds, log[i].step, i == 0 ? shared::EyeState{} : log[i - 1].eye});
     if (moments.empty()) throw Error(arguments.replay_file + ": no frame from --start on");
@@ -172,8 +141,8 @@ std::vector<Moment> moments_of(const RenderArguments& arguments) {
 }
 
 void run(RenderArguments& arguments) {
+    const VkExtent2D extent = parse_size(arguments.size);
     check_arguments(arguments);
-    const VkExtent2D extent = parse_size(preset_size(arguments.tone, arguments.size));
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
     Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs) (ends_with(output, ".png") ? outputs.display : outputs.scene) = true;
@@ -225,8 +194,6 @@ void add_render(CLI::App& program) {
     command->add_option("--output,-o", a->outputs, "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
     command->add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");
     command->add_option("--size,-s", a->size, "WIDTHxHEIGHT, px")->capture_default_str();
-    add_tone_options(*command, a->tone, a->settings);
-    command->add_option("--glare", a->glare, "ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr"}))->capture_default_str();
     command->add_option("--frames", a->frames, "How many frames; files are numbered")->check(CLI::Range(1u, 1000000u))->capture_default_str();
     command->add_option("--dt", a->dt, "Time between frames, s")->check(between(1e-6, 3600.0))->capture_default_str();
     command->add_option("--log", a->log_file, "Write the state of the eye and the tone curve of every frame to a CSV file");
@@ -238,11 +205,7 @@ void add_render(CLI::App& program) {
     command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     command->add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")->check(CLI::IsMember({"physical", "paper"}))->capture_default_str();
     command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")->check(between(1e-9, 1e3))->capture_default_str();
-    command->add_option("--display-peak", a->settings.display.peak, "Display: luminance of white in the dark, cd/m^2")->check(between(0.1, 1e5))->capture_default_str();
-    command->add_option("--display-black", a->settings.display.black, "Display: luminance of black in the dark, cd/m^2")->check(between(1e-6, 1e3))->capture_default_str();
-    command->add_option("--display-gamma", a->settings.display.gamma, "Display: exponent")->check(between(0.5, 5.0))->capture_default_str();
-    command->add_option("--display-ambient", a->settings.display.ambient, "Display: illuminance on the screen, lx")->check(between(0.0, 1e5))->capture_default_str();
-    command->add_option("--display-reflection", a->settings.display.reflection, "Display: diffuse reflectance")->check(between(0.0, 1.0))->capture_default_str();
+    add_tone_options(*command, a->tone);
     command->add_flag("--all-lights", a->settings.all_lights, "Shade without clusters: the slow way to the same picture");
     command->footer("Examples:\n  vesper render night.gltf --camera driver --operator ward --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"

@@ -49,7 +49,24 @@ void png_collect(png_structp png, png_bytep bytes, size_t count) {
 
 void png_flush_nothing(png_structp) {}
 
-bool encode_png(PngJob& job, uint32_t width, uint32_t height, const uint8_t* rgba) {
+/// Puts row `y` into job.row.
+using FillRow = void (*)(PngJob& job, uint32_t width, const void* pixels, uint32_t y);
+
+void fill_8bit(PngJob& job, uint32_t width, const void* pixels, uint32_t y) {
+    const uint8_t* in = static_cast<const uint8_t*>(pixels) + static_cast<size_t>(y) * width * 4;
+    for (size_t x = 0; x < width; ++x) std::memcpy(&job.row[3 * x], in + 4 * x, 3);
+}
+
+void fill_10bit(PngJob& job, uint32_t width, const void* pixels, uint32_t y) {
+    const uint32_t* in = static_cast<const uint32_t*>(pixels) + static_cast<size_t>(y) * width;
+    for (size_t i = 0; i < size_t{3} * width; ++i) {
+        const uint32_t code = in[i / 3] >> 10 * (i % 3) & 0x3ff, wide = code << 6 | code >> 4;
+        job.row[2 * i] = static_cast<uint8_t>(wide >> 8);
+        job.row[2 * i + 1] = static_cast<uint8_t>(wide);
+    }
+}
+
+bool encode_png(PngJob& job, uint32_t width, uint32_t height, const void* pixels, bool wide, PngColour colour) {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, png_fail, png_ignore);
     png_infop header = png ? png_create_info_struct(png) : nullptr;
     if (!header || setjmp(job.escape)) {
@@ -57,14 +74,24 @@ bool encode_png(PngJob& job, uint32_t width, uint32_t height, const uint8_t* rgb
         return false;
     }
     png_set_write_fn(png, &job, png_collect, png_flush_nothing);
-    png_set_IHDR(png, header, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+    png_set_IHDR(png, header, width, height, wide ? 16 : 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB(png, header, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (wide) {
+        const png_color_8 bits{10, 10, 10, 0, 0};
+        png_set_sBIT(png, header, &bits);
+    } else {
+        png_set_sRGB(png, header, PNG_sRGB_INTENT_PERCEPTUAL);
+    }
     png_set_compression_level(png, 3);  // a frame of a video is written in a third of the time, at 10 % more bytes
     png_write_info(png, header);
+    if (colour != PngColour::Unknown) {  // primaries, transfer (16: PQ), matrix (0: RGB), full range; libpng 1.6 has no name for it
+        const png_byte primaries = colour == PngColour::Rec709Pq ? 1 : colour == PngColour::Rec2020Pq ? 9 : 12;
+        const png_byte name[] = "cICP", values[] = {primaries, 16, 0, 1};
+        png_write_chunk(png, name, values, sizeof values);
+    }
+    const FillRow fill = wide ? fill_10bit : fill_8bit;
     for (uint32_t y = 0; y < height; ++y) {
-        const uint8_t* in = rgba + static_cast<size_t>(y) * width * 4;
-        for (size_t x = 0; x < width; ++x) std::memcpy(&job.row[3 * x], in + 4 * x, 3);
+        fill(job, width, pixels, y);
         png_write_row(png, job.row.data());
     }
     png_write_end(png, nullptr);
@@ -97,7 +124,15 @@ void write_png(const std::filesystem::path& file, uint32_t width, uint32_t heigh
     check_size(file, width, height, 4, rgba.size());
     PngJob job;
     job.row.resize(static_cast<size_t>(width) * 3);
-    if (!encode_png(job, width, height, rgba.data())) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
+    if (!encode_png(job, width, height, rgba.data(), false, PngColour::Unknown)) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
+    replace_file(file, job.file);
+}
+
+void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint32_t> words, PngColour colour) {
+    check_size(file, width, height, 1, words.size());
+    PngJob job;
+    job.row.resize(static_cast<size_t>(width) * 6);
+    if (!encode_png(job, width, height, words.data(), true, colour)) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
     replace_file(file, job.file);
 }
 

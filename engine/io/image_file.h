@@ -23,6 +23,13 @@ std::string media_type(std::span<const uint8_t> bytes);
 /// Writes 8-bit RGBA (alpha ignored) as an RGB PNG. The file is replaced only when complete. Throws Error.
 void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba);
 
+/// What the codes of a picture mean, as its PNG says (chunk cICP, ITU-T H.273).
+enum class PngColour : uint8_t { Unknown, Rec709Pq, Rec2020Pq, DisplayP3Pq };
+
+/// Writes words of 10 bits a channel, red in the lowest (A2B10G10R10, alpha ignored), as an RGB PNG of 16 bits (chunk
+/// sBIT: 10). The file is replaced only when complete. Throws Error.
+void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint32_t> words, PngColour);
+
 /// Named text attributes of an OpenEXR header.
 using Header = std::vector<std::pair<std::string, std::string>>;
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/tone_chain.h"
+#include "support/reference_chain.h"
 #include "support/tones.h"
 
 namespace vesper::test {
@@ -17,7 +17,7 @@ protected:
 
     ToneMapped map(const std::vector<glm::vec4>& pixels, VkExtent2D extent, const ToneChainSettings& settings = {}, float seconds = 0, Outputs outputs = {}) {
         const std::span<const float> rgba(&pixels.front().x, pixels.size() * 4);
-        return mapper.map(settings, {extent, rgba, 0.7}, seconds, outputs);
+        return mapper.map(settings, {.extent = extent, .values = rgba, .channels = 4}, seconds, outputs);
     }
     void TearDown() override { EXPECT_EQ(complaints, ""); }
 };
@@ -57,15 +57,40 @@ TEST_F(ToneMapperTest, GivesWhatIsAskedFor) {
     EXPECT_EQ(std::memcmp(both.scene.data(), pixels.data(), pixels.size() * 16), 0);
     const ToneMapped neither = map(pixels, {7, 5}, {}, 0, {.display = false, .scene = false});
     EXPECT_TRUE(neither.scene.empty() && neither.display.empty());
+    EXPECT_TRUE(neither.light.empty());
     EXPECT_EQ(std::memcmp(&neither.curve, &both.curve, sizeof both.curve), 0);
     EXPECT_NE(mapper.plan().find("adapt"), std::string::npos);
     for (const Timing& timing : neither.timings) EXPECT_NE(timing.pass, "composite") << "nobody looks";
 }
 
+TEST_F(ToneMapperTest, ScalesToCandela) {
+    const std::vector<float> rgb{1, 2, 3, 0.5f, 0.5f, 0.5f};
+    const ToneMapped got = mapper.map({}, {.extent = {2, 1}, .values = rgb, .scale = 100}, 0, {.display = false, .scene = true});
+    EXPECT_EQ(got.scene, (std::vector<float>{100, 200, 300, 1, 50, 50, 50, 1}));
+}
+
+// Reinhard shows the largest luminance as white; colours go beyond it where nothing limits them, and on the display they do
+// not.
+TEST_F(ToneMapperTest, LightOfTheDisplayGoesBeyondWhite) {
+    ToneChainSettings settings;
+    settings.tone_operator = Operator::Reinhard;
+    const std::vector<float> rgb{0, 0, 100, 1, 1, 1};
+    const ToneMapped got = mapper.map(settings, {.extent = {2, 1}, .values = rgb}, 0, {.light = true});
+    const double low = double(settings.display.low()), high = double(settings.display.high());
+    ASSERT_EQ(got.light.size(), 8u);
+    EXPECT_NEAR(double(got.light[2]), low + (high - low) / 0.0722, 0.05);
+    EXPECT_NEAR(double(got.light[0]), low, 1e-5);
+    EXPECT_EQ(got.display[2], 255);
+}
+
 TEST_F(ToneMapperTest, RefusesWhatIsNoPicture) {
     EXPECT_THROW(map(night_pixels({3, 3}, 1), {3, 4}), Error);
     EXPECT_THROW(map(night_pixels({3, 3}, 1), {0, 9}), Error);
-    for (double fov : {0.0, -1.0, 3.2, std::nan("")}) EXPECT_THROW(mapper.map({}, {{1, 1}, std::vector<float>(4), fov}, 0), Error);
+    const std::vector<float> grey(3, 1.0f);
+    EXPECT_NO_THROW(mapper.map({}, {.extent = {1, 1}, .values = grey}, 0));
+    EXPECT_THROW(mapper.map({}, {.extent = {1, 1}, .values = grey, .channels = 4}, 0), Error);
+    EXPECT_THROW(mapper.map({}, {.extent = {3, 1}, .values = grey, .channels = 1}, 0), Error);
+    for (double fov : {0.0, -1.0, 3.2, std::nan("")}) EXPECT_THROW(mapper.map({}, {.extent = {1, 1}, .values = grey, .vertical_fov = fov}, 0), Error);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ protected:
         ToneChainSettings settings;
         settings.tone_operator = op;
         settings.foveal_level = 3;
-        return mapper.map(settings, {extent, {&pixels.front().x, pixels.size() * 4}, 0.7}, seconds, {});
+        return mapper.map(settings, {.extent = extent, .values = {&pixels.front().x, pixels.size() * 4}, .channels = 4, .vertical_fov = 0.7}, seconds, {});
     }
     void TearDown() override { EXPECT_EQ(complaints, ""); }
 };

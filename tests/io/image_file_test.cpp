@@ -92,6 +92,35 @@ TEST(ImageFile, WritesPngThatReadsBack) {
     EXPECT_THROW(write_png(folder / "no/x.png", 7, 5, rgba), Error);
 }
 
+// 10 bits become 16 with the upper ones repeated below; sBIT and, for PQ, cICP say what they are.
+TEST(ImageFile, WritesPngOfTenBits) {
+    const TempFolder folder;
+    const std::vector<uint32_t> words{0u, 1023u | 512u << 10 | 1u << 20 | 3u << 30};
+    write_png_10bit(folder / "x.png", 2, 1, words, PngColour::Rec2020Pq);
+    const std::vector<uint8_t> file = read_file(folder / "x.png", 1u << 20);
+    const std::string text(file.begin(), file.end());
+    EXPECT_NE(text.find("sBIT\x0a\x0a\x0a"), std::string::npos);
+    EXPECT_NE(text.find(std::string("cICP\x09\x10\x00\x01", 8)), std::string::npos);
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop header = png_create_info_struct(png);
+    FILE* stream = std::fopen((folder / "x.png").c_str(), "rb");
+    png_init_io(png, stream);
+    png_read_png(png, header, PNG_TRANSFORM_IDENTITY, nullptr);
+    ASSERT_EQ(png_get_bit_depth(png, header), 16);
+    const png_bytep row = png_get_rows(png, header)[0];
+    const auto value = [&](int i) { return row[2 * i] << 8 | row[2 * i + 1]; };
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(value(i), 0);
+    EXPECT_EQ(value(3), 65535);
+    EXPECT_EQ(value(4), 512 << 6 | 512 >> 4);
+    EXPECT_EQ(value(5), 64);
+    std::fclose(stream);
+    png_destroy_read_struct(&png, &header, nullptr);
+    write_png_10bit(folder / "y.png", 2, 1, words, PngColour::Unknown);
+    const std::vector<uint8_t> other = read_file(folder / "y.png", 1u << 20);
+    EXPECT_EQ(std::string(other.begin(), other.end()).find("cICP"), std::string::npos);
+    EXPECT_THROW(write_png_10bit(folder / "x.png", 3, 1, words, PngColour::Unknown), Error);
+}
+
 TEST(ImageFile, ReadsEveryKindOfPng) {
     EXPECT_EQ(decode_image(png_of(2, 1, 8, PNG_COLOR_TYPE_GRAY, {5, 250}), 9).rgba,
               (Codes{5, 5, 5, 255, 250, 250, 250, 255}));

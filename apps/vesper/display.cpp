@@ -1,0 +1,115 @@
+// `vesper display`: test patterns, and a profile from what was measured on them. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "commands.h"
+#include "io/atomic_file.h"
+#include "perception/display_fit.h"
+#include "scene/display_file.h"
+#include "test_patterns.h"
+
+namespace vesper {
+namespace {
+
+struct PatternArguments {
+    std::string folder, size = "1920x1080";
+    PatternSettings settings;
+};
+
+struct FitArguments {
+    std::string measurements, output, name, kind = "auto", primaries = "rec709";
+    uint32_t bits = 8;
+    float ambient = 0, reflection = 0.01f;
+};
+
+const std::map<std::string, Eotf> kKinds{{"gamma", Eotf::Gamma}, {"srgb", Eotf::Srgb}, {"pq", Eotf::Pq}, {"table", Eotf::Table}};
+const std::map<std::string, Primaries> kPrimaries{{"rec709", kRec709}, {"p3", kDisplayP3}, {"rec2020", kRec2020}};
+
+const char* name_of(Eotf eotf) {
+    for (const auto& [name, value] : kKinds)
+        if (value == eotf) return name.c_str();
+    return "";
+}
+
+void run_patterns(PatternArguments& a) {
+    char rest = 0;
+    if (std::sscanf(a.size.c_str(), "%5ux%5u%c", &a.settings.width, &a.settings.height, &rest) != 2 || a.settings.width < 64 || a.settings.height < 64 ||
+        a.settings.width > 8192 || a.settings.height > 8192)
+        throw Error("--size " + one_line(a.size) + ": expected WIDTHxHEIGHT, 64x64 to 8192x8192");
+    if (!std::filesystem::is_directory(a.folder)) throw Error("-o " + one_line(a.folder) + ": there is no such folder");
+    const auto names = write_test_patterns(a.folder, a.settings);
+    std::printf("wrote %zu test patterns and %s\n", names.size() - 1, names.back().c_str());
+}
+
+void run_fit(const FitArguments& a) {
+    if (!ends_with(a.output, ".json")) throw Error("-o " + one_line(a.output) + ": a .json file is expected");
+    check_folder("-o", a.output);
+    const auto measured = read_display_measurements(a.measurements, a.bits);
+    DisplayFit fit;
+    try {
+        fit = a.kind == "auto" ? fit_display(measured, a.bits) : fit_display(measured, a.bits, kKinds.at(a.kind));
+        fit.display.ambient = a.ambient, fit.display.reflection = a.reflection;
+        fit.display.primaries = kPrimaries.at(a.primaries);
+        check_display(fit.display);
+    } catch (const Error& error) {
+        throw Error(one_line(a.measurements) + ": " + error.what());
+    }
+    const Display& d = fit.display;
+    std::printf("%s: %s, %.5g to %.5g cd/m^2 (%.4g : 1)", a.measurements.c_str(), name_of(d.eotf), double(d.black), double(d.peak), double(d.peak) / double(d.black));
+    if (d.eotf == Eotf::Gamma) std::printf(", gamma %.4f", double(d.gamma));
+    std::printf("\nresiduals: root mean square %.2f %%, largest %.2f %%\n  line   code    measured     profile  residual\n", 100 * fit.rms, 100 * fit.largest);
+    const DisplayCurve curve(d);
+    for (size_t i = 0; i < measured.size(); ++i)
+        std::printf("%6zu %6u %11.5g %11.5g %8.2f%%\n", measured[i].line, measured[i].code, measured[i].luminance,
+                    curve.emitted(double(measured[i].code) / d.largest_code()), 100 * fit.residuals[i]);
+    write_text(a.output, display_json(d, a.name));
+    std::printf("wrote %s\n", a.output.c_str());
+}
+
+void run_list() {
+    for (const NamedDisplay& known : known_displays()) std::printf("%-10s %s\n", known.name, known.description);
+}
+
+}  // namespace
+
+void add_display(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("display", "Test patterns, and a display's profile from measurements (docs/display.md)");
+    command->require_subcommand(1);
+    command->footer("Example:\n  vesper display patterns -o patterns/ --size 1920x1080    # show each patch, measure it, fill in measurements.csv\n"
+                    "  vesper display fit patterns/measurements.csv -o wall.json\n"
+                    "  vesper render night.gltf --display wall.json -o night.png\n");
+
+    const auto p = std::make_shared<PatternArguments>();
+    CLI::App* patterns = command->add_subcommand("patterns", "Write ramps, black and near-black steps, and patches to measure");
+    patterns->add_option("--output,-o", p->folder, "A folder that exists")->required();
+    patterns->add_option("--size,-s", p->size, "WIDTHxHEIGHT of the display, px")->capture_default_str();
+    patterns->add_option("--bits", p->settings.bits, "Of a channel's code; 10 are written as PNG of 16 bits")->check(CLI::IsMember({8, 10}))->capture_default_str();
+    patterns->add_option("--patches", p->settings.patches, "How many codes to measure, besides some near black")->check(CLI::Range(3u, 256u))->capture_default_str();
+    patterns->add_option("--window", p->settings.window, "Side of the patch as part of the picture's; 1: all of it")->check(between(0.01, 1.0))->capture_default_str();
+    patterns->footer("Example:\n  vesper display patterns -o patterns/ --size 1920x1080 --bits 8\n");
+    patterns->callback([p] { run_patterns(*p); });
+
+    const auto f = std::make_shared<FitArguments>();
+    CLI::App* fit = command->add_subcommand("fit", "Make a profile from measured luminances");
+    fit->add_option("measurements", f->measurements, "Lines of code,cd/m^2, measured in the dark")->required();
+    fit->add_option("--output,-o", f->output, "PROFILE.json")->required();
+    fit->add_option("--kind", f->kind, "Transfer function; auto: the simplest within 1 %, or the table")->check(CLI::IsMember({"auto", "gamma", "srgb", "pq", "table"}))->capture_default_str();
+    fit->add_option("--bits", f->bits, "Of a channel's code")->check(CLI::IsMember({8, 10}))->capture_default_str();
+    fit->add_option("--primaries", f->primaries, "Of the display; others can be written into the profile")->check(CLI::IsMember({"rec709", "p3", "rec2020"}))->capture_default_str();
+    fit->add_option("--ambient", f->ambient, "Illuminance on the screen when in use, lx")->check(between(0.0, 1e5))->capture_default_str();
+    fit->add_option("--reflection", f->reflection, "Diffuse reflectance of the screen")->check(between(0.0, 1.0))->capture_default_str();
+    fit->add_option("--name", f->name, "What the profile calls the display");
+    fit->footer("Example:\n  vesper display fit measurements.csv --name 'wall of cave 2' --ambient 0 -o wall.json\n");
+    fit->callback([f] { run_fit(*f); });
+
+    command->add_subcommand("list", "The displays that are known by name")->callback(run_list);
+}
+
+}  // namespace vesper

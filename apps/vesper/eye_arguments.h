@@ -1,0 +1,27 @@
+// The options of the eye that looks: operator, observer, what it adapts to. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "tone_chain.h"
+
+namespace vesper {
+
+/// Part of ToneArguments.
+struct EyeArguments {
+    std::string tone_operator = "ward", adapt_to = "operator", ceiling = "operator", preset = "none";
+    std::vector<float> gaze{0.5f, 0.5f};
+    bool whole_votes = false;
+    int foveal_level = 0;
+    const CLI::App* command = nullptr;  ///< tells which were given
+};
+
+/// Adds them to a command. Numbers of the observer and the histogram go straight to the settings.
+void add_eye_options(CLI::App& command, EyeArguments& arguments, HistogramSettings& histogram, ToneSettings& tone);
+/// Takes the rest over.
+void apply(const EyeArguments& arguments, ToneChainSettings& settings);
+
+}  // namespace vesper

@@ -1,0 +1,100 @@
+#include "tone_arguments.h"
+
+#include <cstring>
+#include <map>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "scene/display_file.h"
+#include "tone_log.h"
+
+namespace vesper {
+namespace {
+
+const std::map<std::string, Glare> kGlares{{"none", Glare::None}, {"ldr", Glare::Ldr}};
+
+Display display_of(const ToneArguments& arguments) {
+    Display display = arguments.display.empty() ? known_displays().front().display : find_display(arguments.display);
+    const bool table = display.eotf == Eotf::Table;
+    if (table && (arguments.peak || arguments.black)) throw Error("--display " + arguments.display + ": --display-peak and --display-black cannot change a measured table");
+    if (display.eotf != Eotf::Gamma && arguments.gamma) throw Error("--display " + arguments.display + ": --display-gamma: the display has no gamma");
+    display.peak = arguments.peak.value_or(display.peak);
+    display.black = arguments.black.value_or(display.black);
+    display.gamma = arguments.gamma.value_or(display.gamma);
+    display.ambient = arguments.ambient.value_or(display.ambient);
+    display.reflection = arguments.reflection.value_or(display.reflection);
+    check_display(display);
+    return display;
+}
+
+}  // namespace
+
+void add_tone_options(CLI::App& command, ToneArguments& a) {
+    std::string names;
+    for (const NamedDisplay& known : known_displays()) names += std::string(names.empty() ? "" : ", ") + known.name;
+    add_eye_options(command, a.eye, a.histogram, a.tone);
+    command.add_option("--glare", a.glare, "ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr"}))->capture_default_str();
+    command.add_option("--key", a.tone.key, "Reinhard: what the log average is shown as, relative to white")->check(between(1e-4, 10.0))->capture_default_str();
+    command.add_option("--white", a.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
+    command.add_option("--linear-min", a.tone.linear_low, "linear: luminance shown as black, cd/m^2")->check(between(0.0, 1e9))->capture_default_str();
+    command.add_option("--linear-max", a.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
+    command.add_option("--display", a.display, "NAME (" + names + ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
+    command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2")->check(between(0.1, 1e5));
+    command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2")->check(between(1e-6, 1e3));
+    command.add_option("--display-gamma", a.gamma, "Display: exponent")->check(between(0.5, 5.0));
+    command.add_option("--display-ambient", a.ambient, "Display: illuminance on the screen, lx")->check(between(0.0, 1e5));
+    command.add_option("--display-reflection", a.reflection, "Display: diffuse reflectance")->check(between(0.0, 1.0));
+}
+
+ToneChainSettings tone_settings(const ToneArguments& arguments) {
+    ToneChainSettings settings;
+    settings.glare = kGlares.at(arguments.glare);
+    settings.histogram = arguments.histogram;
+    settings.tone = arguments.tone;
+    apply(arguments.eye, settings);
+    if (settings.tone.linear_high > 0 && settings.tone.linear_high <= settings.tone.linear_low)
+        throw Error("--linear-max must be more than --linear-min");
+    settings.display = display_of(arguments);
+    return settings;
+}
+
+std::string name_of(Operator wanted) { return std::string(operator_info(wanted).name); }
+
+std::string digits(double value) { return format("%.9g", value); }
+
+Header describe_tone(const ToneChainSettings& settings, const ToneMapped& shown) {
+    Header header{{"vesper:operator", name_of(settings.tone_operator)},
+                  {"vesper:adaptationLuminance", digits(double(shown.curve.adaptation))},
+                  {"vesper:eyeSeconds", digits(double(shown.eye.seconds))},
+                  {"vesper:fovealLevel", std::to_string(shown.foveal_level)},
+                  {"vesper:displayLow", digits(double(settings.display.low()))},
+                  {"vesper:displayHigh", digits(double(settings.display.high()))},
+                  {"vesper:coneSigma", digits(double(shown.curve.cone_sigma))},
+                  {"vesper:rodSigma", digits(double(shown.curve.rod_sigma))}};
+    for (const auto& [name, value] : named_state(shown.eye)) header.emplace_back("vesper:eye:" + name, digits(value));
+    const auto list = [](const auto& values, size_t count) {
+        std::string text;
+        for (size_t i = 0; i < count; ++i) text += (i ? " " : "") + digits(double(values[i]));
+        return text;
+    };
+    const std::vector<double> curve = curve_samples(shown.curve, operator_info(settings.tone_operator).form, settings.display);
+    header.emplace_back("vesper:eye:shares", list(shown.eye.share, size_t(shown.eye.bins)));
+    header.emplace_back("vesper:toneCurve", "display cd/m^2 at 1e-4 to 1e6 cd/m^2 in tenths of a decade: " + list(curve, curve.size()));
+    return header;
+}
+
+void write_codes(const std::string& file, const ToneMapped& shown, const Display& display) {
+    const auto [width, height] = shown.extent;
+    if (display.bits == 8) return write_png(file, width, height, shown.display);
+    std::vector<uint32_t> words(shown.display.size() / 4);
+    std::memcpy(words.data(), shown.display.data(), words.size() * 4);
+    const bool hdr10 = display.eotf == Eotf::Pq;
+    const PngColour colour = !hdr10                             ? PngColour::Unknown
+                             : display.primaries == kRec2020   ? PngColour::Rec2020Pq
+                             : display.primaries == kDisplayP3 ? PngColour::DisplayP3Pq
+                             : display.primaries == kRec709    ? PngColour::Rec709Pq
+                                                               : PngColour::Unknown;
+    write_png_10bit(file, width, height, words, colour);
+}
+
+}  // namespace vesper

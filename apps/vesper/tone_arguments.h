@@ -1,0 +1,37 @@
+// What commands that show luminance on a display share: operator, display, files. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "eye_arguments.h"
+#include "io/image_file.h"
+#include "tone_chain.h"
+
+namespace vesper {
+
+/// Options of the way from luminance to display codes.
+struct ToneArguments {
+    EyeArguments eye;
+    std::string glare = "none", display;
+    std::optional<float> peak, black, gamma, ambient, reflection;  ///< in place of the display's
+    HistogramSettings histogram;
+    ToneSettings tone;
+};
+void add_tone_options(CLI::App&, ToneArguments&);
+/// What they say; throws Error if they contradict each other.
+ToneChainSettings tone_settings(const ToneArguments&);
+
+/// The name an operator has on the command line.
+std::string name_of(Operator);
+/// What a picture's header should say of how it is shown.
+Header describe_tone(const ToneChainSettings&, const ToneMapped&);
+/// Nine digits, as in headers.
+std::string digits(double value);
+
+/// Writes the codes of a tone-mapped picture: 8 bits a channel, or 16 for a display of 10. Throws Error.
+void write_codes(const std::string& file, const ToneMapped&, const Display&);
+
+}  // namespace vesper

@@ -1,0 +1,228 @@
+// `vesper tonemap`: HDR pictures and films to a display. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "commands.h"
+#include "io/atomic_file.h"
+#include "io/hdr_image.h"
+#include "numbered_files.h"
+#include "progress.h"
+#include "tone_arguments.h"
+#include "tone_mapper.h"
+#include "video.h"
+
+namespace vesper {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDefaultFov = 40;  // degrees of height
+constexpr size_t kMaxPictures = 1000000;
+
+struct TonemapArguments {
+    std::vector<std::string> inputs, outputs;
+    std::string device;
+    ToneArguments tone;
+    double scale = 0, fps = 0, fov = 0;
+    bool statistics = false;
+};
+
+/// One picture to do.
+struct Job {
+    std::string input;
+    std::vector<std::string> outputs;  ///< files; none for a film
+    double seconds = 0;                ///< since the picture before
+};
+
+struct Plan {
+    std::vector<Job> jobs;
+    bool sequence = false;  ///< the eye remembers from each to the next
+    double fps = 0;
+    std::string film;       ///< empty: none
+};
+
+bool is_folder(const std::string& name) { return name.ends_with('/') || fs::is_directory(name); }
+
+/// Where the pictures go that are told apart by their place in a list.
+std::string output_of(const std::string& output, const std::string& input, unsigned number, bool single) {
+    if (is_folder(output)) return (fs::path(output) / fs::path(input).stem()).string() + ".png";
+    if (const auto name = numbered_name("-o", output)) return name->at(number);
+    if (!single) throw Error("-o " + one_line(output) + ": several pictures need a folder, a name with %04d in it, or a .mp4");
+    return output;
+}
+
+void check_outputs(const Plan& plan) {
+    std::set<std::string> seen;
+    for (const Job& job : plan.jobs)
+        for (const std::string& output : job.outputs) {
+            if (!ends_with(output, ".png") && !ends_with(output, ".exr")) throw Error("-o " + one_line(output) + ": a .png, .exr or .mp4 file or a folder is expected");
+            check_folder("-o", output);
+            if (!seen.insert(output).second) throw Error("-o " + one_line(output) + ": would be written twice, for " + one_line(job.input) + " again");
+        }
+}
+
+Plan plan_of(const TonemapArguments& arguments) {
+    Plan plan;
+    std::vector<NumberedFile> files;
+    for (const std::string& input : arguments.inputs) {
+        if (const auto name = numbered_name("input", input)) {
+            if (arguments.inputs.size() > 1) throw Error(one_line(input) + ": a sequence stands alone, without other pictures");
+            files = numbered_files(*name);
+            plan.sequence = true;
+        } else {
+            files.push_back({unsigned(files.size()), input});
+        }
+    }
+    if (files.size() > kMaxPictures) throw Error("more than a million pictures");
+    plan.sequence |= arguments.fps > 0;
+    plan.fps = arguments.fps > 0 ? arguments.fps : 30;
+    for (size_t i = 0; i < files.size(); ++i) {
+        Job job{files[i].file, {}, 0};
+        if (plan.sequence && i > 0) job.seconds = (files[i].number - files[i - 1].number) / plan.fps;  // missing frames take their time
+        for (const std::string& output : arguments.outputs) {
+            if (!ends_with(output, ".mp4"))
+                job.outputs.push_back(output_of(output, files[i].file, files[i].number, files.size() == 1));
+            else if (i == 0 && !plan.film.empty())
+                throw Error("-o " + one_line(output) + ": one film at a time");
+            else
+                plan.film = output;
+        }
+        plan.jobs.push_back(std::move(job));
+    }
+    if (!plan.film.empty()) {
+        check_folder("-o", plan.film);
+        if (!plan.sequence) throw Error("-o " + one_line(plan.film) + ": a film is made of a sequence: give frame.%04d.exr, or --fps");
+    }
+    check_outputs(plan);
+    return plan;
+}
+
+/// Degrees of height: as given, as Vesper's own pictures say, or a guess.
+double fov_of(const TonemapArguments& arguments, const HdrImage& image) {
+    if (arguments.fov > 0) return arguments.fov;
+    for (const auto& [key, value] : image.header) {
+        double left = 0, bottom = 0, right = 0, top = 0;
+        if (key == "vesper:tangents" && std::sscanf(value.c_str(), "%lf %lf %lf %lf", &left, &bottom, &right, &top) == 4) {
+            const double degrees = (std::atan(top) - std::atan(bottom)) * 180 / std::numbers::pi;
+            if (degrees >= 0.1 && degrees <= 170) return degrees;
+        }
+    }
+    return kDefaultFov;
+}
+
+struct Shown {
+    ToneMapped picture;
+    double scale = 1, fov = kDefaultFov;
+    bool absolute = false;
+};
+
+Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, ToneMapper& mapper, const Job& job, bool wants_codes) {
+    const HdrImage image = read_hdr_image(job.input);
+    Shown shown;
+    shown.absolute = arguments.scale > 0 || image.white_luminance > 0;
+    shown.scale = arguments.scale > 0 ? arguments.scale : image.white_luminance > 0 ? image.white_luminance : 1;
+    shown.fov = fov_of(arguments, image);
+    Outputs outputs{.display = wants_codes, .scene = false, .light = false};
+    for (const std::string& output : job.outputs) (ends_with(output, ".png") ? outputs.display : outputs.light) = true;
+    try {
+        shown.picture = mapper.map(settings, {.extent = {image.width, image.height}, .values = image.rgb, .channels = 3, .scale = float(shown.scale), .vertical_fov = shown.fov * std::numbers::pi / 180},
+                                   float(job.seconds), outputs);
+    } catch (const Error& error) {
+        throw Error(one_line(job.input) + ": " + error.what());
+    }
+    return shown;
+}
+
+void write_outputs(const ToneChainSettings& settings, const Device& device, const Job& job, const Shown& shown) {
+    const ToneMapped& picture = shown.picture;
+    for (const std::string& output : job.outputs) {
+        if (ends_with(output, ".png")) {
+            write_codes(output, picture, settings.display);
+            continue;
+        }
+        Header header{{"vesper:version", VESPER_VERSION},
+                      {"vesper:source", one_line(job.input)},
+                      {"vesper:unit", "cd/m^2 on the display, linear Rec. 709 RGB"},
+                      {"vesper:sourceScale", digits(shown.scale)},
+                      {"vesper:device", device.name() + ", " + device.driver()}};
+        const Header tone = describe_tone(settings, picture);
+        header.insert(header.end(), tone.begin(), tone.end());
+        write_exr(output, picture.extent.width, picture.extent.height, picture.light, header);
+    }
+}
+
+void report(const TonemapArguments& arguments, const Job& job, const Shown& shown, bool first) {
+    const ToneMapped& p = shown.picture;
+    if (!shown.absolute && first) std::fprintf(stderr, "note: %s: its header names no unit: taken as cd/m^2 (--scale tells another)\n", one_line(job.input).c_str());
+    if (p.histogram.non_finite > 0)
+        std::fprintf(stderr, "note: %s: %u of %u pixels are not finite and shown black\n", one_line(job.input).c_str(), p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite);
+    if (!arguments.statistics) return;
+    double device = 0;
+    for (const Timing& timing : p.timings) device += timing.milliseconds;
+    std::printf("%s: %u x %u px, %.4g cd/m^2 per unit, adaptation %.4g cd/m^2, maximum %.4g cd/m^2, foveal level %u (%.3g degrees), %.1f ms (device %.1f)\n",
+                one_line(job.input).c_str(), p.extent.width, p.extent.height, shown.scale, double(p.curve.adaptation), double(p.curve.maximum), p.foveal_level, shown.fov,
+                p.milliseconds, device);
+    for (const Timing& timing : p.timings) std::printf("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
+}
+
+void run(const TonemapArguments& arguments) {
+    const ToneChainSettings settings = tone_settings(arguments.tone);
+    const Plan plan = plan_of(arguments);
+    for (const std::string& output : arguments.outputs)
+        if (output.ends_with('/') && !fs::is_directory(output)) throw Error("-o " + one_line(output) + ": there is no such folder");
+
+    Device device({.select = arguments.device});
+    ToneMapper mapper(device);
+    std::unique_ptr<Video> film;
+    Progress progress("tone mapping", unsigned(plan.jobs.size()));
+    size_t failed = 0;
+    bool first = true;
+    for (const Job& job : plan.jobs) {
+        if (!plan.sequence) mapper.reset_adaptation();
+        try {
+            const Shown shown = show(arguments, settings, mapper, job, !plan.film.empty());
+            const auto [width, height] = shown.picture.extent;
+            if (!plan.film.empty() && !film) film = std::make_unique<Video>(plan.film, width, height, plan.fps, settings.display);
+            write_outputs(settings, device, job, shown);
+            if (film) film->add(shown.picture.display);
+            report(arguments, job, shown, first);
+            first = false;
+        } catch (const Error& error) {
+            // Pictures that have nothing to do with each other do not wait for one that is damaged.
+            if (plan.sequence || plan.jobs.size() == 1) throw;
+            std::fprintf(stderr, "vesper: %s\n", error.what());
+            ++failed;
+        }
+        progress.step();
+    }
+    if (film) film->finish();
+    if (failed > 0) throw Error(std::to_string(failed) + " of " + std::to_string(plan.jobs.size()) + " pictures could not be shown");
+}
+
+}  // namespace
+
+void add_tonemap(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("tonemap", "Show HDR pictures and films on a display (docs/tonemap.md)");
+    const auto a = std::make_shared<TonemapArguments>();
+    command->add_option("pictures", a->inputs, "OpenEXR or Radiance pictures, or frame.%04d.exr for a sequence")->required();
+    command->add_option("--output,-o", a->outputs, "OUT.png: codes; OUT.exr: cd/m^2 on the display; OUT.mp4; a folder or %04d for several; may be given more than once")->required();
+    command->add_option("--scale", a->scale, "cd/m^2 of the picture's 1.0 (default: its whiteLuminance, or 1)")->check(between(1e-12, 1e12));
+    command->add_option("--fps", a->fps, "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for frame.%04d.exr: 30)")->check(between(0.001, 10000.0));
+    command->add_option("--fov", a->fov, "Angle the picture covers in height, degrees (default: what vesper render wrote, or 40)")->check(between(0.1, 170.0));
+    command->add_flag("--stats", a->statistics, "Print adaptation and milliseconds of each picture");
+    command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    add_tone_options(*command, a->tone);
+    command->footer("Examples:\n  vesper tonemap night.exr --operator ward --display projector -o night.png\n"
+                    "  vesper tonemap *.hdr --scale 179 --operator reinhard -o shown/\n"
+                    "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"
+                    "  vesper tonemap night.exr --display hdr10 -o night-pq.png -o night-on-display.exr\n");
+    command->callback([a] { run(*a); });
+}
+
+}  // namespace vesper

@@ -1,0 +1,20 @@
+// Display profiles: files that describe a display (docs/display.md). SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "perception/display.h"
+
+namespace vesper {
+
+/// Reads a display profile. Throws Error with file, place and reason.
+Display read_display(const std::filesystem::path& file);
+
+/// A display by its name (known_displays) or the file of its profile. Throws Error.
+Display find_display(const std::string& name_or_file);
+
+/// A profile as JSON text, to be read again without loss; `name` may be empty.
+std::string display_json(const Display&, const std::string& name);
+
+}  // namespace vesper

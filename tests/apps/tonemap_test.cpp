@@ -1,0 +1,220 @@
+// `vesper tonemap` as people run it. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+
+#include "io/atomic_file.h"
+#include "support/exr_files.h"
+#include "support/program.h"
+
+namespace vesper::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+HdrImage street(uint32_t width, uint32_t height) {
+    HdrImage image{width, height, {}, 0, {}};
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            const float l = std::pow(10.0f, -2 + 5 * float(x + y) / float(width + height)) * (1 + 0.2f * std::sin(0.4f * float(x)));
+            for (const float tint : {1.0f, 0.8f, 0.5f}) image.rgb.push_back(l * tint);
+        }
+    return image;
+}
+
+HdrImage uniform(uint32_t width, uint32_t height, float value) { return {width, height, std::vector<float>(size_t{3} * width * height, value), 0, {}}; }
+
+class TonemapProgram : public ProgramTest {
+protected:
+    int tonemap(const std::string& arguments, const std::string& environment = "") { return run("tonemap " + arguments, environment); }
+    Image png(const std::string& name) { return decode_image(read_file(folder / name, 1u << 28), 32768); }
+    std::string header(const std::string& name, const std::string& key) {
+        for (const auto& [k, value] : read_exr(folder / name).header)
+            if (k == key) return value;
+        return "none";
+    }
+    /// The largest difference of codes between two pictures.
+    int difference(const std::string& a, const std::string& b) {
+        const Image left = png(a), right = png(b);
+        if (left.width != right.width || left.rgba.size() != right.rgba.size()) return 999;
+        int most = 0;
+        for (size_t i = 0; i < left.rgba.size(); ++i) most = std::max(most, std::abs(left.rgba[i] - right.rgba[i]));
+        return most;
+    }
+    bool left_nothing_behind() const {
+        for (const auto& entry : fs::directory_iterator(folder.path()))
+            if (entry.path().filename().string().starts_with(".vesper")) return false;
+        return true;
+    }
+};
+
+TEST_F(TonemapProgram, OnePictureInEveryLayoutIsOnePicture) {
+    const HdrImage image = street(100, 70);
+    write_layout(folder / "plain.exr", image, {});
+    ASSERT_EQ(tonemap("plain.exr -o plain.png"), 0) << said;
+    // Lossless ones agree exactly. PXR24 keeps 16 bits of the mantissa; DWA is visually lossless, B44 leaves floats alone;
+    // half precision and filtered chroma take up to some codes where luminance changes from pixel to pixel.
+    using namespace Imf;
+    const std::pair<ExrLayout, int> layouts[]{{{.compression = NO_COMPRESSION}, 0}, {{.compression = RLE_COMPRESSION}, 0}, {{.compression = ZIPS_COMPRESSION}, 0},
+                                              {{.compression = PIZ_COMPRESSION}, 0}, {{.compression = PXR24_COMPRESSION}, 1}, {{.compression = B44_COMPRESSION}, 0},
+                                              {{.compression = DWAA_COMPRESSION}, 3}, {{.compression = DWAB_COMPRESSION}, 3}, {{.tiles = true}, 0},
+                                              {{.tiles = true, .mipmap = true}, 0}, {{.multi_part = true}, 0}};
+    for (const auto& [layout, codes] : layouts) {
+        write_layout(folder / "other.exr", image, layout);
+        ASSERT_EQ(tonemap("other.exr -o other.png"), 0) << said;
+        EXPECT_LE(difference("plain.png", "other.png"), codes) << layout.compression << layout.tiles << layout.mipmap << layout.multi_part;
+    }
+    write_chroma(folder / "chroma.exr", image);
+    ASSERT_EQ(tonemap("chroma.exr -o chroma.png"), 0) << said;
+    EXPECT_LE(difference("plain.png", "chroma.png"), 8);
+    write_layout(folder / "grey.exr", image, {.grey = true});
+    ASSERT_EQ(tonemap("grey.exr -o grey.png"), 0) << said;
+    const Image grey = png("grey.png");
+    for (size_t i = 0; i < grey.rgba.size(); i += 4) ASSERT_TRUE(grey.rgba[i] == grey.rgba[i + 1] && grey.rgba[i] == grey.rgba[i + 2]);
+    write_layout(folder / "window.exr", image, {.x0 = 30, .y0 = -20});
+    ASSERT_EQ(tonemap("window.exr -o window.png"), 0) << said;
+    const Image window = png("window.png");
+    EXPECT_EQ(window.width, 100u);
+    EXPECT_LE(window.rgba[4 * 10], 1) << "left of the data window";
+    EXPECT_GT(window.rgba[4 * 90], 10) << "inside";
+}
+
+TEST_F(TonemapProgram, TheUnitIsTheFilesOrTheOneGiven) {
+    const HdrImage image = street(60, 40);
+    write_layout(folder / "relative.exr", image, {});
+    write_layout(folder / "absolute.exr", image, {.white_luminance = 250});
+    ASSERT_EQ(tonemap("relative.exr -o relative.png -o relative-on-display.exr"), 0) << said;
+    EXPECT_NE(said.find("names no unit"), std::string::npos) << said;
+    ASSERT_EQ(tonemap("absolute.exr -o absolute.png -o on-display.exr"), 0);
+    EXPECT_EQ(said, "");
+    ASSERT_EQ(tonemap("relative.exr --scale 250 -o scaled.png"), 0);
+    EXPECT_EQ(said, "");
+    ASSERT_EQ(tonemap("absolute.exr --scale 1 -o unscaled.png"), 0);
+    EXPECT_EQ(difference("absolute.png", "scaled.png"), 0);
+    EXPECT_EQ(difference("relative.png", "unscaled.png"), 0);
+    EXPECT_GT(difference("relative.png", "scaled.png"), 0);
+    EXPECT_EQ(header("on-display.exr", "vesper:sourceScale"), "250");
+    EXPECT_EQ(header("on-display.exr", "whiteLuminance"), "1");
+}
+
+TEST_F(TonemapProgram, AnglesSetTheFovealLevel) {
+    write_layout(folder / "a.exr", street(640, 400), {});
+    const auto level = [&](const std::string& arguments) {
+        EXPECT_EQ(tonemap("a.exr -o x.exr " + arguments), 0) << said;
+        return header("x.exr", "vesper:fovealLevel");
+    };
+    EXPECT_EQ(level("--fov 100"), "2");  // 4 px a degree
+    EXPECT_EQ(level("--fov 25"), "4");   // 16 px
+    EXPECT_EQ(level("--fov 25 --foveal-level 5"), "5");
+    EXPECT_EQ(level(""), "3") << "40 degrees";
+}
+
+TEST_F(TonemapProgram, SequencesRememberAndOthersDoNot) {
+    for (const int number : {8, 9, 10, 14}) write_layout(folder / ("f." + std::to_string(number) + ".exr"), street(20 + uint32_t(number), 20), {.white_luminance = 1});
+    ASSERT_EQ(tonemap("f.%d.exr --fps 4 -o o.%03d.exr"), 0) << said;
+    EXPECT_EQ(header("o.008.exr", "vesper:eyeSeconds"), "0");
+    EXPECT_EQ(header("o.009.exr", "vesper:eyeSeconds"), "0.25");
+    EXPECT_EQ(header("o.010.exr", "vesper:eyeSeconds"), "0.5");
+    EXPECT_EQ(header("o.014.exr", "vesper:eyeSeconds"), "1.5") << "missing frames take their time";
+    ASSERT_EQ(tonemap("f.10.exr f.8.exr --fps 2 -o p%d.exr"), 0) << said;
+    EXPECT_EQ(header("p1.exr", "vesper:eyeSeconds"), "0.5");
+    ASSERT_EQ(tonemap("f.10.exr f.8.exr -o q%d.exr"), 0) << said;
+    EXPECT_EQ(header("q1.exr", "vesper:eyeSeconds"), "0");
+    fs::create_directory(folder / "all");
+    ASSERT_EQ(tonemap("f.10.exr f.8.exr -o all"), 0) << said;
+    EXPECT_TRUE(exists("all/f.10.png") && exists("all/f.8.png"));
+}
+
+TEST_F(TonemapProgram, HostilePicturesGiveAPicture) {
+    const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
+    HdrImage lamp = uniform(64, 64, 0);
+    lamp.rgb[3 * 777] = lamp.rgb[3 * 777 + 1] = 1e8f;
+    const std::pair<const char*, HdrImage> pictures[]{{"one", uniform(1, 1, 3)},  {"black", uniform(40, 30, 0)},      {"nan", uniform(40, 30, nan)},
+                                                      {"inf", uniform(40, 30, inf)}, {"minus", uniform(40, 30, -inf)}, {"negative", uniform(40, 30, -5)},
+                                                      {"largest", uniform(40, 30, 3.4e38f)}, {"least", uniform(40, 30, 1e-42f)}, {"lamp", lamp}, {"wide", uniform(16384, 3, 2)}, {"tall", uniform(2, 16384, 2)}};
+    for (const auto& [name, image] : pictures) {
+        write_layout(folder / "a.exr", image, {.white_luminance = 1});
+        for (const char* tone : {"ward", "reinhard", "linear", "ldr"}) {
+            ASSERT_EQ(tonemap("a.exr -o a.png -o b.exr --operator " + std::string(tone)), 0) << name << said;
+            const Image shown = png("a.png");
+            ASSERT_EQ(shown.width, image.width);
+            const std::string kind = name;
+            if (kind == "black" || kind == "nan" || kind == "inf" || kind == "minus" || kind == "negative") {
+                EXPECT_EQ(shown.rgba[0], 0) << name << tone;
+            }
+            if (kind == "lamp") {
+                EXPECT_GT(shown.rgba[4 * 777], 250) << tone;
+            }
+            for (const float value : read_exr(folder / "b.exr").rgb) ASSERT_TRUE(std::isfinite(value)) << name << tone;
+        }
+        EXPECT_EQ(said.find("not finite") != std::string::npos, std::string(name) == "nan" || std::string(name) == "inf" || std::string(name) == "minus") << said;
+    }
+}
+
+TEST_F(TonemapProgram, DamagedFilesLeaveEarlierOutputsAlone) {
+    write_layout(folder / "good.exr", street(60, 40), {.white_luminance = 1});
+    ASSERT_EQ(tonemap("good.exr -o out.png -o out.exr"), 0) << said;
+    const std::string before = read_text(folder / "out.png"), before_exr = read_text(folder / "out.exr"), whole = read_text(folder / "good.exr");
+    for (const size_t part : {0u, 3u, 50u, 95u}) {
+        folder.write("cut.exr", whole.substr(0, whole.size() * part / 100));
+        expect_refused("tonemap cut.exr -o out.png -o out.exr", {"cut.exr"});
+    }
+    folder.write("text.hdr", "no picture");
+    expect_refused("tonemap text.hdr -o out.png", {"text.hdr", "neither"});
+    expect_refused("tonemap none.exr -o out.png", {"none.exr"});
+    write_layout(folder / "wide.exr", uniform(20000, 1, 1), {.white_luminance = 1});
+    expect_refused("tonemap wide.exr -o out.png", {"wide.exr", "20000"});
+    EXPECT_EQ(read_text(folder / "out.png"), before);
+    EXPECT_EQ(read_text(folder / "out.exr"), before_exr);
+    // Of several, the others are shown.
+    fs::create_directory(folder / "all");
+    EXPECT_EQ(tonemap("text.hdr good.exr -o all"), 2);
+    EXPECT_TRUE(exists("all/good.png"));
+    EXPECT_NE(said.find("1 of 2"), std::string::npos) << said;
+    EXPECT_TRUE(left_nothing_behind());
+}
+
+TEST_F(TonemapProgram, RefusesInOneLine) {
+    write_layout(folder / "a.exr", uniform(4, 4, 1), {.white_luminance = 1});
+    fs::copy(folder / "a.exr", folder / "b.exr");
+    fs::create_directory(folder / "all");
+    for (const char* arguments : {"a.exr", "a.exr -o a.tiff", "a.exr -o none/a.png", "a.exr -o none/", "a.exr b.exr -o x.png", "a.exr b.exr -o x.mp4", "a.exr -o x.mp4",
+                                  "f.%d.exr -o x.%d.png", "f.%s.exr -o x.png", "a.exr f.%d.exr -o x.%d.png", "a.exr -o x.%d.%d.png", "a.exr a.exr -o all", "a.exr -o x.png -o x.png",
+                                  "a.exr -o x.png --scale 0", "a.exr -o x.png --scale nan", "a.exr -o x.png --fov 180", "a.exr -o x.png --fps -1", "a.exr -o x.png --operator foo",
+                                  "a.exr -o x.png --display foo", "a.exr -o x.png --foveal-level 9", "a.exr --fps 5 -o x.mp4 -o y.mp4", "a.exr -o x.png --device nowhere"})
+        expect_refused(std::string("tonemap ") + arguments);
+    EXPECT_FALSE(exists("x.png"));
+    EXPECT_TRUE(left_nothing_behind());
+}
+
+TEST_F(TonemapProgram, Films) {
+    for (int number = 0; number < 5; ++number) write_layout(folder / ("f" + std::to_string(number) + ".exr"), uniform(65, 33, float(number + 1)), {.white_luminance = 1});
+    expect_refused("tonemap f%d.exr -o film.mp4", {"film.mp4", "ffmpeg", "not installed"}, "PATH=/nowhere");
+    folder.write("film.mp4", "an earlier film");
+    fs::create_directory(folder / "bin");
+    folder.write("bin/ffmpeg", "#!/bin/sh\necho 'no encoder here' >&2\nexit 3\n");
+    fs::permissions(folder / "bin/ffmpeg", fs::perms::owner_all);
+    expect_refused("tonemap f%d.exr -o film.mp4", {"film.mp4", "no encoder here"}, "PATH=" + (folder / "bin").string());
+    EXPECT_EQ(read_text(folder / "film.mp4"), "an earlier film");
+    EXPECT_TRUE(left_nothing_behind());
+    if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not here";
+    ASSERT_EQ(tonemap("f%d.exr --fps 12 -o film.mp4 -o shown%d.png"), 0) << said;
+    EXPECT_GT(fs::file_size(folder / "film.mp4"), 500u);
+    EXPECT_EQ(read_text(folder / "film.mp4").substr(4, 4), "ftyp");
+    EXPECT_TRUE(exists("shown4.png"));
+    // One of another size ends it, and leaves the earlier film.
+    const std::string before = read_text(folder / "film.mp4");
+    write_layout(folder / "f3.exr", uniform(10, 10, 1), {.white_luminance = 1});
+    expect_refused("tonemap f%d.exr -o film.mp4", {"one size"});
+    EXPECT_EQ(read_text(folder / "film.mp4"), before);
+    EXPECT_TRUE(left_nothing_behind());
+}
+
+TEST_F(TonemapProgram, IsDeterministic) {
+    write_layout(folder / "a.exr", street(300, 200), {.white_luminance = 1});
+    for (const char* name : {"x", "y"}) ASSERT_EQ(tonemap(std::string("a.exr -o ") + name + ".png -o " + name + ".exr --glare ldr"), 0) << said;
+    EXPECT_EQ(read_text(folder / "x.png"), read_text(folder / "y.png"));
+    EXPECT_EQ(read_exr(folder / "x.exr").rgb, read_exr(folder / "y.exr").rgb);
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -1,0 +1,85 @@
+// Display profiles: out and in again, and refused where they are wrong. SPDX-License-Identifier: MIT
+#include "scene/display_file.h"
+
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+void expect_same(const Display& a, const Display& b) {
+    EXPECT_EQ(a.peak, b.peak);
+    EXPECT_EQ(a.black, b.black);
+    EXPECT_EQ(a.ambient, b.ambient);
+    EXPECT_EQ(a.reflection, b.reflection);
+    EXPECT_EQ(a.eotf, b.eotf);
+    EXPECT_EQ(a.bits, b.bits);
+    EXPECT_EQ(a.primaries, b.primaries);
+    if (a.eotf == Eotf::Gamma) {
+        EXPECT_EQ(a.gamma, b.gamma);
+    }
+    ASSERT_EQ(a.table.size(), b.table.size());
+    for (size_t i = 0; i < a.table.size(); ++i) {
+        EXPECT_NEAR(a.table[i].code, b.table[i].code, 1e-12);
+        EXPECT_EQ(a.table[i].luminance, b.table[i].luminance);
+    }
+}
+
+TEST(DisplayFile, ComesBackAsItWas) {
+    const TempFolder folder;
+    std::vector<Display> displays;
+    for (const NamedDisplay& known : known_displays()) {
+        displays.push_back(known.display);
+        expect_same(find_display(known.name), known.display);
+    }
+    displays.push_back({.peak = 90, .black = 0.3f, .ambient = 3.7f, .eotf = Eotf::Table, .bits = 10, .primaries = {{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}},
+                        .table = {{0, double(0.3f)}, {7 / 1023.0, 0.31}, {0.31234567, 8}, {1, 90}}});
+    for (const Display& display : displays) {
+        const auto file = folder.write("d.json", display_json(display, "a name"));
+        expect_same(read_display(file), display);
+        expect_same(find_display(file.string()), display);
+    }
+}
+
+TEST(DisplayFile, IsRefusedWhereItIsWrong) {
+    const TempFolder folder;
+    const std::string good = R"({"version":1,"eotf":"gamma","gamma":2.2,"peak_cd_m2":100,"black_cd_m2":0.1})";
+    EXPECT_NO_THROW(read_display(folder.write("d.json", good)));
+    const std::pair<const char*, const char*> cases[]{
+        {R"({"eotf":"gamma"})", "version"},
+        {R"({"version":2,"eotf":"gamma"})", "/version"},
+        {R"({"version":1,"eotf":"log"})", "/eotf"},
+        {R"({"version":1,"eotf":"gamma","gamma":9,"peak_cd_m2":100,"black_cd_m2":0.1})", "/gamma"},
+        {R"({"version":1,"eotf":"srgb","gamma":2.2,"peak_cd_m2":100,"black_cd_m2":0.1})", "/gamma"},
+        {R"({"version":1,"eotf":"srgb","black_cd_m2":0.1})", "peak_cd_m2"},
+        {R"({"version":1,"eotf":"srgb","peak_cd_m2":1,"black_cd_m2":2})", "peak"},
+        {R"({"version":1,"eotf":"srgb","peak_cd_m2":"1","black_cd_m2":2})", "/peak_cd_m2"},
+        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"bits":9})", "/bits"},
+        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"primaries":"adobe"})", "/primaries"},
+        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"primaries":{"red":[1,0.3],"green":[1,0.3],"blue":[1,0.3],"white":[0.3,0.3]}})", "/primaries"},
+        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"colour":1})", "colour"},
+        {R"({"version":1,"eotf":"pq","peak_cd_m2":20000,"black_cd_m2":0.1})", "PQ"},
+        {R"({"version":1,"eotf":"table","peak_cd_m2":100,"table":[[0,0.1],[255,100]]})", "/peak_cd_m2"},
+        {R"({"version":1,"eotf":"table","table":[[0,0.1]]})", "/table"},
+        {R"({"version":1,"eotf":"table","table":[[1,0.1],[255,100]]})", "/table/0/0"},
+        {R"({"version":1,"eotf":"table","table":[[0,0.1],[128,0.1],[255,100]]})", "/table/1/1"},
+        {R"({"version":1,"eotf":"table","table":[[0,0.1],[128,5],[128,6],[255,100]]})", "/table/2/0"},
+        {R"({"version":1,"eotf":"table","table":[[0,0.1],[254,100]]})", "/table/1"},
+        {R"({"version":1,"eotf":"table","table":[[0,0.1],[256,100]]})", "/table/1/0"},
+        {R"({"version":1,"eotf":)", "d.json"},
+        {R"([1])", "d.json"}};
+    for (const auto& [text, place] : cases) {
+        const auto file = folder.write("d.json", text);
+        try {
+            read_display(file);
+            ADD_FAILURE() << text;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("d.json"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(place), std::string::npos) << text << ": " << error.what();
+        }
+    }
+    EXPECT_THROW(find_display("unheard-of"), Error);
+    EXPECT_THROW(find_display((folder / "none.json").string()), Error);
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -21,18 +21,20 @@ Resource bring_back(FrameGraph& graph, const std::string& name, Resource from, u
 
 ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource scene, const View& view, const ToneChainSettings& settings, float seconds, Outputs outputs, const shared::EyeState* remembered) {
     const OperatorInfo& op = operator_info(settings.tone_operator);
-    const uint32_t tone = op.form;
-    const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent);
+    const uint32_t tone = op.form | (settings.tone.colour_loss ? shared::kToneColourLoss : 0) | (settings.tone.purkinje ? shared::kTonePurkinje : 0);
+    const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent, settings.tone.log_epsilon);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
     HistogramSettings votes = settings.histogram;
-    votes.fine = votes.fine && op.model != shared::kModelFixed;  // nobody would look at them
+    // Elsewhere nobody would look at them.
+    votes.fine = votes.fine && (op.model == shared::kModelHistogram || op.model == shared::kModelTrimmed || settings.tone.automatic);
     const Resource histogram = add_histogram(graph, kernels, luminance, level, view.extent, votes);
     const FovealView fovea{level, luminance.extents[level - 1], view.extent};
     const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, op, tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, seconds), level, remembered);
+    const Resource seen = settings.tone.acuity_loss ? add_acuity(graph, kernels, scene, luminance, level, view) : scene;
     Resource glare;
     if (settings.glare == Glare::Ldr)
-        glare = add_ldr_glare(graph, kernels, scene, adaptation.curve, tone, view, settings.display, settings.ldr_glare);
-    const CompositeInputs inputs{.scene = scene, .curve = adaptation.curve, .luminance_glare = {}, .ldr_glare = glare};
+        glare = add_ldr_glare(graph, kernels, seen, adaptation.curve, tone, view, settings.display, settings.ldr_glare);
+    const CompositeInputs inputs{.scene = seen, .curve = adaptation.curve, .luminance_glare = {}, .ldr_glare = glare};
     const Resource display = add_composite(graph, kernels, inputs, tone, view, settings.display, settings.ldr_glare.gain);
 
     const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;

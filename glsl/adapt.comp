@@ -24,8 +24,23 @@ layout(binding = 6, scalar) writeonly buffer Curve { ToneCurve curve; };
 #include "reduce.glsl"
 #include "adjust.glsl"
 #include "trim.glsl"
+#include "pattanaik.glsl"
+
+shared float percentile[2];
 
 const float kBrightest = 1e6;  // cd/m^2 to which an eye adapts
+
+// ln of the luminances below which 1 and 99 % of the votes are. `share` of all `voters` is this invocation's bin's.
+void find_percentiles(float share, float voters) {
+    const uint bin = gl_LocalInvocationIndex;
+    if (bin < 2u) percentile[bin] = parameters.ln_low;
+    const float above = running_sum(share) / voters, below = above - share / voters;
+    for (uint i = 0u; i < 2u; ++i) {
+        const float part = i == 0u ? 0.01 : 0.99;
+        if (below < part && above >= part) percentile[i] = parameters.ln_low + (float(bin) + (part - below) * voters / share) / parameters.bins_per_ln;
+    }
+    barrier();
+}
 
 // Mean or log average of the finite pixels of 3 x 3 texels about the gaze, linear in its position; of none: 0.
 float gaze_luminance() {
@@ -92,22 +107,48 @@ void main() {
         here = adjust((share + spread) / (1.0 + kSpread), eye, placed, lowest, under_full, left_over);
     }
     if (kModel == kModelTrimmed && voters > 0.0) here = trim(share, eye, placed, lowest, under_full);
-    if (bin < parameters.bins) curve.node[bin + 1u] = vec4(here, 0.0, 0.0, 0.0);
-    if (bin == 0u) curve.node[0] = vec4(lowest, 0.0, 0.0, 0.0);
-    for (uint i = parameters.bins + 1u + bin; i <= kMaxNodes; i += kMaxBins) curve.node[i] = vec4(0.0);
+    if (kModel != kModelLagging && bin < parameters.bins) curve.node[bin + 1u] = vec4(here, 0.0, 0.0, 0.0);
+    if (kModel != kModelLagging && bin == 0u) curve.node[0] = vec4(lowest, 0.0, 0.0, 0.0);
+    for (uint i = parameters.bins + 1u + bin; kModel != kModelLagging && i <= kMaxNodes; i += kMaxBins) curve.node[i] = vec4(0.0);
+    LaggingEye lagging = previous.lagging;
+    if (kModel == kModelLagging) {
+        lagging = lagging_after(lagging, adaptation, parameters.seconds, first);
+        for (uint i = bin; i <= kMaxNodes; i += kMaxBins) curve.node[i] = lagging_node(lagging, i);
+    }
+    if (kModel == kModelFixed && parameters.automatic != 0u) find_percentiles(share, max(voters, 1e-30));
     current.share[bin] = share;
     if (bin != 0u) return;
 
-    const float white = parameters.white > 0.0 ? parameters.white : max(maximum, kLuminanceFloor);
-    const float scale = parameters.key / log_average, scaled_white = scale * white;
-    const float high = parameters.linear_high > 0.0 ? parameters.linear_high : maximum;
-    curve.reinhard_scale = scale;
+    float key = parameters.key;
+    float scaled_white = (parameters.white > 0.0 ? parameters.white : max(maximum, kLuminanceFloor)) * key / log_average;
+    if (kModel == kModelFixed && parameters.automatic != 0u) {  // Reinhard 2003, in powers of two
+        const float low = percentile[0] / kLn2, stops = max(percentile[1] / kLn2 - low, 1e-3);
+        key = 0.18 * exp2(2.0 * (2.0 * (log2(log_average) - low) - stops) / stops);
+        scaled_white = 1.5 * exp2(stops - 5.0);
+    }
+    float linear_low = parameters.linear_low, linear_gain = 1.0 / max((parameters.linear_high > 0.0 ? parameters.linear_high : maximum) - linear_low, kLuminanceFloor);
+    vec3 rod_light = vec3(0.0);
+    if (kModel == kModelGains) {
+        // Thresholds of the scene become those of the display: luminance of the display over that of the scene.
+        const float shown = power_of_ten(cone_log_threshold(log10_of(0.5 * parameters.display_high), parameters.cone_break));
+        const bool in_state = parameters.ceiling == kCeilingEye;
+        const float cone_gain = shown / (in_state ? mal_adapted_threshold(parameters.cones, adaptation, eye.cone_sigma) : cones_see * parameters.cones.factor);
+        const float rod_gain = shown / (in_state ? mal_adapted_threshold(parameters.rods, adaptation, eye.rod_sigma) : rods_see * parameters.rods.factor);
+        const float rods_count = clamp(1.0 - (0.5 * adaptation - 0.01) / 9.99, 0.0, 1.0);
+        linear_low = parameters.display_low / cone_gain;
+        linear_gain = cone_gain / (parameters.display_high - parameters.display_low);
+        rod_light = rods_count * rods_count * rod_gain / cone_gain * parameters.rod_tint;
+    }
+    curve.reinhard_scale = key / log_average;
     curve.reinhard_white = 1.0 / (scaled_white * scaled_white);
-    curve.linear_low = parameters.linear_low;
-    curve.linear_gain = 1.0 / max(high - parameters.linear_low, kLuminanceFloor);
-    curve.ln_low = parameters.ln_low;
-    curve.bins_per_ln = parameters.bins_per_ln;
-    curve.bins = float(parameters.bins);
+    curve.linear_low = linear_low;
+    curve.linear_gain = linear_gain;
+    curve.rods = rod_light;
+    curve.unused_too = 0.0;
+    const bool own_table = kModel == kModelLagging;
+    curve.ln_low = own_table ? kTableLow : parameters.ln_low;
+    curve.bins_per_ln = own_table ? float(kMaxNodes) / (kTableHigh - kTableLow) : parameters.bins_per_ln;
+    curve.bins = own_table ? float(kMaxNodes) : float(parameters.bins);
     curve.under_full = under_full ? 1.0 : 0.0;
     curve.adaptation = adaptation;
     curve.log_average = log_average;
@@ -121,6 +162,7 @@ void main() {
     current.cones = cones;
     current.rods = rods;
     current.ln_placed = placed;
+    current.lagging = lagging;
     current.bins = float(parameters.bins);
     current.ln_low = parameters.ln_low;
     current.bins_per_ln = parameters.bins_per_ln;

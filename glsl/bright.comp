@@ -22,7 +22,7 @@ void main() {
     for (uint i = 0u; i < kGlareShrink * kGlareShrink; ++i) {
         const uvec2 pixel = kGlareShrink * at + uvec2(i % kGlareShrink, i / kGlareShrink);
         if (any(greaterThanEqual(pixel, push.size))) continue;
-        const vec3 rgb = imageLoad(scene_image, ivec2(pixel)).rgb;
+        const vec3 rgb = perceived(tone, imageLoad(scene_image, ivec2(pixel)).rgb);
         const vec3 light = displayed(curve, tone, rgb, rgb, push.display_low, push.display_high);
         sum += luminance_of(light) >= push.threshold ? light : vec3(0.0);
         pixels += 1.0;

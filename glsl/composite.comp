@@ -15,7 +15,7 @@ void main() {
     const Tone tone = read_tone(curve);
     [[unroll]] for (uint row = 0u; row < kRows; ++row) {
         const uvec2 at = gl_GlobalInvocationID.xy * uvec2(1u, kRows) + uvec2(0u, row);
-        const vec3 rgb = scene_light(at);
+        const vec3 rgb = perceived(tone, scene_light(at));
         vec3 light = displayed(curve, tone, rgb, of_the_display(rgb), push.display_low, push.display_high);
         if (kLdrGlare != 0u) light = clamp(light + of_the_display(glare_light(at)), 0.0, 1.0);
         const uint codes = codes_of(cells, push.encode, light);

@@ -13,7 +13,7 @@ void main() {
     const Tone tone = read_tone(curve);
     [[unroll]] for (uint row = 0u; row < kRows; ++row) {
         const uvec2 at = gl_GlobalInvocationID.xy * uvec2(1u, kRows) + uvec2(0u, row);
-        vec3 light = displayed_unbounded(curve, tone, scene_light(at), push.display_low, push.display_high);
+        vec3 light = displayed_unbounded(curve, tone, perceived(tone, scene_light(at)), push.display_low, push.display_high);
         if (kLdrGlare != 0u) light += glare_light(at);
         light = push.display_low + (push.display_high - push.display_low) * light;
         if (all(lessThan(at, push.size))) imageStore(light_image, ivec2(at), vec4(light, 1.0));

@@ -1,7 +1,7 @@
 // What an adapted eye can just see, after Ferwerda, Pattanaik, Shirley and Greenberg 1996: log10 of thresholds over
 // l = log10 of luminance, cd/m^2. For adapt.comp.
 
-const float kLn10 = 2.302585093;
+const float kLn10 = 2.302585093, kLn2 = 0.6931471806;
 
 float log10_of(float x) { return log(x) / kLn10; }
 float power_of_ten(float x) { return exp(x * kLn10); }

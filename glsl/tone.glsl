@@ -4,28 +4,44 @@
 #include "shared/photometry.h"
 
 layout(constant_id = 0) const uint kTone = kToneCurve;
+const uint kForm = kTone & kToneForm;
 
 struct Tone {
     float scale, white;          // Reinhard
     float low, gain;             // linear
     float ln_low, bins_per_ln;   // curve
     float bins;
+    vec3 rods;                   // rods
 };
 
 Tone read_tone(samplerBuffer curve) {
     const vec4 a = texelFetch(curve, 0), b = texelFetch(curve, 1);
-    return Tone(a.r, a.g, a.b, a.a, b.r, b.g, b.b);
+    const vec3 rods = kForm == kToneRods ? texelFetch(curve, 4).rgb : vec3(0.0);
+    return Tone(a.r, a.g, a.b, a.a, b.r, b.g, b.b, rods);
 }
 
 float luminance_of(vec3 rgb) { return dot(rgb, vec3(kRed, kGreen, kBlue)); }
 
+float scotopic_of(vec3 rgb) { return dot(rgb, vec3(kScotopicRed, kScotopicGreen, kScotopicBlue)); }
+
+// What is seen of a pixel, cd/m^2, before it is mapped: rods add grey, or dim light loses its colour.
+vec3 perceived(Tone tone, vec3 rgb) {
+    if (kForm == kToneRods) rgb += scotopic_of(rgb) * tone.rods;
+    if ((kTone & (kToneColourLoss | kTonePurkinje)) == 0u || kForm == kToneLdr) return rgb;
+    const float luminance = luminance_of(rgb);
+    if (!(luminance > 0.0)) return rgb;
+    const float cones = clamp((luminance - kScotopicBelow) / (kPhotopicFrom - kScotopicBelow), 0.0, 1.0);
+    const float grey = max((kTone & kTonePurkinje) != 0u ? scotopic_of(rgb) : luminance, 0.0);
+    return (kTone & kToneColourLoss) != 0u ? mix(vec3(grey), rgb, cones) : rgb * (mix(grey, luminance, cones) / luminance);
+}
+
 // Displayed luminance, relative: 0 at the display's darkest, 1 at its brightest.
 float displayed_luminance(samplerBuffer curve, Tone tone, float luminance, float display_low, float display_high) {
-    if (kTone == kToneReinhard) {
+    if (kForm == kToneReinhard) {
         const float x = tone.scale * luminance;
         return x * (1.0 + x * tone.white) / (1.0 + x);
     }
-    if (kTone == kToneLinear) return (luminance - tone.low) * tone.gain;
+    if (kForm == kToneLinear || kForm == kToneRods) return (luminance - tone.low) * tone.gain;
     const float at = clamp((log(max(luminance, kLuminanceFloor)) - tone.ln_low) * tone.bins_per_ln, 0.0, tone.bins);
     const float bin = min(floor(at), tone.bins - 1.0);
     const float below = texelFetch(curve, int(kToneNode0) + int(bin)).r;
@@ -33,15 +49,25 @@ float displayed_luminance(samplerBuffer curve, Tone tone, float luminance, float
     return (exp(mix(below, above, at - bin)) - display_low) / (display_high - display_low);
 }
 
+// Ratios of a colour, raised to the power and mixed with the grey that the table has for its luminance.
+vec3 faded(samplerBuffer curve, Tone tone, vec3 ratios, float luminance) {
+    const float at = clamp((log(max(luminance, kLuminanceFloor)) - tone.ln_low) * tone.bins_per_ln, 0.0, tone.bins);
+    const float bin = min(floor(at), tone.bins - 1.0);
+    const vec2 below = texelFetch(curve, int(kToneNode0) + int(bin)).gb, above = texelFetch(curve, int(kToneNode0) + int(bin) + 1).gb;
+    const vec2 exponent_and_share = mix(below, above, at - bin);
+    const vec3 power = pow(max(ratios, vec3(1e-30)), vec3(exponent_and_share.x));
+    return mix(vec3(1.0), mix(power, vec3(0.0), lessThanEqual(ratios, vec3(0.0))), exponent_and_share.y);
+}
+
 // Displayed light of a pixel, RGB in [0, 1]; `own` is its colour in the display's primaries. Colour keeps its ratios; where
 // a channel would exceed white the pixel fades towards the grey of its own luminance. Pixels that are not finite, or have
 // no luminance, are black.
 vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, vec3 own, float display_low, float display_high) {
-    if (kTone == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(own, 0.0, 1.0) : vec3(0.0);
+    if (kForm == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(own, 0.0, 1.0) : vec3(0.0);
     const float luminance = luminance_of(rgb);
     if (!(luminance > 0.0 && luminance <= 3.4e38)) return vec3(0.0);
     const float d = clamp(displayed_luminance(curve, tone, luminance, display_low, display_high), 0.0, 1.0);
-    const vec3 light = max(own * (d / luminance), vec3(0.0));
+    const vec3 light = kForm == kToneColour ? faded(curve, tone, own / luminance, luminance) * d : max(own * (d / luminance), vec3(0.0));
     const float brightest = max(light.r, max(light.g, light.b));
     if (brightest <= 1.0) return light;
     return clamp(d + (light - d) * ((1.0 - d) / (brightest - d)), 0.0, 1.0);
@@ -49,8 +75,9 @@ vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, vec3 own, float display
 
 // The same in Rec. 709, whatever the display's limits.
 vec3 displayed_unbounded(samplerBuffer curve, Tone tone, vec3 rgb, float display_low, float display_high) {
-    if (kTone == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(rgb, 0.0, 1.0) : vec3(0.0);
+    if (kForm == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(rgb, 0.0, 1.0) : vec3(0.0);
     const float luminance = luminance_of(rgb);
     if (!(luminance > 0.0 && luminance <= 3.4e38)) return vec3(0.0);
-    return rgb * (max(displayed_luminance(curve, tone, luminance, display_low, display_high), 0.0) / luminance);
+    const float d = max(displayed_luminance(curve, tone, luminance, display_low, display_high), 0.0);
+    return kForm == kToneColour ? faded(curve, tone, rgb / luminance, luminance) * d : rgb * (d / luminance);
 }

@@ -45,6 +45,9 @@ void add_eye_options(CLI::App& command, EyeArguments& arguments, HistogramSettin
     command.add_option("--ceiling", arguments.ceiling, "irawan, ward: thresholds that bound contrast: of the eye in its state, adapted human, adapted cones, or none (linear)")->check(CLI::IsMember(names_of(kCeilings)))->capture_default_str();
     command.add_option("--adapt-to", arguments.adapt_to, "What the eye adapts to: log average or mean about the gaze, one texel, or the log average of the frame")->check(CLI::IsMember(names_of(kAdaptTo)))->capture_default_str();
     command.add_option("--gaze", arguments.gaze, "Where the eye looks: X,Y, parts of the image from its top left")->delimiter(',')->expected(2)->check(between(0.0, 1.0));
+    command.add_flag("--colour-loss", tone.colour_loss, "Dim light loses its colour (from 5.62 down to 0.00562 cd/m^2)");
+    command.add_flag("--acuity-loss", tone.acuity_loss, "Dim light is blurred as far as it cannot be resolved");
+    command.add_flag("--purkinje", tone.purkinje, "Dim light is weighted as rods do: blue brighter, red darker");
     command.add_option("--age", observer.age, "Observer: years")->check(between(1.0, 120.0))->capture_default_str();
     command.add_option("--low-vision", observer.low_vision, "Observer: factor of all thresholds")->check(between(0.1, 100.0))->capture_default_str();
     command.add_flag("--rods", observer.use_rods, "Observer: rods see too, not only cones");

@@ -1,5 +1,6 @@
 #include "tone_log.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -14,7 +15,8 @@ namespace {
 
 // The floats of EyeState before the shares, in order.
 constexpr const char* kStateNames[]{"adaptation", "eye_seconds", "cone_pigment", "cone_fast", "cone_slow", "rod_pigment",
-                                    "rod_fast",   "rod_slow",    "ln_placed",    "bins",      "ln_low",    "bins_per_ln"};
+                                    "rod_fast",   "rod_slow",    "ln_placed",    "bins",      "ln_low",    "bins_per_ln",
+                                    "lagging_cones", "lagging_rods", "lagging_cone_pigment", "lagging_rod_pigment"};
 constexpr size_t kNamed = std::size(kStateNames);
 constexpr size_t kFloats = sizeof(shared::EyeState) / sizeof(float);
 static_assert(kFloats == kNamed + shared::kMaxBins);
@@ -66,6 +68,7 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
     std::vector<LoggedFrame> frames;
     std::string line;
     if (!std::getline(in, line) || line + "\n" != log_heading()) throw Error(file + ": line 1: these are not the columns of a log of this version");
+    const size_t columns = size_t(std::count(line.begin(), line.end(), ',')) + 1;
     for (size_t number = 2; std::getline(in, line); ++number) {
         std::vector<double> values;
         const char* at = line.c_str();
@@ -75,7 +78,7 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
             if (end == at || (*end != ',' && *end != 0) || !std::isfinite(values.back())) throw Error(file + ": line " + std::to_string(number) + ": a number is expected in column " + std::to_string(values.size()));
             at = *end ? end + 1 : end;
         }
-        if (values.size() < 3 + kFloats) throw Error(file + ": line " + std::to_string(number) + ": ends after " + std::to_string(values.size()) + " values");
+        if (values.size() != columns) throw Error(file + ": line " + std::to_string(number) + ": has " + std::to_string(values.size()) + " of " + std::to_string(columns) + " values");
         LoggedFrame frame{values[1], float(values[2])};
         std::vector<float> state(values.begin() + 3, values.begin() + 3 + kFloats);
         std::memcpy(&frame.eye, state.data(), sizeof frame.eye);

@@ -42,6 +42,9 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
             .use_rods = tone.observer.use_rods ? 1u : 0u,
             .cone_break = float(breaks.cones),
             .rod_break = float(breaks.rods),
+            .rod_constant = tone.rod_constant,
+            .automatic = tone.automatic ? 1u : 0u,
+            .rod_tint = op.rod_tint[0] > 0 ? glm::vec3(op.rod_tint[0], op.rod_tint[1], op.rod_tint[2]) : glm::vec3(1),
             .cones = receptors_of(ReceptorKind::Cones, tone.observer.observed_cones(), breaks),
             .rods = receptors_of(ReceptorKind::Rods, tone.observer.observed_rods(), breaks)};
 }
@@ -50,7 +53,7 @@ Adaptation add_adaptation(FrameGraph& graph, const Kernels& kernels, const Pyram
     const Adaptation adaptation{graph.transient("tone curve", buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT)),
                                 graph.history(kEyeHistory, buffer_shape(sizeof(shared::EyeState)))};
     const Resource previous = remembered ? graph.upload("eye as set", std::vector{*remembered}) : adaptation.eye.previous;
-    graph.dispatch("adapt", kernels.adapt.at(op.model),
+    graph.dispatch("adapt", kernels.adapt(op.model),
                    {load(pyramid.levels.back()), load(pyramid.levels.at(foveal_level - 1)), load(histogram),
                     load(graph.upload("tone parameters", std::vector{parameters})), load(previous), store(adaptation.eye.current), store(adaptation.curve)},
                    Groups{});

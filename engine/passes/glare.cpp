@@ -32,7 +32,7 @@ Resource add_ldr_glare(FrameGraph& graph, const Kernels& kernels, Resource scene
     const Groups groups = cover(small.width, small.height, kernels.blur.group[0], kernels.blur.group[1]);
 
     const Resource bright = graph.transient("bright", shape);
-    graph.dispatch("bright", kernels.bright[tone], {load(scene), sample(curve), store(bright)},
+    graph.dispatch("bright", kernels.bright(tone), {load(scene), sample(curve), store(bright)},
                    shared::BrightPush{{view.extent.width, view.extent.height}, size, display.low(), display.high(), settings.threshold}, groups);
 
     const std::vector<float> weights = gaussian(std::max(1e-3, settings.sigma_degrees / view.degrees_per_pixel() / shrink));

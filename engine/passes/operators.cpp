@@ -15,6 +15,10 @@ constexpr OperatorInfo kOperators[]{
     {Operator::Reinhard, "reinhard", "Reinhard, Stark, Shirley, Ferwerda 2002, global", kToneReinhard, kModelFixed, kCeilingEye, kAdaptGaze, false},
     {Operator::Linear, "linear", "linear between two luminances", kToneLinear, kModelFixed, kCeilingEye, kAdaptGaze, false},
     {Operator::Ldr, "ldr", "no HDR: lamps of 1.0, sums clamped to 1", kToneLdr, kModelFixed, kCeilingEye, kAdaptGaze, false},
+    {Operator::Pattanaik, "pattanaik", "Pattanaik, Tumblin, Yee, Greenberg 2000: responses of an eye that adapts over time", kToneColour, kModelLagging, kCeilingEye, kAdaptAverage, true},
+    {Operator::Ferwerda, "ferwerda", "Ferwerda, Pattanaik, Shirley, Greenberg 1996: linear gains of cones and rods", kToneRods, kModelGains, kCeilingHuman, kAdaptGaze, false},
+    {Operator::Durand, "durand", "Durand, Dorsey 2000 (reconstructed): gains of cones and rods of an eye that adapts over time; no chromatic adaptation", kToneRods, kModelGains, kCeilingEye, kAdaptGaze, true,
+     {1.05f, 0.97f, 1.27f}},
 };
 
 }  // namespace

@@ -14,6 +14,9 @@ enum class Operator : uint8_t {
     Reinhard,  ///< Reinhard et al. 2002, global
     Linear,    ///< linear between two luminances
     Ldr,       ///< no HDR at all: lamps and sources of 1.0, values clamped to [0, 1]
+    Pattanaik, ///< Pattanaik, Tumblin, Yee and Greenberg 2000: responses of an eye that adapts over time
+    Ferwerda,  ///< Ferwerda, Pattanaik, Shirley and Greenberg 1996: linear gains of cones and rods
+    Durand,    ///< Durand and Dorsey 2000, reconstructed: the same with the thresholds of an eye that adapts over time
 };
 
 struct OperatorInfo {
@@ -25,6 +28,7 @@ struct OperatorInfo {
     uint32_t ceiling;           ///< default of the thresholds: shared::kCeiling*
     uint32_t adapt_to;          ///< default of what the eye adapts to: shared::kAdapt*
     bool remembers;             ///< the picture depends on the frames before, and not only to smooth flicker
+    float rod_tint[3] = {0, 0, 0};  ///< colour of what rods see; 0: grey
 };
 
 /// Every operator, in the order of the enumeration.

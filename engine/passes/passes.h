@@ -105,6 +105,10 @@ Pyramid add_pyramid(FrameGraph&, const Kernels&, Resource scene, VkExtent2D exte
 /// The pyramid level whose texels are nearest to one degree: round(log2(1 / degrees per pixel)), within the pyramid.
 uint32_t foveal_level(const View&, const Pyramid&);
 
+/// The scene as an eye adapted to each degree of it resolves it (Ward Larson et al. 1997): luminance blurred over sqrt(2) of the smallest
+/// period that is seen, up to 32 px. rgba32f, cd/m^2.
+Resource add_acuity(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, uint32_t foveal_level, const View&);
+
 struct HistogramSettings {
     uint32_t bins = 100;         ///< 1 .. 256
     float log10_low = -4;        ///< log10 of the lowest luminance, cd/m^2
@@ -124,6 +128,12 @@ struct ToneSettings {
     float white = 0;           ///< Reinhard 2002: cd/m^2 shown as white; 0: the frame's maximum
     float linear_low = 0;      ///< cd/m^2 shown as black
     float linear_high = 0;     ///< cd/m^2 shown as white; 0: the frame's maximum
+    bool automatic = false;    ///< Reinhard 2003: key and white from the log average and the 1st and 99th percentile
+    float log_epsilon = 0;     ///< Reinhard: cd/m^2 added before logarithms (1e-5 as in his program); 0: none, at least 1e-4 cd/m^2 instead
+    float rod_constant = 5e5f; ///< Pattanaik: of the half saturation of rods; pfstmo_pattanaik00 has 5e4
+    bool colour_loss = false;  ///< dim light loses its colour
+    bool acuity_loss = false;  ///< dim light is blurred as far as it cannot be resolved
+    bool purkinje = false;     ///< dim light is weighted as rods do
     Observer observer;         ///< whose eye it is
     glm::vec2 gaze{0.5f};      ///< where it looks, parts of the image from its top left
     std::optional<uint32_t> adapt_to;  ///< shared::kAdapt*; default: as the operator has it

@@ -1,5 +1,6 @@
 #include "resident/kernels.h"
 
+#include "shaders/acuity.comp.inc"
 #include "shaders/adapt.comp.inc"
 #include "shaders/blur.comp.inc"
 #include "shaders/bright.comp.inc"
@@ -12,27 +13,8 @@
 #include "shaders/shade.comp.inc"
 #include "shaders/sky.comp.inc"
 #include "shaders/sources.comp.inc"
-#include "shared/tone.h"
 
 namespace vesper {
-namespace {
-
-constexpr uint32_t kTones = shared::kToneLdr + 1;
-
-std::vector<Kernel> make_adapt(const Device& device) {
-    std::vector<Kernel> kernels;
-    for (uint32_t model = 0; model < shared::kModels; ++model) kernels.emplace_back(device, "adapt.comp", adapt_comp, std::initializer_list{model});
-    return kernels;
-}
-
-std::vector<Kernel> make_bright(const Device& device) {
-    std::vector<Kernel> kernels;
-    for (uint32_t tone = 0; tone < kTones; ++tone) kernels.emplace_back(device, "bright.comp", bright_comp, std::initializer_list{tone});
-    return kernels;
-}
-
-}  // namespace
-
 // A CPU device fetches a light once for eight pixels and works on rows of 32; a GPU on squares, a pixel each.
 Kernels::Kernels(const Device& device)
     : cluster(device, "cluster.comp", cluster_comp),
@@ -43,10 +25,9 @@ Kernels::Kernels(const Device& device)
       sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),
+      acuity(device, "acuity.comp", acuity_comp),
       histogram_rows(device.is_cpu() ? 8 : 1),
       histogram(device, "histogram.comp", histogram_comp, {histogram_rows}),
-      adapt(make_adapt(device)),
-      bright(make_bright(device)),
       blur(device, "blur.comp", blur_comp),
       composite_rows(device.is_cpu() ? 4 : 1),
       device_(device) {}
@@ -66,6 +47,16 @@ const Kernel& Kernels::select(uint32_t variant) const {
     if (found != select_.end()) return found->second;
     Kernel kernel(device_, "select.comp", select_comp, {variant & kPowers ? 1u : 0u, variant & kMaps ? 1u : 0u});
     return select_.emplace(variant, std::move(kernel)).first->second;
+}
+
+const Kernel& Kernels::adapt(uint32_t model) const {
+    const auto found = adapt_.find(model);
+    return found != adapt_.end() ? found->second : adapt_.emplace(model, Kernel(device_, "adapt.comp", adapt_comp, {model})).first->second;
+}
+
+const Kernel& Kernels::bright(uint32_t tone) const {
+    const auto found = bright_.find(tone);
+    return found != bright_.end() ? found->second : bright_.emplace(tone, Kernel(device_, "bright.comp", bright_comp, {tone})).first->second;
 }
 
 const Kernel& Kernels::composite(const CompositeVariant& variant) const {

@@ -23,10 +23,13 @@ struct Kernels {
     Kernel sky;
     Kernel sources;
     Kernel pyramid_first, pyramid;
+    Kernel acuity;
     uint32_t histogram_rows;        ///< texels of a column that one invocation of the histogram does
     Kernel histogram;
-    std::vector<Kernel> adapt;      ///< by shared::kModel*
-    std::vector<Kernel> bright;     ///< by shared::kTone*
+    /// By shared::kModel*. Made when first asked for.
+    const Kernel& adapt(uint32_t model) const;
+    /// By shared::kTone*. Made when first asked for.
+    const Kernel& bright(uint32_t tone) const;
     Kernel blur;
     uint32_t composite_rows;        ///< pixels of a column that one invocation of the composite does
     /// What the composite and display_light.comp have code for. Made when first asked for.
@@ -43,7 +46,7 @@ struct Kernels {
 
 private:
     const Device& device_;
-    mutable std::map<uint32_t, Kernel> shade_, select_;
+    mutable std::map<uint32_t, Kernel> shade_, select_, adapt_, bright_;
     mutable std::map<CompositeVariant, Kernel> composite_;
 };
 

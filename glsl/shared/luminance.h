@@ -39,5 +39,15 @@ struct Histogram {
 };
 SHARED_SIZE(Histogram, 1036)
 
+const uint kAcuityLevels = 5u;  // of the pyramid that blur
+
+struct AcuityPush {
+    uvec2 size;               // px
+    float pixels_per_degree;
+    uint foveal_level;        // 1-based
+    uint levels;              // that there are, at most kAcuityLevels
+};
+SHARED_SIZE(AcuityPush, 20)
+
 SHARED_END
 #endif

@@ -9,12 +9,21 @@ const uint kToneCurve = 0u;     // the table below
 const uint kToneReinhard = 1u;  // Reinhard et al. 2002, global
 const uint kToneLinear = 2u;    // linear between two luminances
 const uint kToneLdr = 3u;       // none: values in [0, 1] are shown as they are
+const uint kToneColour = 4u;    // the table, with exponents of colour: Pattanaik et al. 2000
+const uint kToneRods = 5u;      // linear, after grey for what rods see has been added: Ferwerda et al. 1996
+const uint kTones = 6u;
+// and, as bits beside that, how dim light is perceived before it is mapped, between 0.00562 and 5.62 cd/m^2 (Ward et al. 1997):
+const uint kToneForm = 0xffu;
+const uint kToneColourLoss = 0x100u;  // colour fades to grey
+const uint kTonePurkinje = 0x200u;    // the weights of red, green and blue in luminance become those of rods
 
 // What makes the parameters of a frame (specialization of adapt.comp).
 const uint kModelFixed = 0u;      // the statistics of the frame: Reinhard, linear
 const uint kModelHistogram = 1u;  // histogram adjustment, solved: Irawan et al. 2005
 const uint kModelTrimmed = 2u;    // histogram adjustment by trimming: Ward et al. 1997
-const uint kModels = 3u;
+const uint kModelLagging = 3u;    // Pattanaik et al. 2000
+const uint kModelGains = 4u;      // two linear gains: Ferwerda et al. 1996; of the eye in its state: Durand and Dorsey 2000
+const uint kModels = 5u;
 
 // Histogram adjustment: the threshold T that bounds the slope, d Ld / d L <= T_display(Ld) / T_scene(L).
 const uint kCeilingEye = 0u;     // scene: the eye in its present state; display: adapted cones
@@ -60,10 +69,13 @@ struct ToneParameters {
     uint use_rods;             // 1: the eye sees with the better of cones and rods
     float cone_break;          // log10 L from which Weber's law holds
     float rod_break;
+    float rod_constant;        // of Pattanaik's rods: 5e5
+    uint automatic;            // 1: Reinhard's key and white from the frame (Reinhard 2003)
+    vec3 rod_tint;             // colour of what rods see, for kModelGains
     ReceptorParameters cones;
     ReceptorParameters rods;
 };
-SHARED_SIZE(ToneParameters, 144)
+SHARED_SIZE(ToneParameters, 164)
 
 const uint kMaxNodes = 1024u;
 
@@ -84,11 +96,14 @@ struct ToneCurve {
     float cone_sigma;      // texel 3; half saturation of the eye, cd/m^2
     float rod_sigma;       // scotopic cd/m^2
     float unused[2];
-    vec4 node[kMaxNodes + 1u];  // r: ln of display luminance, cd/m^2
+    vec3 rods;             // texel 4; what is added to the pixel, times its scotopic luminance
+    float unused_too;
+    // r: ln of display luminance, cd/m^2; for kToneColour g: exponent of colour, b: share of colour, the rest being grey
+    vec4 node[kMaxNodes + 1u];
 };
-SHARED_SIZE(ToneCurve, 16464)
+SHARED_SIZE(ToneCurve, 16480)
 
-const uint kToneNode0 = 4u;  // texel of node[0]
+const uint kToneNode0 = 5u;  // texel of node[0]
 
 struct ReceptorMemory {
     float pigment;  // unbleached part
@@ -96,6 +111,15 @@ struct ReceptorMemory {
     float slow;
 };
 SHARED_SIZE(ReceptorMemory, 12)
+
+// For Pattanaik et al. 2000.
+struct LaggingEye {
+    float cones;         // adaptation luminance, cd/m^2; 0 before the first frame
+    float rods;
+    float cone_pigment;  // unbleached part
+    float rod_pigment;
+};
+SHARED_SIZE(LaggingEye, 16)
 
 // What the eye, and what smooths the picture, remember from frame to frame.
 struct EyeState {
@@ -107,9 +131,10 @@ struct EyeState {
     float bins;           // of the histogram below
     float ln_low;
     float bins_per_ln;
+    LaggingEye lagging;
     float share[kMaxBins];  // smoothed shares of the votes
 };
-SHARED_SIZE(EyeState, 1072)
+SHARED_SIZE(EyeState, 1088)
 
 SHARED_END
 #endif

@@ -37,7 +37,7 @@ TEST(ToneMapperShared, EveryPictureEqualsTheReference) {
         std::vector<glm::vec4> pixels;
         for (size_t i = 0; i < image.rgb.size(); i += 3) pixels.emplace_back(scale * image.rgb[i], scale * image.rgb[i + 1], scale * image.rgb[i + 2], 1);
         const VkExtent2D extent{image.width, image.height};
-        for (const auto& [wanted, tone] : {std::pair{Operator::Ward, shared::kToneCurve}, {Operator::Reinhard, shared::kToneReinhard}}) {
+        for (const auto& [wanted, tone] : {std::pair{Operator::Irawan, shared::kToneCurve}, {Operator::Ward, shared::kToneCurve}, {Operator::Pattanaik, shared::kToneColour}, {Operator::Reinhard, shared::kToneReinhard}}) {
             ToneChainSettings settings;
             settings.tone_operator = wanted;
             mapper.reset_adaptation();

@@ -23,14 +23,14 @@ protected:
 };
 
 TEST_F(ToneMapperTest, EqualsTheReferencesOfItsPasses) {
-    const std::pair<Operator, uint32_t> operators[]{{Operator::Irawan, shared::kToneCurve}, {Operator::Ward, shared::kToneCurve}, {Operator::Reinhard, shared::kToneReinhard},
-                                                    {Operator::Linear, shared::kToneLinear}, {Operator::Ldr, shared::kToneLdr}};
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {64, 1}, {201, 133}}) {
         const auto pixels = night_pixels(extent, extent.width, -3, 4);
-        for (const auto& [wanted, tone] : operators) {
+        for (const OperatorInfo& op : operators()) {
             ToneChainSettings settings;
-            settings.tone_operator = wanted;
+            settings.tone_operator = op.tone_operator;
             settings.tone.linear_high = 100;
+            settings.tone.colour_loss = settings.tone.purkinje = extent.height == 1;
+            const uint32_t tone = op.form | (extent.height == 1 ? shared::kToneColourLoss | shared::kTonePurkinje : 0);
             mapper.reset_adaptation();
             const ToneMapped got = map(pixels, extent, settings);
             const auto want = reference_codes(pixels, extent, settings, tone, got.foveal_level, 0);

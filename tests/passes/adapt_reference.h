@@ -9,6 +9,7 @@
 
 #include "passes/pyramid_reference.h"
 #include "perception/eye.h"
+#include "perception/pattanaik.h"
 #include "shared/tone.h"
 
 namespace vesper::reference {
@@ -203,6 +204,21 @@ inline double gaze_luminance(const PyramidLevel& fovea, const shared::ToneParame
     return p.adapt_to == shared::kAdaptGaze ? std::exp(sum / pixels) : sum / pixels;
 }
 
+/// ln of the luminance below which a part of the votes is, linear within a bin.
+inline double percentile(const std::vector<double>& share, double part, const shared::ToneParameters& p) {
+    const double all = std::accumulate(share.begin(), share.end(), 0.0);
+    double below = 0;
+    for (size_t i = 0; i < share.size(); below += share[i++])
+        if (below / all < part && (below + share[i]) / all >= part) return p.ln_low + (double(i) + (part * all - below) / share[i]) / p.bins_per_ln;
+    return p.ln_low;
+}
+
+/// Node i of Pattanaik's table: from 1e-4 to 1e8 cd/m^2.
+inline dvec3 lagging_node(const pattanaik::Appearance& appearance, uint32_t i, const shared::ToneParameters& p) {
+    const pattanaik::Shown shown = appearance(std::pow(10, -4 + 12.0 * i / shared::kMaxNodes));
+    return {std::log(p.display_low + std::min(shown.luminance, 1000.0) * (double(p.display_high) - double(p.display_low))), shown.colour_exponent, shown.cone_share};
+}
+
 /// Everything the pass reads.
 struct AdaptInputs {
     shared::Histogram histogram{};
@@ -219,6 +235,7 @@ struct Adapted {
     Adjusted adjusted;
     ReceptorState cones, rods;
     std::vector<double> share;
+    pattanaik::State lagging;
     shared::ToneCurve tone{};
     shared::EyeState eye{};
 };
@@ -260,22 +277,45 @@ inline Adapted adapt(const AdaptInputs& in) {
     shared::ToneCurve& t = out.tone;
     t.adaptation = float(adaptation), t.log_average = float(log_average), t.maximum = float(maximum);
     t.cone_sigma = float(cone_sigma), t.rod_sigma = float(rod_sigma);
-    const double scale = p.key / log_average;  // Reinhard et al. 2002, Eq. 2 and 4
-    const double white = scale * (p.white > 0 ? double(p.white) : std::max(maximum, kFloor));
-    t.reinhard_scale = float(scale);
+    double key = p.key, white = key / log_average * (p.white > 0 ? double(p.white) : std::max(maximum, kFloor));
+    if (in.model == shared::kModelFixed && p.automatic) {  // Reinhard 2003, Eq. 4 and 5
+        const double low = percentile(out.share, 0.01, p) / std::log(2), high = percentile(out.share, 0.99, p) / std::log(2), average = std::log2(log_average);
+        key = 0.18 * std::pow(4, (2 * average - low - high) / std::max(high - low, 1e-3));
+        white = 1.5 * std::exp2(std::max(high - low, 1e-3) - 5);
+    }
+    t.reinhard_scale = float(key / log_average);
     t.reinhard_white = float(1 / (white * white));
     const double high = p.linear_high != 0 ? double(p.linear_high) : maximum;
     t.linear_low = p.linear_low;
     t.linear_gain = float(1 / std::max(high - p.linear_low, kFloor));
+    if (in.model == shared::kModelGains) {  // Ferwerda et al. 1996, Eq. 7 to 11: thresholds become those of the display
+        const bool in_state = p.ceiling == shared::kCeilingEye;
+        const double shown = cone_threshold(p.display_high / 2.0, breaks);
+        const double cone_gain = shown / (in_state ? cones.threshold(adaptation, cone_sigma) : cones.adapted_threshold(adaptation));
+        const double rod_gain = shown / (in_state ? rods.threshold(adaptation, rod_sigma) : rods.adapted_threshold(adaptation));
+        const double k = std::pow(std::clamp(1 - (adaptation / 2 - 0.01) / 9.99, 0.0, 1.0), 2);
+        t.linear_low = float(p.display_low / cone_gain);
+        t.linear_gain = float(cone_gain / (double(p.display_high) - double(p.display_low)));
+        t.rods = glm::vec3(glm::dvec3(p.rod_tint) * (k * rod_gain / cone_gain));
+    }
     t.ln_low = p.ln_low, t.bins_per_ln = p.bins_per_ln, t.bins = float(p.bins);
     t.under_full = out.adjusted.under ? 1.0f : 0.0f;
     t.slack = float(out.adjusted.slack);
     for (size_t i = 0; i <= p.bins; ++i) t.node[i].x = float(out.adjusted.curve.node[i]);
+    const shared::LaggingEye& lagging = in.previous.lagging;
+    out.lagging = {lagging.cones, lagging.rods, lagging.cone_pigment, lagging.rod_pigment};
+    if (in.model == shared::kModelLagging) {
+        out.lagging = first || !(lagging.cones > 0) ? pattanaik::adapted(adaptation) : pattanaik::after(out.lagging, adaptation, p.seconds);
+        const pattanaik::Appearance appearance(out.lagging, p.rod_constant);
+        t.ln_low = float(std::log(1e-4)), t.bins = float(shared::kMaxNodes), t.bins_per_ln = float(shared::kMaxNodes / std::log(1e12));
+        for (uint32_t i = 0; i <= shared::kMaxNodes; ++i) t.node[i] = glm::vec4(glm::vec3(lagging_node(appearance, i, p)), 0);
+    }
 
     const auto memory = [](const ReceptorState& s) { return shared::ReceptorMemory{float(s.pigment), float(s.fast), float(s.slow)}; };
     out.eye.adaptation = float(adaptation), out.eye.seconds = in.previous.seconds + p.seconds;
     out.eye.cones = memory(out.cones), out.eye.rods = memory(out.rods);
     out.eye.ln_placed = float(placed);
+    out.eye.lagging = {float(out.lagging.cones), float(out.lagging.rods), float(out.lagging.cone_pigment), float(out.lagging.rod_pigment)};
     out.eye.bins = float(p.bins), out.eye.ln_low = p.ln_low, out.eye.bins_per_ln = p.bins_per_ln;
     for (uint32_t i = 0; i < p.bins; ++i) out.eye.share[i] = float(out.share[i]);
     return out;

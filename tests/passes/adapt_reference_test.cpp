@@ -243,6 +243,32 @@ TEST(AdaptReference, ReinhardParameters) {
     EXPECT_FLOAT_EQ(b.tone.linear_gain, 0.25f);
 }
 
+// Reinhard 2003 on what his formulas say for percentiles known by construction: votes even between 10^-1.5 and 10^1.5 cd/m^2.
+TEST(AdaptReference, ReinhardsAutomaticParameters) {
+    shared::Histogram even{};
+    for (uint32_t i = 25; i < 55; ++i) even.count[i] = 10, even.finite += 10, even.votes += 10;
+    AdaptInputs in = frame_of(even, 1);
+    in.model = shared::kModelFixed, in.parameters.automatic = 1;
+    in.top.z = std::log(3);
+    const double span = std::log2(10) * 0.98 * 3, average = std::log2(3);
+    const Adapted a = adapt(in);
+    EXPECT_NEAR(a.tone.reinhard_scale, 0.18 * std::pow(4, 2 * average / span) / 3, 1e-6);
+    EXPECT_NEAR(1 / std::sqrt(a.tone.reinhard_white), 1.5 * std::exp2(span - 5), 1e-4);
+}
+
+// Ferwerda et al. 1996 by hand: 1 cd/m^2, display of 200: thresholds of 100, 1 (cones) and 1 (rods) cd/m^2 from the table.
+TEST(AdaptReference, FerwerdasGains) {
+    AdaptInputs in = frame_of(night(), 1);
+    in.model = shared::kModelGains, in.parameters.ceiling = shared::kCeilingHuman, in.parameters.rod_tint = {1, 1, 1};
+    in.parameters.cone_break = 1.9f, in.parameters.rod_break = -1.44f;
+    const Adapted a = adapt(in);
+    EXPECT_NEAR(a.tone.linear_gain, 5.55904 / 0.391302 / 199.5, 1e-6);
+    EXPECT_NEAR(a.tone.linear_low, 0.5 * 0.391302 / 5.55904, 1e-6);
+    EXPECT_NEAR(a.tone.rods.x, std::pow(1 - 0.49 / 9.99, 2) * 0.391302 / 0.402717, 5e-6) << "six digits";
+    in.parameters.ceiling = shared::kCeilingEye;
+    EXPECT_NEAR(adapt(in).tone.linear_gain, a.tone.linear_gain, 1e-6) << "adapted, an eye in its state is the same";
+}
+
 TEST(AdaptReference, AnEmptyFrameIsBlack) {
     AdaptInputs in = frame_of({}, 1);
     in.top = dvec4(0), in.fovea.texels = {dvec4(0)};

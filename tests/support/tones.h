@@ -11,7 +11,9 @@
 
 namespace vesper::test {
 
-constexpr uint32_t kEveryTone[]{shared::kToneCurve, shared::kToneReinhard, shared::kToneLinear, shared::kToneLdr};
+constexpr uint32_t kEveryTone[]{shared::kToneCurve, shared::kToneReinhard, shared::kToneLinear, shared::kToneLdr, shared::kToneColour, shared::kToneRods,
+                                shared::kToneCurve | shared::kToneColourLoss, shared::kToneLinear | shared::kTonePurkinje,
+                                shared::kToneReinhard | shared::kToneColourLoss | shared::kTonePurkinje};
 
 /// A tone curve with parameters for every operator: a crooked table from 0.01 to 1e4 cd/m^2, Reinhard with white at
 /// 3000, linear from 0.05 to 80.
@@ -20,6 +22,7 @@ inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 1
     c.adaptation = c.log_average = 0.7f, c.maximum = 3000;
     c.reinhard_scale = 0.18f / 0.7f, c.reinhard_white = 1 / (c.reinhard_scale * 3000 * c.reinhard_scale * 3000);
     c.linear_low = 0.05f, c.linear_gain = 1 / 79.95f;
+    c.rods = {0.2f, 0.1f, 0.4f};
     c.ln_low = std::log(0.01f), c.bins_per_ln = float(bins) / std::log(1e6f), c.bins = float(bins);
     const double low = std::log(double(display.low())), range = std::log(double(display.high())) - low;
     double sum = 0;
@@ -27,7 +30,7 @@ inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 1
     for (uint32_t i = 0; i < bins; ++i) steps.push_back(i % 7 == 3 ? 0 : 1 + std::sin(0.3 * i)), sum += steps.back();
     double at = 0;
     for (uint32_t i = 0; i <= bins; ++i) {
-        c.node[i].x = float(low + range * at / sum);
+        c.node[i] = {float(low + range * at / sum), 0.3f + float(i) / float(bins), 0.5f + 0.5f * std::sin(float(i)), 0};
         if (i < bins) at += steps[i];
     }
     return c;

@@ -3,6 +3,8 @@
 #include "shared/composite.h"
 #include "shared/photometry.h"
 
+const float kLeastRatio = 1e-6;
+
 layout(constant_id = 0) const uint kTone = kToneCurve;
 const uint kForm = kTone & kToneForm;
 
@@ -55,8 +57,8 @@ vec3 faded(samplerBuffer curve, Tone tone, vec3 ratios, float luminance) {
     const float bin = min(floor(at), tone.bins - 1.0);
     const vec2 below = texelFetch(curve, int(kToneNode0) + int(bin)).gb, above = texelFetch(curve, int(kToneNode0) + int(bin) + 1).gb;
     const vec2 exponent_and_share = mix(below, above, at - bin);
-    const vec3 power = pow(max(ratios, vec3(1e-30)), vec3(exponent_and_share.x));
-    return mix(vec3(1.0), mix(power, vec3(0.0), lessThanEqual(ratios, vec3(0.0))), exponent_and_share.y);
+    // A channel without light keeps some, so that in the dark, where exponents go to 0, it goes grey with the others.
+    return mix(vec3(1.0), pow(max(ratios, vec3(kLeastRatio)), vec3(exponent_and_share.x)), exponent_and_share.y);
 }
 
 // Displayed light of a pixel, RGB in [0, 1]; `own` is its colour in the display's primaries. Colour keeps its ratios; where

@@ -61,9 +61,9 @@ inline glm::dmat3 from_rec709(const Primaries& to) {
     return glm::inverse(to_xyz(to)) * to_xyz(kRec709);
 }
 
-/// Pattanaik et al. 2000, Eq. 19: ratios to a power; grey as pfstmo mixes it.
+/// Pattanaik et al. 2000, Eq. 19: ratios, of at least 1e-6, to a power; grey as pfstmo mixes it.
 inline dvec3 faded(dvec3 ratios, dvec4 node) {
-    for (int k = 0; k < 3; ++k) ratios[k] = (ratios[k] > 0 ? node.z * std::pow(ratios[k], node.y) : 0) + 1 - node.z;
+    for (int k = 0; k < 3; ++k) ratios[k] = node.z * std::pow(std::max(ratios[k], 1e-6), node.y) + 1 - node.z;
     return ratios;
 }
 

@@ -88,8 +88,8 @@ OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const st
     return buffer;
 }
 
-ResidentScene::ResidentScene(const Device& device, const Scene& scene)
-    : arena_(device), textures_(device, arena_), push_descriptors_(device.push_descriptors) {
+ResidentScene::ResidentScene(const Device& device, const Scene& scene, PictureFormat pictures)
+    : arena_(device), textures_(device, arena_, pictures), push_descriptors_(device.push_descriptors) {
     const VkDescriptorType sampled[3] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                          VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
     set_ = make_set_layout(device, sampled, VK_SHADER_STAGE_FRAGMENT_BIT);
@@ -130,18 +130,23 @@ void ResidentScene::place(const Scene& scene) {
 
 void ResidentScene::make_surfaces(const Device&, const Scene& scene) {
     for (const Material& stated : scene.materials) {
-        const Material m = stated.reflection_table != kNone ? as_road(scene, stated)
-                           : stated.retroreflector != kNone ? as_sheet(stated)
-                                                            : stated;
+        Material m = stated.reflection_table != kNone ? as_road(scene, stated)
+                     : stated.retroreflector != kNone ? as_sheet(stated)
+                                                      : stated;
         uint32_t variant = 0;
         if (m.base_colour_texture.image != kNone) variant |= kBaseTexture;
         if (m.metallic_roughness_texture.image != kNone) variant |= kMetallicRoughnessTexture;
-        if (m.emission != glm::vec3(0)) variant |= m.emission_texture.image != kNone ? kEmits | kEmissionTexture : kEmits;
+        const bool picture = m.emission_picture.image != kNone;
+        if (m.emission != glm::vec3(0))
+            variant |= picture || m.emission_texture.image != kNone ? kEmits | kEmissionTexture : kEmits;
         if (m.alpha == Material::Alpha::Mask) variant |= kMask;
+        float unit = 1;
+        const VkDescriptorImageInfo emission = picture ? textures_.get_picture(scene, m.emission_picture, unit)
+                                                       : textures_.get(scene, m.emission_texture, Decode::Srgb);
+        m.emission *= unit;
         surfaces_.push_back({m, variant,
                              {textures_.get(scene, m.base_colour_texture, Decode::Colour),
-                              textures_.get(scene, m.metallic_roughness_texture, Decode::Data),
-                              textures_.get(scene, m.emission_texture, Decode::Srgb)}});
+                              textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission}});
     }
 }
 

@@ -179,6 +179,12 @@ SceneReport report_scene(const Scene& scene) {
         made.metallic = static_cast<double>(m.metallic);
         made.textured = m.base_colour_texture.image != kNone;
         made.emission = luminance_of(m.emission);
+        if (m.emission_picture.image != kNone) {
+            const LuminancePicture& picture = scene.luminance_pictures[m.emission_picture.image];
+            made.picture = picture.name;
+            made.mean_emission = made.emission * luminance(mean_colour(picture));
+            made.emission *= largest_luminance(picture);
+        }
         if (m.reflection_table != kNone) made.road_table = scene.reflection_tables[m.reflection_table].name;
         made.area = area;
         reflected += area * made.reflectance * (m.metallic_roughness_texture.image == kNone ? 1 - made.metallic : 1);

@@ -31,6 +31,8 @@ struct MaterialReport {
     double roughness = 1, metallic = 0;  ///< factors; a texture multiplies them
     bool textured = false;
     double emission = 0;              ///< greatest luminance, cd/m^2
+    std::string picture;              ///< name of the picture it shines with
+    double mean_emission = 0;         ///< mean luminance over that picture, cd/m^2
     std::string road_table;           ///< name of its reflection table
     double area = 0;                  ///< m^2, of all its triangles
 };

@@ -5,6 +5,7 @@
 
 #include "photometry/ies.h"
 #include "scene/convert.h"
+#include "scene/convert_rules.h"
 #include "scene/light.h"
 #include "scene/scene_files.h"
 

@@ -64,11 +64,7 @@ std::string file_of_frame(const std::string& pattern, unsigned index, unsigned f
 }
 
 Header describe_frame(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, double seconds) {
-    const auto number = [](double value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.9g", value);
-        return std::string(text);
-    };
+    const auto number = [](double value) { return format("%.9g", value); };
     std::string pose;
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + number(double(view.world_to_view[c][r]));

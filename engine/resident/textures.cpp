@@ -1,10 +1,12 @@
 #include "resident/textures.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstring>
 
 #include <glm/gtc/packing.hpp>
+
+#include "scene/reflectance.h"
 
 namespace vesper {
 namespace {
@@ -76,17 +78,13 @@ void pack(VkFormat format, const glm::vec4& texel, std::byte* to) {
 }  // namespace
 
 std::vector<float> decode_table(Decode decode, const Transfer& transfer) {
-    std::vector<float> table(256);
-    for (int code = 0; code < 256; ++code) {
-        const double t = code / 255.0;
-        const bool srgb = decode == Decode::Srgb || (decode == Decode::Colour && transfer.kind == Transfer::Kind::Srgb);
-        if (decode == Decode::Data)
-            table[code] = float(t);
-        else if (srgb)  // IEC 61966-2-1
-            table[code] = float(t <= 0.04045 ? t / 12.92 : std::pow((t + 0.055) / 1.055, 2.4));
-        else  // Petit, Bremond and Vienne, Eq. 1
-            table[code] = float(std::pow(t, double(transfer.gamma)));
-    }
+    std::array<double, 256> linear;
+    if (decode == Decode::Data)
+        for (size_t code = 0; code < 256; ++code) linear[code] = double(code) / 255;
+    else
+        linear = linear_codes(decode == Decode::Colour ? transfer : Transfer{.kind = Transfer::Kind::Srgb});
+    std::vector<float> table;
+    for (const double value : linear) table.push_back(float(value));
     return table;
 }
 

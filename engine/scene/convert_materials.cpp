@@ -1,11 +1,11 @@
 // Materials that emit, and what rules say of their surfaces. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "base/error.h"
 #include "scene/convert_rules.h"
 #include "scene/photometry_parts.h"
+#include "scene/reflectance.h"
 #include "scene/reflection_json.h"
 
 namespace vesper {
@@ -47,11 +47,7 @@ std::vector<std::vector<uint32_t>> assign(Conversion& conversion, const std::vec
 
 /// Largest luminance of an sRGB-coded picture under a light of this colour.
 double brightest_texel(const Image& image, glm::dvec3 colour) {
-    std::array<double, 256> linear{};
-    for (size_t code = 0; code < 256; ++code) {
-        const double c = static_cast<double>(code) / 255;
-        linear[code] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    }
+    const std::array<double, 256> linear = linear_codes({.kind = Transfer::Kind::Srgb});
     double brightest = 0;
     for (size_t i = 0; i < image.rgba.size(); i += 4)
         brightest = std::max(brightest, luminance(colour * glm::dvec3(linear[image.rgba[i]], linear[image.rgba[i + 1]],

@@ -58,6 +58,9 @@ void check_plausibility(Conversion& conversion, const std::set<size_t>& lamp_nod
 /// 10 %, and of those that would be seen twice. `emitting`: the materials of every emitter rule.
 void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_t>>& emitting);
 
+/// A factor as people say it: "12 % more", "33 % less".
+std::string deviation(double factor);
+
 /// Warns of surfaces of a converted scene that reflect more than there are.
 void check_reflectances(const Scene& converted, ConversionReport& report);
 

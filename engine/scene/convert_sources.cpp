@@ -163,6 +163,12 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
 
 }  // namespace
 
+std::string deviation(double factor) {
+    const long percent = std::lround(100 * std::abs(factor - 1));
+    return factor > 3 ? std::to_string(std::lround(factor)) + " times as much"
+                      : std::to_string(percent) + (factor < 1 ? " % less" : " % more");
+}
+
 void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_t>>& emitting) {
     const Photometry& photometry = conversion.photometry;
     const std::vector<glm::mat4> world = world_transforms(conversion.original.scene, 0);

@@ -10,6 +10,7 @@
 
 #include "scene/colour.h"
 #include "scene/photometry.h"
+#include "scene/reflectance.h"
 #include "scene/scene_warnings.h"
 
 namespace vesper {
@@ -130,28 +131,6 @@ void report_heights(const std::vector<PlacedLamp>& lamps, SceneReport& report) {
 }
 
 }  // namespace
-
-double mean_reflectance(const Scene& scene, const Material& material, const Transfer& transfer) {
-    const glm::dvec3 factor(material.base_colour);
-    if (material.base_colour_texture.image == kNone) return luminance(factor);
-    std::array<double, 256> linear{};
-    for (size_t code = 0; code < 256; ++code) {
-        const double c = static_cast<double>(code) / 255;
-        const double srgb = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-        linear[code] = transfer.kind == Transfer::Kind::Gamma ? std::pow(c, static_cast<double>(transfer.gamma)) : srgb;
-    }
-    const Image& image = scene.images[material.base_colour_texture.image];
-    // A histogram per channel first: sums over codes are exact and quick.
-    std::array<std::array<uint64_t, 256>, 3> counts{};
-    for (size_t i = 0; i < image.rgba.size(); i += 4)
-        for (size_t c = 0; c < 3; ++c) ++counts[c][image.rgba[i + c]];
-    glm::dvec3 mean(0);
-    for (size_t c = 0; c < 3; ++c)
-        for (size_t code = 0; code < 256; ++code)
-            mean[static_cast<int>(c)] += linear[code] * static_cast<double>(counts[c][code]);
-    mean *= 4.0 / static_cast<double>(image.rgba.size());
-    return luminance(factor * mean);
-}
 
 SceneReport report_scene(const Scene& scene) {
     SceneReport report;

@@ -9,9 +9,6 @@
 
 namespace vesper {
 
-/// Mean reflectance of a material's base colour (luminance), its texture through a transfer.
-double mean_reflectance(const Scene&, const Material&, const Transfer&);
-
 /// Lamps that shine alike and whose names differ by a number at most.
 struct LampReport {
     std::string name;

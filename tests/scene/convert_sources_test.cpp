@@ -6,6 +6,7 @@
 #include "io/hdr_image.h"
 #include "photometry/ies.h"
 #include "scene/convert.h"
+#include "scene/convert_rules.h"
 #include "scene/light.h"
 #include "scene/scene_files.h"
 
@@ -160,13 +161,8 @@ TEST_F(ConvertSourcesTest, OnlyGlassBesideALampIsMeasured) {
 }
 
 TEST_F(ConvertSourcesTest, NamesThePlaceOfWhatIsWrong) {
-    const auto complaint = [&](const json& rule, const json& emitter) -> std::string {
-        try {
-            convert_with(rule, emitter);
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+    const auto complaint = [&](const json& rule, const json& emitter) {
+        return complaint_of([&] { convert_with(rule, emitter); });
     };
     json rule = lamp(600);
     EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}}), "/emitters/0/lamp: the lamp rule 'beam' has no opening"));

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "io/hdr_image.h"
+#include "support/complaints.h"
 
 namespace vesper {
 namespace {
@@ -36,12 +36,7 @@ TEST(LuminancePicture, RefusesWhatIsNoNumber) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), inf, -inf, 2e30f}) {
         HdrImage image = grey(3, 2, {1, 1, 1, 1, 1, 1});
         image.rgb[3 * 5 + 1] = bad;
-        try {
-            make_luminance_picture(image);
-            ADD_FAILURE() << bad;
-        } catch (const Error& error) {
-            EXPECT_STREQ(error.what(), "pixel (2, 1) is not finite, or beyond 1e30");
-        }
+        EXPECT_EQ(test::complaint_of([&] { make_luminance_picture(image); }), "pixel (2, 1) is not finite, or beyond 1e30") << bad;
     }
 }
 

@@ -13,12 +13,13 @@ Renderer::Renderer(Device& device, const Scene& scene)
       sources_(placed_sources(scene)),
       maps_(light_maps(scene)),
       map_arena_(device),
-      map_texels_(upload_buffer(device, map_arena_, std::as_bytes(std::span(maps_.texels)), VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT)),
+      map_texels_(upload_texels(device, maps_.texels)),
       ambient_illuminance_(scene.ambient_illuminance),
       sky_luminance_(scene.sky_luminance),
       ambient_colour_(scene.ambient_colour),
       sky_colour_(scene.sky_colour),
       executor_(device) {
+    maps_.texels = std::vector<glm::vec4>();  // the device has them
     if (scene.environment) {
         const SkyMap map = make_sky_map(*scene.environment);
         sky_sharp_side_ = map.sharp.side;
@@ -30,6 +31,10 @@ Renderer::Renderer(Device& device, const Scene& scene)
 Renderer::TexelBuffer Renderer::upload_texels(const Device& device, const std::vector<glm::vec4>& texels) {
     const auto bytes = std::as_bytes(std::span(texels));
     return {upload_buffer(device, map_arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT), bytes.size()};
+}
+
+Resource Renderer::TexelBuffer::in(FrameGraph& graph, const std::string& name) const {
+    return graph.external(name, buffer.get(), bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
 }
 
 Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
@@ -45,13 +50,12 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
         shading.ambient = ambient_illuminance_ * ambient_colour_, shading.sky = sky_luminance_ * sky_colour_;
 
     const GBuffer surfaces = add_gbuffer(graph, resident_, frame, view);
-    const MapTexels maps{graph.external("maps", map_texels_.get(), maps_.texels.size() * sizeof(glm::vec4), VK_FORMAT_R32G32B32A32_SFLOAT),
-                         maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};
+    const MapTexels maps{map_texels_.in(graph, "maps"), maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};
     const Clusters clusters = add_clusters(graph, kernels_, lights, maps, view, clustering);
-    if (retro_ && !ldr) shading.retro = graph.external("retroreflection", retro_.buffer.get(), retro_.bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
+    if (retro_ && !ldr) shading.retro = retro_.in(graph, "retroreflection");
     Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
     if (sky_ && !ldr) {
-        const Resource sky = graph.external("sky map", sky_.buffer.get(), sky_.bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
+        const Resource sky = sky_.in(graph, "sky map");
         scene = add_sky(graph, kernels_, surfaces, scene, sky, sky_sharp_side_, view, shading.lambert);
     }
     scene = add_sources(graph, kernels_, scene, surfaces.surface, sources, view);

@@ -55,6 +55,7 @@ private:
         OwnedBuffer buffer;
         uint64_t bytes = 0;
         explicit operator bool() const { return bytes != 0; }
+        Resource in(FrameGraph& graph, const std::string& name) const;
     };
     TexelBuffer upload_texels(const Device& device, const std::vector<glm::vec4>& texels);
     Declared declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
@@ -64,9 +65,9 @@ private:
     ResidentScene resident_;
     std::vector<PlacedLight> lights_;
     SourceSet sources_;
-    LightMaps maps_;
+    LightMaps maps_;              // without its texels, which are uploaded
     Arena map_arena_;
-    OwnedBuffer map_texels_;
+    TexelBuffer map_texels_;
     TexelBuffer sky_, retro_;     // without buffers where the scene has no picture of a sky, nothing retroreflective
     uint32_t sky_sharp_side_ = 0;
     float ambient_illuminance_, sky_luminance_;

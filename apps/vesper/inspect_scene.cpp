@@ -40,16 +40,18 @@ std::string lamps_text(const SceneReport& report) {
     return text + format("%zu lamps, %.4g lm together; heights are above the lowest surface under a lamp\n", number, report.lumens);
 }
 
+std::string picture_text(const MaterialReport& m) { return m.picture + format(", mean %.4g", m.mean_emission); }
+
 std::string materials_text(const SceneReport& report) {
     std::vector<const MaterialReport*> sorted;
     for (const MaterialReport& m : report.materials) sorted.push_back(&m);
     std::stable_sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->area > b->area; });
-    std::string text = "\n" + column("material", 30) + "    area, m2  reflectance  rough  metal  emits cd/m2  r-table\n";
+    std::string text = "\n" + column("material", 30) + "    area, m2  reflectance  rough  metal  emits cd/m2  r-table or picture\n";
     for (size_t i = 0; i < std::min(sorted.size(), kMostRows); ++i) {
         const MaterialReport& m = *sorted[i];
         text += column(m.name, 30) + format("  %10.4g  %6.3f %-4s  %5.2f  %5.2f  %11s  %s\n", m.area, m.reflectance, m.textured ? "(t)" : "",
                                             m.roughness, m.metallic, m.emission > 0 ? format("%.4g", m.emission).c_str() : "",
-                                            m.road_table.c_str());
+                                            m.picture.empty() ? m.road_table.c_str() : picture_text(m).c_str());
     }
     if (sorted.size() > kMostRows) text += format("... and %zu smaller ones (--json has them)\n", sorted.size() - kMostRows);
     return text + format("(t) mean of a texture. Diffuse reflectance by area: %.3f\n", report.mean_reflectance);
@@ -85,6 +87,7 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
                                      {"roughness", m.roughness},
                                      {"metallic", m.metallic},
                                      {"emission_cd_m2", m.emission}});
+        if (!m.picture.empty()) json["materials"].back()["emission_picture"] = {{"name", m.picture}, {"mean_cd_m2", m.mean_emission}};
         if (!m.road_table.empty()) json["materials"].back()["reflection_table"] = m.road_table;
     }
     json["implausible"] = report.warnings;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "arguments.h"
 #include "shared/photometry.h"
 
 namespace vesper {
@@ -11,11 +11,7 @@ namespace {
 
 constexpr double kPercents[] = {1, 5, 25, 50, 75, 95, 99, 99.9};
 
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
+std::string number(double value) { return format("%.6g", value); }
 
 }  // namespace
 

@@ -41,22 +41,25 @@ namespace {
 
 enum class Kind { Any, Exr, Radiance };
 
-HdrImage read(const std::filesystem::path& file, Kind wanted, const HdrLimits& limits) {
-    const std::vector<uint8_t> bytes = read_file(file, hdr::kMaxFileBytes);
+HdrImage decode(std::span<const uint8_t> bytes, const std::string& name, Kind wanted, const HdrLimits& limits) {
     const std::string type = media_type(bytes);
     try {
-        if (type == "image/x-exr" && wanted != Kind::Radiance) return hdr::decode_exr(bytes, file.string(), limits);
+        if (type == "image/x-exr" && wanted != Kind::Radiance) return hdr::decode_exr(bytes, name, limits);
         if (type == "image/vnd.radiance" && wanted != Kind::Exr) return hdr::decode_radiance(bytes, limits);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        throw Error(one_line(file.string()) + ": " + one_line(error.what()));
+        throw Error(one_line(name) + ": " + one_line(error.what()));
     }
     const char* expected = wanted == Kind::Any   ? "OpenEXR nor Radiance (.hdr)"
                            : wanted == Kind::Exr ? "OpenEXR"
                                                  : "Radiance (.hdr)";
     const char* is = wanted == Kind::Any ? "is neither " : "is not ";
-    throw Error(one_line(file.string()) + ": " + is + expected + (type.empty() ? "" : ", but " + type));
+    throw Error(one_line(name) + ": " + is + expected + (type.empty() ? "" : ", but " + type));
+}
+
+HdrImage read(const std::filesystem::path& file, Kind wanted, const HdrLimits& limits) {
+    return decode(read_file(file, hdr::kMaxFileBytes), file.string(), wanted, limits);
 }
 
 }  // namespace
@@ -67,6 +70,9 @@ HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& limit
 }
 HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& limits) {
     return read(file, Kind::Any, limits);
+}
+HdrImage decode_hdr_image(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& limits) {
+    return decode(bytes, name, Kind::Any, limits);
 }
 
 }  // namespace vesper

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "io/image_file.h"
@@ -38,6 +40,8 @@ HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& = {})
 
 /// Reads either kind, told apart by content.
 HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& = {});
+/// The same from the bytes of a file; `name` begins the messages.
+HdrImage decode_hdr_image(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& = {});
 
 /// Writes 32-bit RGB OpenEXR with the image's header texts, and whiteLuminance if it is known. The file is replaced
 /// only when complete. Throws Error.

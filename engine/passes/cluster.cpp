@@ -60,7 +60,6 @@ Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList
                           view.ray_offset()};
     clusters.push.lights = list.counts;
     clusters.push.threshold = settings.threshold;
-    clusters.push.near = kNear;
     clusters.push.far = far;
 
     std::vector<shared::Light> padded = list.lights;

@@ -55,7 +55,7 @@ struct Clusters {
     Resource counts;   ///< r32ui, two per froxel: cones, then cosine powers and maps; kAllLights if they did not fit
     Resource indices;  ///< r32ui, grid.capacity per froxel: indices of cones, then of the others, each ascending
     Resource report;   ///< shared::ClusterReport
-    shared::ClusterPush push;  ///< grid, counts, threshold, near and far
+    shared::ClusterPush push;  ///< grid, counts, threshold and far
 };
 
 /// Lists for every froxel all cone and cosine-power lights that may give `threshold` lx somewhere in it. Exact or more,

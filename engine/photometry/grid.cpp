@@ -11,6 +11,8 @@
 namespace vesper {
 namespace {
 
+constexpr size_t kMaxColumns = kMaxAngles + 2;  // a vertical angle before the others, nothing behind the last separator
+
 std::string lower(std::string_view text) {
     std::string made(trimmed(text));
     for (char& c : made) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -65,13 +67,8 @@ private:
         goniometry_ = goniometry_of(word);
     }
     void split(std::string_view text) {
-        while (true) {
-            if (cells_.size() > kMaxAngles + 1) lines_.fail("more columns than are read");
-            const size_t end = text.find(separator_);
-            cells_.push_back(trimmed(text.substr(0, end)));
-            if (end == text.npos) break;
-            text.remove_prefix(end + 1);
-        }
+        cells_ = fields_of(text, separator_, kMaxColumns);
+        if (cells_.size() > kMaxColumns) lines_.fail("more columns than are read");
         if (cells_.size() > 1 && cells_.back().empty()) cells_.pop_back();  // a separator at the end
     }
 

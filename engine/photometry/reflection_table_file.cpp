@@ -19,17 +19,6 @@ constexpr std::pair<std::string_view, std::string_view> kStandard[] = {
 #include <road/tables.inc>
 };
 
-std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    while (fields.size() <= kMaxFields) {
-        const size_t comma = line.find(',');
-        fields.push_back(trimmed(line.substr(0, comma)));
-        if (comma == line.npos) break;
-        line.remove_prefix(comma + 1);
-    }
-    return fields;
-}
-
 double value_of(const LineReader& lines, std::string_view field) {
     const auto value = number_of(field);
     if (!value || !(*value >= 0 && *value <= 1e9)) lines.fail(quoted(field) + " is not a number from 0 to 1e9");
@@ -37,7 +26,7 @@ double value_of(const LineReader& lines, std::string_view field) {
 }
 
 void read_row(ReflectionTable& table, const LineReader& lines, std::string_view text) {
-    const auto fields = fields_of(text);
+    const auto fields = fields_of(text, ',', kMaxFields);
     if (fields.size() > kMaxFields) lines.fail("has more than 512 values");
     if (table.beta.empty()) {
         for (size_t i = 1; i < fields.size(); ++i) table.beta.push_back(value_of(lines, fields[i]));

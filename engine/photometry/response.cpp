@@ -1,14 +1,16 @@
 // Response curves: known ones, and their files. SPDX-License-Identifier: MIT
 #include "photometry/response.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/srgb.h"
 #include "io/atomic_file.h"
+#include "photometry/table.h"
 
 namespace vesper {
 namespace {
@@ -24,19 +26,6 @@ Response response_of(const Exposure& exposure) {
     return made;
 }
 
-/// Takes one number, and what follows it up to and including `end`, from the text.
-bool take(std::string_view& text, double& value, char end) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    const auto [rest, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || !std::isfinite(value)) return false;
-    text.remove_prefix(static_cast<size_t>(rest - text.data()));
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\r')) text.remove_prefix(1);
-    if (text.empty()) return end == '\n';
-    if (text.front() != end) return false;
-    text.remove_prefix(1);
-    return true;
-}
-
 }  // namespace
 
 Response gamma_response(double gamma) {
@@ -44,7 +33,7 @@ Response gamma_response(double gamma) {
 }
 
 Response srgb_response() {
-    return response_of([](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); });
+    return response_of(srgb_to_linear);
 }
 
 std::array<int, 3> count_falls(const Response& response) {
@@ -67,20 +56,20 @@ void write_response(const std::filesystem::path& file, const Response& response)
 
 Response read_response(const std::filesystem::path& file) {
     const std::vector<uint8_t> bytes = read_file(file, 1u << 20);
-    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const auto fail = [&](const std::string& why) { throw Error(one_line(file.string()) + ": " + why); };
-    if (!text.starts_with("code,")) fail("is not a response curve: its first line does not start with 'code,'");
-    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    LineReader lines(bytes, file.string());
+    const auto header = lines.next();
+    if (!header || !header->starts_with("code,"))
+        throw Error(one_line(file.string()) + ": is not a response curve: its first line does not start with 'code,'");
     Response response;
     for (size_t z = 0; z < 256; ++z) {
-        double code = 0, g[3] = {};
-        if (!take(text, code, ',') || !take(text, g[0], ',') || !take(text, g[1], ',') || !take(text, g[2], '\n') ||
-            code != static_cast<double>(z))
-            fail("line " + std::to_string(z + 2) + ": expected " + std::to_string(z) + " and three numbers");
+        const auto fields = fields_of(lines.next().value_or(""), ',', 4);
+        std::optional<double> value[4];
+        for (size_t i = 0; i < 4 && fields.size() == 4; ++i) value[i] = number_of(fields[i], false);
+        if (!value[0] || !value[1] || !value[2] || !value[3] || *value[0] != static_cast<double>(z))
+            lines.fail("expected " + std::to_string(z) + " and three numbers");
         for (size_t c = 0; c < 3; ++c) {
-            if (std::abs(g[c]) > 50)
-                fail("line " + std::to_string(z + 2) + ": no exposure is that far from the middle");
-            response.ln_exposure[c][z] = g[c];
+            if (std::abs(*value[c + 1]) > 50) lines.fail("no exposure is that far from the middle");
+            response.ln_exposure[c][z] = *value[c + 1];
         }
     }
     return response;

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "photometry/distribution.h"
 
@@ -44,6 +45,9 @@ std::string readable(std::string_view text);
 std::string quoted(std::string_view text);
 /// A finite number; the whole text must be one. A decimal comma will do where `comma` is set.
 std::optional<double> number_of(std::string_view text, bool comma = true);
+
+/// The trimmed fields of a line. What is behind more than `most` of them is left off, so that there being more shows.
+std::vector<std::string_view> fields_of(std::string_view line, char separator, size_t most);
 
 enum class TablePart : uint8_t { Horizontal, Vertical, Candela };
 using TableFault = std::function<void(TablePart, const std::string& reason)>;  ///< must throw

@@ -81,4 +81,15 @@ std::optional<double> number_of(std::string_view text, bool comma) {
     return value;
 }
 
+std::vector<std::string_view> fields_of(std::string_view line, char separator, size_t most) {
+    std::vector<std::string_view> fields;
+    while (fields.size() <= most) {
+        const size_t end = line.find(separator);
+        fields.push_back(trimmed(line.substr(0, end)));
+        if (end == line.npos) break;
+        line.remove_prefix(end + 1);
+    }
+    return fields;
+}
+
 }  // namespace vesper

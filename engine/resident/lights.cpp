@@ -1,21 +1,11 @@
 #include "resident/lights.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "scene/light.h"
 
 namespace vesper {
 namespace {
-
-// Slope and offset of KHR_lights_punctual's ramp, clamp(a cos + b, 0, 1): 1 within the inner cone, 0 beyond the outer. A
-// point lamp is 1 in every direction. The difference of the cosines is taken as a product: between narrow cones they agree
-// in most of their digits. Cones that coincide get an edge of 1e-5 in the cosine, outwards.
-glm::vec2 cone_ramp(const Light& light) {
-    if (light.kind == Light::Kind::Point) return {0, 1};
-    const double outer = double(light.outer_cone), inner = std::min(double(light.inner_cone), outer);
-    const double difference = 2 * std::sin((outer + inner) / 2) * std::sin((outer - inner) / 2);
-    const double slope = 1 / std::max(1e-5, difference);
-    return {float(slope), float(1 - slope * std::cos(inner))};
-}
 
 int order(Light::Kind kind) {
     switch (kind) {
@@ -70,7 +60,7 @@ LightList light_list(const std::vector<PlacedLight>& lights, const LightMaps& ma
         const glm::mat4 m = view.world_to_view * frame.world[placed.node];
         const glm::vec3 x = unit(m[0], {1, 0, 0}), y = unit(m[1], {0, 0, -1}), z = unit(m[2], {0, 1, 0});
         const bool power = light.kind == Light::Kind::CosinePower;
-        const glm::vec2 lobe = power ? glm::vec2(light.exponent, 0) : cone_ramp(light);
+        const glm::vec2 lobe = power ? glm::vec2(light.exponent, 0) : glm::vec2(cone_ramp(light));
         shared::Light made{.position = glm::vec3(m[3]), .intensity = light.intensity, .axis = -z, .lobe_a = lobe.x,
                            .colour = light.colour, .lobe_b = lobe.y, .start = x, .map = -1, .pole = -z, .last_azimuth = 0, .grid = {}};
         if (measured) place_map(made, maps.intensities[light.distribution], x, y, z);

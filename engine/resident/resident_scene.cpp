@@ -8,10 +8,10 @@
 #include <set>
 
 #include "resident/formats.h"
+#include "scene/reflectance.h"
 #include "shaders/gbuffer.frag.inc"
 #include "shaders/gbuffer.vert.inc"
 #include "shared/gbuffer.h"
-#include "shared/photometry.h"
 #include "shared/retro.h"
 #include "shared/shade.h"
 
@@ -27,24 +27,10 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values) {
     return std::as_bytes(std::span(values));
 }
 
-// Luminance of a material's reflectance, its texture averaged.
-double mean_reflectance(const Scene& scene, const Material& m) {
-    glm::dvec3 mean(1);
-    if (m.base_colour_texture.image != kNone) {
-        const std::vector<float> linear = decode_table(Decode::Colour, scene.transfer);
-        const std::vector<uint8_t>& codes = scene.images[m.base_colour_texture.image].rgba;
-        mean = glm::dvec3(0);
-        for (size_t i = 0; i + 3 < codes.size(); i += 4)
-            mean += glm::dvec3(linear[codes[i]], linear[codes[i + 1]], linear[codes[i + 2]]);
-        mean /= double(std::max<size_t>(1, codes.size() / 4));
-    }
-    return glm::dot(mean * glm::dvec3(m.base_colour), glm::dvec3(shared::kRed, shared::kGreen, shared::kBlue));
-}
-
 // A road with a table as the G-buffer holds it (shared/shade.h): the table says how much it reflects, the texture only
 // where there is more and where less.
 Material as_road(const Scene& scene, Material m) {
-    const double mean = mean_reflectance(scene, m);
+    const double mean = mean_reflectance(scene, m, scene.transfer);
     const glm::vec3 colour = mean > 0 ? glm::vec3(glm::dvec3(m.base_colour) / mean) : glm::vec3(1);
     const ReflectionTable& table = scene.reflection_tables.at(m.reflection_table);
     const double q0 = table.stated_q0 > 0 ? table.stated_q0 : average_luminance_coefficient(table);
@@ -88,8 +74,8 @@ OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const st
     return buffer;
 }
 
-ResidentScene::ResidentScene(const Device& device, const Scene& scene)
-    : arena_(device), textures_(device, arena_), push_descriptors_(device.push_descriptors) {
+ResidentScene::ResidentScene(const Device& device, const Scene& scene, PictureFormat pictures)
+    : arena_(device), textures_(device, arena_, pictures), push_descriptors_(device.push_descriptors) {
     const VkDescriptorType sampled[3] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                          VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
     set_ = make_set_layout(device, sampled, VK_SHADER_STAGE_FRAGMENT_BIT);
@@ -130,18 +116,23 @@ void ResidentScene::place(const Scene& scene) {
 
 void ResidentScene::make_surfaces(const Device&, const Scene& scene) {
     for (const Material& stated : scene.materials) {
-        const Material m = stated.reflection_table != kNone ? as_road(scene, stated)
-                           : stated.retroreflector != kNone ? as_sheet(stated)
-                                                            : stated;
+        Material m = stated.reflection_table != kNone ? as_road(scene, stated)
+                     : stated.retroreflector != kNone ? as_sheet(stated)
+                                                      : stated;
         uint32_t variant = 0;
         if (m.base_colour_texture.image != kNone) variant |= kBaseTexture;
         if (m.metallic_roughness_texture.image != kNone) variant |= kMetallicRoughnessTexture;
-        if (m.emission != glm::vec3(0)) variant |= m.emission_texture.image != kNone ? kEmits | kEmissionTexture : kEmits;
+        const bool picture = m.emission_picture.image != kNone;
+        if (m.emission != glm::vec3(0))
+            variant |= picture || m.emission_texture.image != kNone ? kEmits | kEmissionTexture : kEmits;
         if (m.alpha == Material::Alpha::Mask) variant |= kMask;
+        float unit = 1;
+        const VkDescriptorImageInfo emission = picture ? textures_.get_picture(scene, m.emission_picture, unit)
+                                                       : textures_.get(scene, m.emission_texture, Decode::Srgb);
+        m.emission *= unit;
         surfaces_.push_back({m, variant,
                              {textures_.get(scene, m.base_colour_texture, Decode::Colour),
-                              textures_.get(scene, m.metallic_roughness_texture, Decode::Data),
-                              textures_.get(scene, m.emission_texture, Decode::Srgb)}});
+                              textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission}});
     }
 }
 

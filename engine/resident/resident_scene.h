@@ -41,7 +41,7 @@ public:
         VkDescriptorImageInfo textures[3];  ///< base colour, metallic-roughness, emission
     };
 
-    ResidentScene(const Device& device, const Scene& scene);
+    ResidentScene(const Device& device, const Scene& scene, PictureFormat pictures = PictureFormat::Float);
 
     const std::vector<Part>& parts() const { return parts_; }
     const std::vector<Placement>& placements() const { return placements_; }

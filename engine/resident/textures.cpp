@@ -1,10 +1,12 @@
 #include "resident/textures.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstring>
 
 #include <glm/gtc/packing.hpp>
+
+#include "scene/reflectance.h"
 
 namespace vesper {
 namespace {
@@ -31,29 +33,58 @@ VkSamplerAddressMode address_mode(Wrap wrap) {
     }
 }
 
-std::vector<Level> mip_chain(const Image& image, const std::vector<float>& table, bool linear_alpha) {
-    Level base{image.width, image.height, std::vector<float>(image.rgba.size())};
-    for (size_t i = 0; i < image.rgba.size(); ++i)
-        base.rgba[i] = linear_alpha && i % 4 == 3 ? float(image.rgba[i]) / 255 : table[image.rgba[i]];
+std::vector<Level> with_smaller(Level base) {
     std::vector<Level> levels{std::move(base)};
     while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(half_size(levels.back()));
     return levels;
 }
 
+std::vector<Level> mip_chain(const Image& image, const std::vector<float>& table, bool linear_alpha) {
+    Level base{image.width, image.height, std::vector<float>(image.rgba.size())};
+    for (size_t i = 0; i < image.rgba.size(); ++i)
+        base.rgba[i] = linear_alpha && i % 4 == 3 ? float(image.rgba[i]) / 255 : table[image.rgba[i]];
+    return with_smaller(std::move(base));
+}
+
+// A luminance picture divided by `unit`.
+std::vector<Level> mip_chain(const LuminancePicture& picture, float unit) {
+    Level base{picture.width, picture.height, {}};
+    base.rgba.reserve(picture.rgb.size() / 3 * 4);
+    for (size_t i = 0; i < picture.rgb.size(); i += 3)
+        for (size_t c = 0; c < 4; ++c) base.rgba.push_back(c < 3 ? picture.rgb[i + c] / unit : 1.0f);
+    return with_smaller(std::move(base));
+}
+
+bool filters_floats(const Device& device) {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(device.physical(), VK_FORMAT_R32G32B32A32_SFLOAT, &properties);
+    return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+}
+
+size_t bytes_of_texel(VkFormat format) {
+    return format == VK_FORMAT_R32G32B32A32_SFLOAT ? 16 : format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 4;
+}
+
+void pack(VkFormat format, const glm::vec4& texel, std::byte* to) {
+    const auto put = [to](const auto& packed) { std::memcpy(to, &packed, sizeof packed); };
+    if (format == VK_FORMAT_R32G32B32A32_SFLOAT)
+        put(texel);
+    else if (format == VK_FORMAT_R16G16B16A16_SFLOAT)
+        put(glm::packHalf4x16(texel));
+    else
+        put(glm::packUnorm4x8(texel));
+}
+
 }  // namespace
 
 std::vector<float> decode_table(Decode decode, const Transfer& transfer) {
-    std::vector<float> table(256);
-    for (int code = 0; code < 256; ++code) {
-        const double t = code / 255.0;
-        const bool srgb = decode == Decode::Srgb || (decode == Decode::Colour && transfer.kind == Transfer::Kind::Srgb);
-        if (decode == Decode::Data)
-            table[code] = float(t);
-        else if (srgb)  // IEC 61966-2-1
-            table[code] = float(t <= 0.04045 ? t / 12.92 : std::pow((t + 0.055) / 1.055, 2.4));
-        else  // Petit, Bremond and Vienne, Eq. 1
-            table[code] = float(std::pow(t, double(transfer.gamma)));
-    }
+    std::array<double, 256> linear;
+    if (decode == Decode::Data)
+        for (size_t code = 0; code < 256; ++code) linear[code] = double(code) / 255;
+    else
+        linear = linear_codes(decode == Decode::Colour ? transfer : Transfer{.kind = Transfer::Kind::Srgb});
+    std::vector<float> table;
+    for (const double value : linear) table.push_back(float(value));
     return table;
 }
 
@@ -77,7 +108,8 @@ Level half_size(const Level& level) {
     return half;
 }
 
-TextureStore::TextureStore(const Device& device, Arena& arena) : device_(&device), arena_(&arena) {}
+TextureStore::TextureStore(const Device& device, Arena& arena, PictureFormat pictures)
+    : device_(&device), arena_(&arena), picture_format_(filters_floats(device) ? pictures : PictureFormat::Half) {}
 
 VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& use, Decode decode) {
     const auto key = std::pair(use.image, use.image == kNone ? Decode::Data : decode);
@@ -92,9 +124,22 @@ VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& us
     return {sampler(use), found->second.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
+VkDescriptorImageInfo TextureStore::get_picture(const Scene& scene, const TextureUse& use, float& unit) {
+    auto found = pictures_.find(use.image);
+    if (found == pictures_.end()) {
+        const LuminancePicture& picture = scene.luminance_pictures[use.image];
+        const bool whole = picture_format_ == PictureFormat::Float;
+        const float largest = whole ? 0 : *std::max_element(picture.rgb.begin(), picture.rgb.end());
+        const float divided = largest > 0 ? std::max(largest / 60000, 1e-30f) : 1;
+        const VkFormat format = whole ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R16G16B16A16_SFLOAT;
+        found = pictures_.emplace(use.image, std::pair(upload(mip_chain(picture, divided), format), divided)).first;
+    }
+    unit = found->second.second;
+    return {sampler(use), found->second.first.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
 TextureStore::Texture TextureStore::upload(const std::vector<Level>& levels, VkFormat format) {
-    const bool half = format == VK_FORMAT_R16G16B16A16_SFLOAT;
-    const size_t texel_bytes = half ? 8 : 4;
+    const size_t texel_bytes = bytes_of_texel(format);
     uint64_t bytes = 0;
     for (const Level& level : levels) bytes += uint64_t(level.width) * level.height * texel_bytes;
     const HostBuffer staging(*device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
@@ -104,16 +149,8 @@ TextureStore::Texture TextureStore::upload(const std::vector<Level>& levels, VkF
         copies.push_back({.bufferOffset = uint64_t(to - staging.data()),
                           .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, uint32_t(copies.size()), 0, 1},
                           .imageExtent = {level.width, level.height, 1}});
-        for (size_t i = 0; i < level.rgba.size(); i += 4, to += texel_bytes) {
-            const glm::vec4 texel(level.rgba[i], level.rgba[i + 1], level.rgba[i + 2], level.rgba[i + 3]);
-            if (half) {
-                const uint64_t packed = glm::packHalf4x16(texel);
-                std::memcpy(to, &packed, sizeof packed);
-            } else {
-                const uint32_t packed = glm::packUnorm4x8(texel);
-                std::memcpy(to, &packed, sizeof packed);
-            }
-        }
+        for (size_t i = 0; i < level.rgba.size(); i += 4, to += texel_bytes)
+            pack(format, {level.rgba[i], level.rgba[i + 1], level.rgba[i + 2], level.rgba[i + 3]}, to);
     }
     staging.flush();
 

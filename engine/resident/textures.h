@@ -24,13 +24,20 @@ std::vector<float> decode_table(Decode decode, const Transfer& transfer);
 /// Half the size, rounded down: every texel is the mean of the area it covers, whole or in part.
 Level half_size(const Level& level);
 
+/// How luminance pictures lie on the device. Float: 32 bits, as they are, where the device filters such textures. Half:
+/// brought to at most 60,000; a texel is then off by 2^-11 of itself, one below 1e-9 of the brightest by 5e-13 of that.
+enum class PictureFormat : uint8_t { Float, Half };
+
 /// Uploads images on demand; one texture per image and decoding, one sampler per way of sampling.
 class TextureStore {
 public:
-    TextureStore(const Device& device, Arena& arena);
+    /// `pictures`: Half also where Float is possible.
+    TextureStore(const Device& device, Arena& arena, PictureFormat pictures = PictureFormat::Float);
 
     /// View and sampler for a use of an image. Without an image: a white texel.
     VkDescriptorImageInfo get(const Scene& scene, const TextureUse& use, Decode decode);
+    /// The same for a luminance picture. `unit`: the luminance that a value of 1 in the texture is of the picture's.
+    VkDescriptorImageInfo get_picture(const Scene& scene, const TextureUse& use, float& unit);
 
 private:
     struct Texture {
@@ -42,6 +49,8 @@ private:
 
     const Device* device_;
     Arena* arena_;
+    PictureFormat picture_format_;
+    std::map<uint32_t, std::pair<Texture, float>> pictures_;  // and the unit
     std::map<std::pair<uint32_t, Decode>, Texture> textures_;
     std::map<std::tuple<Wrap, Wrap, bool>, OwnedSampler> samplers_;
 };

@@ -10,6 +10,7 @@
 #include "scene/convert_rules.h"
 #include "scene/gltf_write.h"
 #include "scene/photometry_parts.h"
+#include "scene/uri.h"
 
 #ifndef VESPER_VERSION
 #define VESPER_VERSION "0.1.0"
@@ -46,6 +47,10 @@ json block_of(const Conversion& conversion, const std::filesystem::path& input,
     if (!conversion.retroreflective.empty()) {
         block["retroreflectors"] = conversion.retroreflectors;
         block["retroreflective"] = conversion.retroreflective;
+    }
+    if (!conversion.luminous.empty()) {
+        block["luminance_pictures"] = conversion.luminance_pictures;
+        block["luminous"] = conversion.luminous;
     }
     block["provenance"] = {{"input", input.filename().string()},
                            {"photometry", photometry.filename().string()},
@@ -87,6 +92,14 @@ nlohmann::json& object_member(const GltfDocument& document, nlohmann::json& hold
 void use_extension(nlohmann::json& root, const std::string& name) {
     json& used = root["extensionsUsed"];
     if (std::find(used.begin(), used.end(), json(name)) == used.end()) used.push_back(name);
+}
+
+size_t add_buffer_view(nlohmann::json& root, std::span<const uint8_t> bytes) {
+    root["bufferViews"].push_back(
+        {{"buffer", root.contains("buffers") ? root["buffers"].size() : 0}, {"byteLength", bytes.size()}});
+    root["buffers"].push_back(
+        {{"byteLength", bytes.size()}, {"uri", encode_data_uri("application/octet-stream", bytes)}});
+    return root["bufferViews"].size() - 1;
 }
 
 std::string decimal(double value) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scene/convert_rules.h"
-#include "scene/scene_report.h"
+#include "scene/reflectance.h"
 
 namespace vesper {
 namespace {

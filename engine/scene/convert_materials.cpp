@@ -1,11 +1,11 @@
 // Materials that emit, and what rules say of their surfaces. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "base/error.h"
 #include "scene/convert_rules.h"
 #include "scene/photometry_parts.h"
+#include "scene/reflectance.h"
 #include "scene/reflection_json.h"
 
 namespace vesper {
@@ -47,11 +47,7 @@ std::vector<std::vector<uint32_t>> assign(Conversion& conversion, const std::vec
 
 /// Largest luminance of an sRGB-coded picture under a light of this colour.
 double brightest_texel(const Image& image, glm::dvec3 colour) {
-    std::array<double, 256> linear{};
-    for (size_t code = 0; code < 256; ++code) {
-        const double c = static_cast<double>(code) / 255;
-        linear[code] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    }
+    const std::array<double, 256> linear = linear_codes({.kind = Transfer::Kind::Srgb});
     double brightest = 0;
     for (size_t i = 0; i < image.rgba.size(); i += 4)
         brightest = std::max(brightest, luminance(colour * glm::dvec3(linear[image.rgba[i]], linear[image.rgba[i + 1]],
@@ -84,10 +80,12 @@ void leave_to_lamp(Conversion& conversion, uint32_t index) {
 }
 
 void make_emit(Conversion& conversion, const EmitterRule& rule, uint32_t index) {
+    glm::dvec3 emitted = rule.colour;
+    double scale = rule.luminance;
+    if (rule.picture != kNone) emitted = show_picture(conversion, rule, index), scale = 1;
     json& root = conversion.document.edit();
     json& material = root["materials"][index];
     const Material& original = conversion.original.scene.materials[index];
-    double scale = rule.luminance;
     json texture;
     if (rule.modulate) {
         const auto [info, image] = emission_texture(conversion, material, original);
@@ -104,8 +102,8 @@ void make_emit(Conversion& conversion, const EmitterRule& rule, uint32_t index) 
     material.erase("emissiveTexture");
     if (!texture.is_null()) material["emissiveTexture"] = texture;
     // The format wants factors of at most 1; the strength carries the unit.
-    const double largest = std::max({rule.colour.r, rule.colour.g, rule.colour.b});
-    const glm::dvec3 factor = rule.colour / largest;
+    const double largest = std::max({emitted.r, emitted.g, emitted.b});
+    const glm::dvec3 factor = largest > 0 ? emitted / largest : glm::dvec3(0);
     material["emissiveFactor"] = {factor.r, factor.g, factor.b};
     json& extensions = object_member(conversion.document, material, "extensions");
     extensions[kStrength] = {{"emissiveStrength", scale * largest}};
@@ -194,6 +192,9 @@ void convert_materials(Conversion& conversion) {
             conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " + count_of(emitting[r].size()) +
                                                 ", seen as the opening of lamp " + in_quotes(rule.lamps.front()) +
                                                 (rule.lamps.size() > 1 ? " and others" : ""));
+        else if (!emitting[r].empty() && rule.picture != kNone)
+            conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " + count_of(emitting[r].size()) +
+                                                ", " + described_picture(conversion, rule));
         else if (!emitting[r].empty())
             conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " +
                                                 count_of(emitting[r].size()) + ", " + decimal(rule.luminance) +

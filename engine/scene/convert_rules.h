@@ -3,6 +3,7 @@
 
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "scene/convert.h"
@@ -22,6 +23,8 @@ struct Conversion {
     nlohmann::json retroreflectors = nlohmann::json::array(), retroreflective = nlohmann::json::array();  ///< the same
     nlohmann::json environment{};                                                                         ///< the same
     nlohmann::json openings = nlohmann::json::array();                                            ///< the same
+    nlohmann::json luminance_pictures = nlohmann::json::array(), luminous = nlohmann::json::array();  ///< the same
+    std::map<uint32_t, size_t> picture_of{};  ///< in luminance_pictures, for those of the photometry file
     /// Light profile of EXT_lights_ies for a measured lamp and the length, width and roundness of its opening.
     std::map<std::tuple<uint32_t, double, double, bool>, size_t> profiles{};
     std::vector<uint8_t> profile_bytes{};   ///< a new buffer
@@ -32,6 +35,8 @@ struct Conversion {
 nlohmann::json& object_member(const GltfDocument& document, nlohmann::json& holder, const std::string& key);
 /// Puts an extension on the list of those used.
 void use_extension(nlohmann::json& root, const std::string& name);
+/// A new buffer that holds these bytes, and the index of a view of it.
+size_t add_buffer_view(nlohmann::json& root, std::span<const uint8_t> bytes);
 /// "%.4g"
 std::string decimal(double value);
 std::string in_quotes(const std::string& name);
@@ -42,12 +47,19 @@ void convert_lamps(Conversion& conversion);
 void convert_sky(Conversion& conversion);
 /// Emission and reflectance of materials.
 void convert_materials(Conversion& conversion);
+/// Notes that a material of the file shows the picture of a rule. Returns its mean, RGB in cd/m^2.
+glm::dvec3 show_picture(Conversion& conversion, const EmitterRule& rule, uint32_t material);
+/// Size and luminances of the picture of a rule, for reports.
+std::string described_picture(const Conversion& conversion, const EmitterRule& rule);
 /// Warns of what cannot be right: sizes, lamps, things that look like lights and were not matched.
 void check_plausibility(Conversion& conversion, const std::set<size_t>& lamp_nodes);
 
 /// Warns of sources whose two descriptions, intensity of the lamp and luminance of the surface, disagree by more than
 /// 10 %, and of those that would be seen twice. `emitting`: the materials of every emitter rule.
 void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_t>>& emitting);
+
+/// A factor as people say it: "12 % more", "33 % less".
+std::string deviation(double factor);
 
 /// Warns of surfaces of a converted scene that reflect more than there are.
 void check_reflectances(const Scene& converted, ConversionReport& report);

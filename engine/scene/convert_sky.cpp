@@ -7,7 +7,6 @@
 
 #include "scene/convert_rules.h"
 #include "scene/photometry_measured.h"
-#include "scene/uri.h"
 
 namespace vesper {
 namespace {
@@ -54,12 +53,7 @@ void add_environment(Conversion& conversion, const SkyPicture& sky) {
         const uint16_t half = glm::packHalf1x16(static_cast<float>(value / scale));
         bytes.push_back(static_cast<uint8_t>(half & 255)), bytes.push_back(static_cast<uint8_t>(half >> 8));
     }
-    json& root = conversion.document.edit();
-    root["bufferViews"].push_back(
-        {{"buffer", root.contains("buffers") ? root["buffers"].size() : 0}, {"byteLength", bytes.size()}});
-    root["buffers"].push_back(
-        {{"byteLength", bytes.size()}, {"uri", encode_data_uri("application/octet-stream", bytes)}});
-    conversion.environment = {{"bufferView", root["bufferViews"].size() - 1},
+    conversion.environment = {{"bufferView", add_buffer_view(conversion.document.edit(), bytes)},
                               {"width", e.width},
                               {"height", e.height},
                               {"scale", scale},

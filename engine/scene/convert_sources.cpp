@@ -1,6 +1,8 @@
 // Sources are described twice, by candela and by cd/m^2: L = I / A must hold. SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "io/atomic_file.h"
 #include "scene/convert_rules.h"
@@ -17,7 +19,9 @@ constexpr double kReach = 1;        // m: a surface farther from a lamp than thi
 struct Placed {
     uint32_t node;
     dvec3 position, axis;             // world; m, unit length
-    double front = 0, back = 0;       // emitting area towards the axis and away from it, m^2
+    struct Side {
+        double area = 0, light = 0;  // emitting area, m^2, and its integral of luminance, cd
+    } front, back;                   // towards the axis and away from it
 };
 
 double axis_intensity(const Conversion& conversion, const LampRule& rule) {
@@ -71,28 +75,35 @@ private:
     std::map<uint32_t, std::vector<Placed*>> at_, below_;
 };
 
-/// Adds the triangles of a primitive to the lamps they are nearest to.
-void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_sided,
-              const std::vector<Placed*>& lamps) {
+/// Adds the triangles of a primitive to the lamps they are nearest to. `picture` null: they emit evenly.
+void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_sided, const EmitterRule& emitter,
+              const PictureMeans* picture, const std::vector<Placed*>& lamps) {
     const double side = glm::determinant(glm::dmat3(world)) < 0 ? -1 : 1;
     for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
         dvec3 p[3];
-        for (size_t c = 0; c < 3; ++c)
-            p[c] = dvec3(world * glm::dvec4(primitive.vertices[primitive.indices[i + c]].position, 1));
+        std::array<glm::dvec2, 3> uv;
+        for (size_t c = 0; c < 3; ++c) {
+            const Vertex& vertex = primitive.vertices[primitive.indices[i + c]];
+            p[c] = dvec3(world * glm::dvec4(vertex.position, 1));
+            uv[c] = glm::dvec2(vertex.uv);
+        }
         const dvec3 centre = (p[0] + p[1] + p[2]) / 3.0, area = 0.5 * side * glm::cross(p[1] - p[0], p[2] - p[0]);
         Placed* const nearest = *std::min_element(lamps.begin(), lamps.end(), [&](const Placed* a, const Placed* b) {
             return glm::distance(a->position, centre) < glm::distance(b->position, centre);
         });
         if (glm::distance(nearest->position, centre) > kReach) continue;
-        const double seen = glm::dot(area, nearest->axis);
-        (seen > 0 ? nearest->front : nearest->back) += seen > 0 ? seen : double_sided ? -seen : 0;
+        const double facing = glm::dot(area, nearest->axis), seen = facing > 0 || double_sided ? std::abs(facing) : 0;
+        Placed::Side& lit = facing > 0 ? nearest->front : nearest->back;
+        lit.area += seen;
+        lit.light += seen * (picture ? emitter.scale * picture->over(uv) : emitter.luminance);
     }
 }
 
-std::string disagreement(const EmitterRule& emitter, const LampRule& lamp, double intensity, double area) {
-    return "emitter " + in_quotes(emitter.name) + ": " + decimal(emitter.luminance) + " cd/m^2 given, " +
+std::string disagreement(const EmitterRule& emitter, const LampRule& lamp, double luminance, double intensity, double area) {
+    return "emitter " + in_quotes(emitter.name) + ": " + decimal(luminance) + " cd/m^2 " +
+           (emitter.picture == kNone ? "given, " : "in the mean of its picture, ") +
            decimal(intensity) + " cd of lamp " + in_quotes(lamp.name) + " over " + decimal(area) + " m^2 is " + decimal(intensity / area) +
-           " cd/m^2 (" + deviation(intensity / area / emitter.luminance) + ")";
+           " cd/m^2 (" + deviation(intensity / area / luminance) + ")";
 }
 
 bool disagree(double a, double b) { return a > kAgreement * b || b > kAgreement * a; }
@@ -103,7 +114,7 @@ void check_named(Conversion& conversion, const EmitterRule& emitter) {
         if (std::find(emitter.lamps.begin(), emitter.lamps.end(), lamp.name) == emitter.lamps.end()) continue;
         const double intensity = axis_intensity(conversion, lamp), area = lamp.light.opening.area();
         if (emitter.luminance > 0 && area > 0 && disagree(intensity / area, emitter.luminance))
-            conversion.report.warnings.push_back(disagreement(emitter, lamp, intensity, area));
+            conversion.report.warnings.push_back(disagreement(emitter, lamp, emitter.luminance, intensity, area));
     }
 }
 
@@ -117,6 +128,8 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
     };
     std::vector<Placed> lamps = placed_lamps(conversion, world, rule_index);
     const Neighbours neighbours(scene, lamps);
+    std::optional<PictureMeans> means;
+    if (emitter.picture != kNone) means.emplace(conversion.photometry.pictures[emitter.picture].picture);
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
         if (scene.nodes[node].mesh == kNone) continue;
         const std::vector<Primitive>& primitives = scene.meshes[scene.nodes[node].mesh].primitives;
@@ -124,29 +137,37 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
         const std::vector<Placed*> beside = neighbours.of(node);
         if (beside.empty()) continue;
         for (const Primitive& p : primitives)
-            if (shines(p)) add_area(p, glm::dmat4(world[node]), scene.materials[p.material].double_sided, beside);
+            if (shines(p))
+                add_area(p, glm::dmat4(world[node]), scene.materials[p.material].double_sided, emitter,
+                         means ? &*means : nullptr, beside);
     }
     const double intensity = axis_intensity(conversion, rule);
     size_t glazed = 0, wrong = 0;
-    double worst = 0, its_area = 0;
+    double worst = 0, its_area = 0, its_luminance = 0;
     for (const Placed& lamp : lamps) {
-        const double area = lamp.front > 0 ? lamp.front : lamp.back;
-        if (!(area > 0) || !(intensity > 0)) continue;
+        const auto [area, light] = lamp.front.area > 0 ? lamp.front : lamp.back;
+        if (!(area > 0) || !(light > 0) || !(intensity > 0)) continue;
         ++glazed;
-        const double off = std::abs(std::log(intensity / area / emitter.luminance));
-        if (disagree(intensity / area, emitter.luminance)) ++wrong;
-        if (off > worst) worst = off, its_area = area;
+        const double off = std::abs(std::log(intensity / light));
+        if (disagree(intensity, light)) ++wrong;
+        if (off > worst) worst = off, its_area = area, its_luminance = light / area;
     }
     if (glazed > 0 && rule.light.opening.area() > 0)
         conversion.report.warnings.push_back("emitter " + in_quotes(emitter.name) + ": lies where lamp " +
                                              in_quotes(rule.name) + " shows its opening and would be seen twice: give it \"lamp\": \"" +
                                              one_line(rule.name) + "\"");
     if (wrong > 0)
-        conversion.report.warnings.push_back(disagreement(emitter, rule, intensity, its_area) +
+        conversion.report.warnings.push_back(disagreement(emitter, rule, its_luminance, intensity, its_area) +
                                              (wrong > 1 ? ", the most of " + std::to_string(wrong) + " nodes" : ""));
 }
 
 }  // namespace
+
+std::string deviation(double factor) {
+    const long percent = std::lround(100 * std::abs(factor - 1));
+    return factor > 3 ? std::to_string(std::lround(factor)) + " times as much"
+                      : std::to_string(percent) + (factor < 1 ? " % less" : " % more");
+}
 
 void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_t>>& emitting) {
     const Photometry& photometry = conversion.photometry;
@@ -154,7 +175,7 @@ void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_
     for (size_t e = 0; e < photometry.emitters.size(); ++e) {
         const EmitterRule& emitter = photometry.emitters[e];
         if (!emitter.lamps.empty()) check_named(conversion, emitter);
-        // A texture's mean is not known here, and what is off is meant to be.
+        // The mean of a texture of 8 bits is not known here, and what is off is meant to be.
         if (!emitter.lamps.empty() || emitter.modulate || !(emitter.luminance > 0) || emitting[e].empty()) continue;
         for (size_t r = 0; r < photometry.lamps.size(); ++r) check_pair(conversion, emitter, emitting[e], r, world);
     }

@@ -115,7 +115,7 @@ void read_photometry_block(GltfReader& reader) {
         version.fail("vesper extras of version " + std::to_string(version.integer()) +
                      ": this program reads version 1");
     block->allow_only({"version", "transfer", "ambient", "sky", "environment", "lobes", "openings", "reflection_tables", "roads",
-                       "retroreflectors", "retroreflective", "provenance"});
+                       "retroreflectors", "retroreflective", "luminance_pictures", "luminous", "provenance"});
     if (const auto transfer = block->find("transfer")) {
         transfer->allow_only({"kind", "gamma"});
         const std::string& kind = transfer->at("kind").text();
@@ -132,6 +132,7 @@ void read_photometry_block(GltfReader& reader) {
     for (const JsonValue& opening : block->elements_of("openings")) read_opening(reader, opening);
     read_reflection_tables(reader, *block);
     read_retroreflectors(reader, *block);
+    read_luminance_pictures(reader, *block);
 }
 
 }  // namespace vesper

@@ -51,9 +51,10 @@ Wrap wrap_of(const JsonValue& sampler, const char* key) {
     }
 }
 
-/// A textureInfo object: which image, sampled how, and where its uv come from.
-TextureUse read_texture(GltfReader& reader, const JsonValue& info, UvMapping& mapping) {
-    mapping = {};
+}  // namespace
+
+UvMapping read_uv_mapping(const JsonValue& info) {
+    UvMapping mapping;
     mapping.set = static_cast<uint32_t>(info.integer_or("texCoord", 0, 1000));
     if (const auto extensions = info.find("extensions")) {
         if (const auto transform = extensions->find("KHR_texture_transform")) {
@@ -69,14 +70,24 @@ TextureUse read_texture(GltfReader& reader, const JsonValue& info, UvMapping& ma
             }
         }
     }
+    return mapping;
+}
+
+void read_sampler(GltfReader& reader, const JsonValue& index, TextureUse& use) {
+    const JsonValue sampler = reader.document.element("samplers", index);
+    use.wrap_u = wrap_of(sampler, "wrapS");
+    use.wrap_v = wrap_of(sampler, "wrapT");
+    use.nearest = sampler.integer_or("magFilter", 9729) == 9728;
+}
+
+namespace {
+
+/// A textureInfo object: which image, sampled how, and where its uv come from.
+TextureUse read_texture(GltfReader& reader, const JsonValue& info, UvMapping& mapping) {
+    mapping = read_uv_mapping(info);
     const JsonValue texture = reader.document.element("textures", info.at("index"));
     TextureUse use;
-    if (const auto sampler_index = texture.find("sampler")) {
-        const JsonValue sampler = reader.document.element("samplers", *sampler_index);
-        use.wrap_u = wrap_of(sampler, "wrapS");
-        use.wrap_v = wrap_of(sampler, "wrapT");
-        use.nearest = sampler.integer_or("magFilter", 9729) == 9728;
-    }
+    if (const auto sampler = texture.find("sampler")) read_sampler(reader, *sampler, use);
     if (const auto source = texture.find("source"))
         use.image = read_image(reader, *source);
     else

@@ -207,7 +207,10 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& sou
     spend(source, reader.indices, made.indices.size(), reader.limits.indices, "indices");
 
     const std::string uv_set = "TEXCOORD_" + std::to_string(reader.uv_mappings[made.material].set);
-    if (const auto uv = read_attribute(reader, attributes, uv_set, count, {"VEC2"})) take_uv(reader, made, *uv);
+    if (const auto uv = read_attribute(reader, attributes, uv_set, count, {"VEC2"}))
+        take_uv(reader, made, *uv);
+    else
+        check_needs_no_uv(reader, made.material, attributes, uv_set);
     if (const auto colours = read_attribute(reader, attributes, "COLOR_0", count, {"VEC3", "VEC4"}))
         take_colours(reader, made, *colours);
     const auto normals = read_attribute(reader, attributes, "NORMAL", count, {"VEC3"});

@@ -50,6 +50,10 @@ struct GltfReader {
     uint64_t decoded = 0;                                      ///< vertices read so far, also those not kept
 };
 
+/// How the uv of a textureInfo object are mapped: texCoord and KHR_texture_transform.
+UvMapping read_uv_mapping(const JsonValue& info);
+/// Wrapping and magnification of a sampler that an index names.
+void read_sampler(GltfReader& reader, const JsonValue& index, TextureUse& use);
 void read_materials(GltfReader& reader);
 /// The mesh a node refers to, read when first needed.
 uint32_t read_mesh(GltfReader& reader, const JsonValue& reference);
@@ -68,6 +72,11 @@ void read_photometry_block(GltfReader& reader);
 void read_reflection_tables(GltfReader& reader, const JsonValue& block);
 /// "retroreflectors" and "retroreflective".
 void read_retroreflectors(GltfReader& reader, const JsonValue& block);
+/// "luminance_pictures" and "luminous". Before meshes are read: the pictures need their uv.
+void read_luminance_pictures(GltfReader& reader, const JsonValue& block);
+/// Throws for a primitive without texture coordinates whose material shows such a picture. Other textures are then read
+/// at (0, 0); a luminance would be arbitrary.
+void check_needs_no_uv(const GltfReader& reader, uint32_t material, const JsonValue& attributes, const std::string& set);
 /// "environment".
 void read_environment(GltfReader& reader, const JsonValue& source);
 

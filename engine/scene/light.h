@@ -11,10 +11,12 @@ namespace vesper {
 /// has none: 0.
 double luminous_intensity(const Light& light, std::span<const Distribution> distributions, glm::dvec3 direction);
 
+/// Slope a and offset b of KHR_lights_punctual's ramp in the cosine c to a lamp's axis, clamp(a c + b, 0, 1): 1 within the
+/// inner cone, 0 beyond the outer; intensity goes with its square. A point lamp is 1 in every direction. Cones that coincide
+/// get an edge of 1e-5 in the cosine, outwards.
+glm::dvec2 cone_ramp(const Light& light);
+
 /// Luminance of its opening seen along its axis, L = I / A, cd/m^2; 0 without opening.
 double axis_luminance(const Light& light, std::span<const Distribution> distributions);
-
-/// A factor as people say it: "12 % more", "33 % less".
-std::string deviation(double factor);
 
 }  // namespace vesper

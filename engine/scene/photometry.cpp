@@ -40,8 +40,6 @@ glm::dvec3 read_colour(const JsonValue& holder, double* kelvin) {
     return colour / luminance(colour);
 }
 
-namespace {
-
 std::vector<std::string> read_patterns(const JsonValue& rule, const char* key) {
     const JsonValue value = rule.at(key);
     std::vector<std::string> patterns;
@@ -54,6 +52,8 @@ std::vector<std::string> read_patterns(const JsonValue& rule, const char* key) {
         value.fail("must not contain an empty pattern");
     return patterns;
 }
+
+namespace {
 
 void read_lobe(Light& light, const JsonValue& rule) {
     const JsonValue type = rule.at("type");
@@ -129,35 +129,6 @@ LampRule read_lamp(const JsonValue& source, const std::filesystem::path& folder,
     rule.light.colour = glm::vec3(read_colour(source, &rule.kelvin));
     if (const auto offset = source.find("offset_m")) rule.offset = read_vector(*offset);
     if (const auto opening = source.find("opening")) rule.light.opening = read_opening(*opening, rule, made);
-    return rule;
-}
-
-/// The lamps whose glass a material is: their openings are what is seen.
-std::vector<std::string> read_lamp_names(const JsonValue& source, const Photometry& made) {
-    for (const char* key : {"colour_temperature_K", "colour_rgb", "modulate"})
-        if (const auto other = source.find(key)) other->fail("follows from the lamp: leave it out");
-    const std::vector<std::string> names = read_patterns(source, "lamp");
-    for (const std::string& name : names) {
-        const auto found = std::find_if(made.lamps.begin(), made.lamps.end(), [&](const LampRule& r) { return r.name == name; });
-        if (found == made.lamps.end()) source.at("lamp").fail("there is no lamp rule of the name '" + name + "'");
-        if (!(found->light.opening.area() > 0)) source.at("lamp").fail("the lamp rule '" + name + "' has no opening");
-    }
-    return names;
-}
-
-EmitterRule read_emitter(const JsonValue& source, const Photometry& made) {
-    source.allow_only({"name", "materials", "luminance_cd_m2", "colour_temperature_K", "colour_rgb", "modulate", "lamp"});
-    EmitterRule rule;
-    rule.materials = read_patterns(source, "materials");
-    rule.name = source.text_or("name", rule.materials.front());
-    if (source.find("lamp")) {
-        rule.lamps = read_lamp_names(source, made);
-        rule.luminance = source.number_or("luminance_cd_m2", 0, 0, 1e10);
-        return rule;
-    }
-    rule.luminance = source.at("luminance_cd_m2").number(0, 1e10);
-    rule.colour = read_colour(source);
-    rule.modulate = source.boolean_or("modulate", false);
     return rule;
 }
 
@@ -247,7 +218,8 @@ Photometry read_photometry(const std::filesystem::path& file) {
     }
     for (const JsonValue& rule : root.elements_of("lamps"))
         made.lamps.push_back(read_lamp(rule, file.parent_path(), made));
-    for (const JsonValue& rule : root.elements_of("emitters")) made.emitters.push_back(read_emitter(rule, made));
+    for (const JsonValue& rule : root.elements_of("emitters"))
+        made.emitters.push_back(read_emitter(rule, file.parent_path(), made));
     for (const JsonValue& rule : root.elements_of("surfaces")) made.surfaces.push_back(read_surface(rule, file.parent_path()));
     return made;
 }

@@ -30,6 +30,14 @@ struct MeasuredLamp {
     Distribution distribution{};
 };
 
+/// A picture of a light source that rules name.
+struct EmitterPicture {
+    std::vector<uint8_t> bytes;   ///< of the file
+    LuminancePicture picture{};   ///< its name is that of the rule
+    double white_luminance = 0;   ///< cd/m^2 of the value 1 as the file has it; 0 where it does not say
+    uint64_t changed = 0;         ///< pixels with a negative component, see make_luminance_picture
+};
+
 /// A rule that makes materials emit.
 struct EmitterRule {
     std::string name;
@@ -38,6 +46,9 @@ struct EmitterRule {
     std::vector<std::string> lamps;      ///< names of lamp rules whose glass this is: their openings are drawn instead
     glm::dvec3 colour{1};                ///< linear, luminance 1
     bool modulate = false;  ///< the material's texture times the above; its brightest texel has `luminance`
+    uint32_t picture = kNone;  ///< index into Photometry::pictures: the material shows it; its brightest texel has `luminance`
+    double scale = 1;          ///< cd/m^2 of the value 1 of the picture
+    bool unit_unknown = false;  ///< neither rule nor picture says what the value 1 is: taken for 1 cd/m^2
 };
 
 /// A rule that changes how materials reflect.
@@ -80,6 +91,7 @@ struct Photometry {
     bool keep_lights = false;
     std::vector<LampRule> lamps;
     std::vector<MeasuredLamp> measured;  ///< each once, however many rules name it
+    std::vector<EmitterPicture> pictures;  ///< the same
     std::vector<EmitterRule> emitters;
     std::vector<SurfaceRule> surfaces;
 };

@@ -9,6 +9,12 @@ namespace vesper {
 /// colour_temperature_K or colour_rgb, brought to luminance 1; white where neither is given.
 glm::dvec3 read_colour(const JsonValue& holder, double* kelvin = nullptr);
 
+/// One pattern or several, none empty.
+std::vector<std::string> read_patterns(const JsonValue& rule, const char* key);
+
+/// A rule of "emitters", after the lamps were read. Files are relative to `folder`.
+EmitterRule read_emitter(const JsonValue& source, const std::filesystem::path& folder, Photometry& made);
+
 /// "sky" with an "image", relative to `folder`.
 SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path& folder);
 DirectionalRule read_directional(const JsonValue& source);

@@ -15,6 +15,7 @@
 
 #include "photometry/distribution.h"
 #include "photometry/environment.h"
+#include "photometry/luminance_picture.h"
 #include "photometry/reflection_table.h"
 #include "photometry/retroreflection.h"
 
@@ -66,6 +67,7 @@ struct Material {
     TextureUse metallic_roughness_texture;
     glm::vec3 emission{0};        ///< emitted RGB luminance, cd/m^2; times emission_texture
     TextureUse emission_texture;  ///< codes through sRGB
+    TextureUse emission_picture;  ///< instead of emission_texture: image is an index into Scene::luminance_pictures
     Alpha alpha = Alpha::Opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
@@ -142,6 +144,7 @@ constexpr size_t kMaxRetroreflectors = 8;  ///< what the shaders take
 struct Scene {
     std::string name;
     std::vector<Image> images;
+    std::vector<LuminancePicture> luminance_pictures;  ///< times Material::emission they are cd/m^2
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<Light> lights;

@@ -10,6 +10,7 @@
 
 #include "scene/colour.h"
 #include "scene/photometry.h"
+#include "scene/reflectance.h"
 #include "scene/scene_warnings.h"
 
 namespace vesper {
@@ -131,28 +132,6 @@ void report_heights(const std::vector<PlacedLamp>& lamps, SceneReport& report) {
 
 }  // namespace
 
-double mean_reflectance(const Scene& scene, const Material& material, const Transfer& transfer) {
-    const glm::dvec3 factor(material.base_colour);
-    if (material.base_colour_texture.image == kNone) return luminance(factor);
-    std::array<double, 256> linear{};
-    for (size_t code = 0; code < 256; ++code) {
-        const double c = static_cast<double>(code) / 255;
-        const double srgb = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-        linear[code] = transfer.kind == Transfer::Kind::Gamma ? std::pow(c, static_cast<double>(transfer.gamma)) : srgb;
-    }
-    const Image& image = scene.images[material.base_colour_texture.image];
-    // A histogram per channel first: sums over codes are exact and quick.
-    std::array<std::array<uint64_t, 256>, 3> counts{};
-    for (size_t i = 0; i < image.rgba.size(); i += 4)
-        for (size_t c = 0; c < 3; ++c) ++counts[c][image.rgba[i + c]];
-    glm::dvec3 mean(0);
-    for (size_t c = 0; c < 3; ++c)
-        for (size_t code = 0; code < 256; ++code)
-            mean[static_cast<int>(c)] += linear[code] * static_cast<double>(counts[c][code]);
-    mean *= 4.0 / static_cast<double>(image.rgba.size());
-    return luminance(factor * mean);
-}
-
 SceneReport report_scene(const Scene& scene) {
     SceneReport report;
     const std::vector<glm::mat4> world = world_transforms(scene, 0);
@@ -179,6 +158,12 @@ SceneReport report_scene(const Scene& scene) {
         made.metallic = static_cast<double>(m.metallic);
         made.textured = m.base_colour_texture.image != kNone;
         made.emission = luminance_of(m.emission);
+        if (m.emission_picture.image != kNone) {
+            const LuminancePicture& picture = scene.luminance_pictures[m.emission_picture.image];
+            made.picture = picture.name;
+            made.mean_emission = made.emission * luminance(mean_colour(picture));
+            made.emission *= largest_luminance(picture);
+        }
         if (m.reflection_table != kNone) made.road_table = scene.reflection_tables[m.reflection_table].name;
         made.area = area;
         reflected += area * made.reflectance * (m.metallic_roughness_texture.image == kNone ? 1 - made.metallic : 1);

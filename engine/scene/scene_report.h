@@ -9,9 +9,6 @@
 
 namespace vesper {
 
-/// Mean reflectance of a material's base colour (luminance), its texture through a transfer.
-double mean_reflectance(const Scene&, const Material&, const Transfer&);
-
 /// Lamps that shine alike and whose names differ by a number at most.
 struct LampReport {
     std::string name;
@@ -31,6 +28,8 @@ struct MaterialReport {
     double roughness = 1, metallic = 0;  ///< factors; a texture multiplies them
     bool textured = false;
     double emission = 0;              ///< greatest luminance, cd/m^2
+    std::string picture;              ///< name of the picture it shines with
+    double mean_emission = 0;         ///< mean luminance over that picture, cd/m^2
     std::string road_table;           ///< name of its reflection table
     double area = 0;                  ///< m^2, of all its triangles
 };

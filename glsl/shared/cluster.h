@@ -24,10 +24,9 @@ struct ClusterPush {
     ClusterGrid grid;
     LightCounts lights;
     float threshold;      // illuminance below which a lamp counts as dark, lx, on a surface facing it
-    float near;           // depth where slice 0 begins for the bounding volume, m
     float far;            // depth where the last slice ends, m
 };
-SHARED_SIZE(ClusterPush, 68)
+SHARED_SIZE(ClusterPush, 64)
 
 // Cells are froxels, or blocks of them: lists are made from coarse to fine, each level from the lists of the one before.
 struct ClusterLevelPush {
@@ -40,7 +39,7 @@ struct ClusterLevelPush {
     uint parent_capacity;
     uint reports;                          // 1: this level's overflow is reported
 };
-SHARED_SIZE(ClusterLevelPush, 116)
+SHARED_SIZE(ClusterLevelPush, 112)
 
 // What clustering has to report; zeroed every frame.
 struct ClusterReport {

@@ -22,7 +22,7 @@ struct SelectPush {
     uint blocks_x;   // blocks in a row
     uint capacity;   // entries of a block: cones from the front, cosine powers and maps from the back
 };
-SHARED_SIZE(SelectPush, 84)
+SHARED_SIZE(SelectPush, 80)
 
 struct ShadePush {
     uvec2 size;             // px

@@ -71,6 +71,25 @@ TEST_F(Inspect, AScene) {
     EXPECT_NEAR(night["luminous_flux_lm"].get<double>(), 12566 * lamp["number"].get<double>(), 200);
 }
 
+TEST_F(Inspect, ASourceThatIsAPicture) {
+    HdrImage image{.width = 2, .height = 1, .rgb = {100, 100, 100, 700, 700, 700}, .white_luminance = 1};
+    write_exr(folder / "sign.exr", image);
+    GltfFile file;
+    file.root["materials"] = {{{"name", "sign"}}};
+    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}, {"TEXCOORD_0", file.vec2({0, 0, 1, 0, 0, 1})}}}, {"material", 0}});
+    folder.write("a.gltf", file.text());
+    folder.write("p.json", R"({"version": 1, "emitters": [{"materials": "sign", "image": "sign.exr", "scale": 2}]})");
+    const std::string convert = std::string(VESPER_PROGRAM) + " convert a.gltf -p p.json -o n.glb >convert.txt 2>&1";
+    ASSERT_EQ(std::system(("cd " + folder.path().string() + " && " + convert).c_str()), 0);
+    EXPECT_TRUE(contains(read_text(folder / "convert.txt"), "picture 'sign.exr' of 2 x 1 px, 800 cd/m^2 in the mean, 1400 at most"));
+    ASSERT_EQ(inspect("n.glb --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("1400  sign.exr, mean 800")) << printed;
+    const auto sign = json("a.json")["materials"].at(0);
+    EXPECT_NEAR(sign["emission_cd_m2"].get<double>(), 1400, 1e-3);
+    EXPECT_EQ(sign["emission_picture"]["name"], "sign.exr");
+    EXPECT_NEAR(sign["emission_picture"]["mean_cd_m2"].get<double>(), 800, 1e-3);
+}
+
 TEST_F(Inspect, ALuminaire) {
     ASSERT_EQ(inspect(kData + "road/luminaire.ldt -o a.png --json a.json"), 0) << said;
     EXPECT_TRUE(prints("8803.1 lm, 88.0 % of the lamps' 10000 lm") && prints("4255 cd at C 15, gamma 65") && prints("G*2")) << printed;

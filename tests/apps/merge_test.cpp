@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "io/atomic_file.h"
-#include "io/exif_files.h"
+#include "io/jpeg_files.h"
 #include "photometry/brackets.h"
 #include "scene/scene_files.h"
 

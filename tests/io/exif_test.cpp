@@ -4,9 +4,10 @@
 #include <filesystem>
 
 #include "io/atomic_file.h"
-#include "io/exif_files.h"
 #include "io/image_file.h"
+#include "io/jpeg_files.h"
 #include "scene/scene_files.h"
+#include "support/shared_data.h"
 
 namespace vesper::test {
 namespace {
@@ -45,9 +46,8 @@ TEST(Exif, SurvivesCutAndChangedData) {
             const CameraExposure camera = read_exif(changed);
             EXPECT_GT(camera.seconds.value_or(1), 0);
         }
-    const auto root = std::filesystem::path(VESPER_SHARED_DATA) / "malformed/image/jpeg-corrupt";
-    std::error_code missing;
-    if (!std::filesystem::exists(root, missing)) GTEST_SKIP() << "the shared set is not here";
+    const auto root = shared_data("malformed/image/jpeg-corrupt");
+    if (!is_here(root)) GTEST_SKIP() << "the shared set is not here";
     for (const auto& entry : std::filesystem::directory_iterator(root)) read_exif(read_file(entry.path(), 1 << 24));
 }
 

@@ -7,17 +7,13 @@
 
 #include "io/hdr_image.h"
 #include "scene/scene_files.h"
+#include "support/shared_data.h"
 
 namespace vesper::test {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kHdr = fs::path(VESPER_SHARED_DATA) / "hdr";
-
-bool is_here(const fs::path& path) {
-    std::error_code missing;
-    return fs::exists(path, missing);
-}
+const fs::path kHdr = shared_data("hdr");
 
 /// Positive luminances, ascending.
 std::vector<double> luminances(const HdrImage& image) {
@@ -120,7 +116,7 @@ TEST(HdrShared, WindowsAndLevelsAreThoseOfTheFile) {
 }
 
 TEST(HdrShared, EveryDamagedFileGivesAPictureOrAnError) {
-    const fs::path root = fs::path(VESPER_SHARED_DATA) / "malformed";
+    const fs::path root = shared_data("malformed");
     if (!is_here(root)) GTEST_SKIP() << "the shared set is not here";
     size_t pictures = 0, errors = 0;
     for (const auto& entry : fs::recursive_directory_iterator(root)) {

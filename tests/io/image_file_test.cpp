@@ -1,18 +1,15 @@
 // Pictures: out and in again, every kind, and damaged ones. SPDX-License-Identifier: MIT
 #include "io/image_file.h"
 
-#include <cstdio>
-#include <cstdlib>
-
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfInputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
-#include <jpeglib.h>
 #include <png.h>
 
 #include "io/atomic_file.h"
+#include "io/jpeg_files.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {
@@ -45,33 +42,6 @@ std::vector<uint8_t> png_of(uint32_t width, uint32_t height, int depth, int type
     png_set_rows(png, header, pointers.data());
     png_write_png(png, header, PNG_TRANSFORM_IDENTITY, nullptr);
     png_destroy_write_struct(&png, &header);
-    return file;
-}
-
-std::vector<uint8_t> jpeg_of(int width, int height, int components, J_COLOR_SPACE space,
-                             const std::vector<uint8_t>& rows) {
-    jpeg_error_mgr errors;
-    jpeg_compress_struct jpeg{};
-    jpeg.err = jpeg_std_error(&errors);
-    jpeg_create_compress(&jpeg);
-    unsigned char* memory = nullptr;
-    unsigned long size = 0;
-    jpeg_mem_dest(&jpeg, &memory, &size);
-    jpeg.image_width = static_cast<JDIMENSION>(width);
-    jpeg.image_height = static_cast<JDIMENSION>(height);
-    jpeg.input_components = components;
-    jpeg.in_color_space = space;
-    jpeg_set_defaults(&jpeg);
-    jpeg_set_quality(&jpeg, 100, TRUE);
-    jpeg_start_compress(&jpeg, TRUE);
-    while (jpeg.next_scanline < jpeg.image_height) {
-        JSAMPROW row = const_cast<JSAMPROW>(rows.data()) + jpeg.next_scanline * static_cast<size_t>(width * components);
-        jpeg_write_scanlines(&jpeg, &row, 1);
-    }
-    jpeg_finish_compress(&jpeg);
-    jpeg_destroy_compress(&jpeg);
-    std::vector<uint8_t> file(memory, memory + size);
-    free(memory);
     return file;
 }
 

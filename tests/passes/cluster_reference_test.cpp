@@ -23,7 +23,7 @@ shared::ClusterPush grid_of(float near, float far, uint32_t slices, shared::uvec
     const float tangent = 0.7f, aspect = float(size.x) / float(size.y);
     p.grid.ray_scale = {2 * tangent * aspect / float(size.x), -2 * tangent / float(size.y)};
     p.grid.ray_offset = {-tangent * aspect, tangent};
-    p.near = near, p.far = far, p.threshold = 0.001f;
+    p.far = far, p.threshold = 0.001f;
     return p;
 }
 

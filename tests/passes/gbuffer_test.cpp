@@ -18,8 +18,8 @@ struct Layers {
     std::vector<glm::vec4> reflectance, surface, emission;
 };
 
-Layers draw(PassRig& rig, const Scene& scene, const View& view) {
-    const ResidentScene resident(rig.device(), scene);
+Layers draw(PassRig& rig, const Scene& scene, const View& view, PictureFormat pictures = PictureFormat::Float) {
+    const ResidentScene resident(rig.device(), scene, pictures);
     const SceneFrame frame{world_transforms(scene, 0)};
     FrameGraph graph;
     const GBuffer g = add_gbuffer(graph, resident, frame, view);
@@ -36,6 +36,8 @@ struct Nearness {
     double reflectance = 1e-3;  ///< absolute: half floats below 1, rounded either way
     double emission = 1e-3;     ///< relative
     reference::Filter filter = reference::Filter::Bilinear;
+    double emission_floor = 1e-6;  ///< cd/m^2: of what is darker this counts, not itself
+    PictureFormat pictures = PictureFormat::Float;
 };
 
 reference::Rays rays_of(const View& view) {
@@ -75,7 +77,7 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
                         wrong +=
                             " reflectance " + std::to_string(reflectance[c]) + " want " + std::to_string(want.base[c]);
                     if (!(std::abs(got.emission[i][c] - want.emission[c]) <=
-                          near.emission * std::max(want.emission[c], 1e-6)))
+                          near.emission * std::max(want.emission[c], near.emission_floor)))
                         wrong += " emission " + std::to_string(got.emission[i][c]) + " want " +
                                  std::to_string(want.emission[c]);
                 }
@@ -91,7 +93,7 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
 }
 
 size_t expect_scene(PassRig& rig, const Scene& scene, const View& view, Nearness near = {}) {
-    return expect_reference(draw(rig, scene, view), geometry_of(scene, world_transforms(scene, 0), view.world_to_view),
+    return expect_reference(draw(rig, scene, view, near.pictures), geometry_of(scene, world_transforms(scene, 0), view.world_to_view),
                             view, near);
 }
 
@@ -282,6 +284,55 @@ TEST(Gbuffer, TexturesWrapRepeatAndMirror) {
         for (Vertex& v : scene.meshes[0].primitives[0].vertices) v.uv = 2.5f * v.uv - 0.7f;
         expect_scene(rig, scene, view_of({64, 64}), {.reflectance = 0.012});
     }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+/// Values of these decades around 1, evenly in their logarithms.
+LuminancePicture lights(uint32_t side, uint32_t seed, float decades) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> exponent(-decades / 2, decades / 2);
+    LuminancePicture picture{.name = "lights", .width = side, .height = side, .rgb = {}};
+    for (uint32_t i = 0; i < side * side * 3; ++i) picture.rgb.push_back(std::pow(10.0f, exponent(random)));
+    return picture;
+}
+
+Scene shining_wall(LuminancePicture picture, float scale, TextureUse use = {0, Wrap::Repeat, Wrap::Repeat, false}) {
+    Material m = plain({0.3f, 0.3f, 0.3f});
+    m.emission_picture = use, m.emission = glm::vec3(scale);
+    Scene scene = wall(m, {});
+    scene.luminance_pictures = {std::move(picture)};
+    return scene;
+}
+
+// From 1e-4 cd/m^2 to a headlamp's 1e8 in one picture, where half floats end at 65504.
+TEST(Gbuffer, PicturesOfLightShowTheirLuminance) {
+    PassRig rig;
+    const TextureUse nearest{0, Wrap::Clamp, Wrap::Clamp, true};
+    const Scene scene = shining_wall(lights(8, 11, 12), 100, nearest);
+    EXPECT_GT(*std::max_element(scene.luminance_pictures[0].rgb.begin(), scene.luminance_pictures[0].rgb.end()), 3e5f);
+    expect_scene(rig, scene, view_of({64, 64}), {.emission = 1e-6, .filter = reference::Filter::Nearest});
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Gbuffer, PicturesOfLightAreFilteredAsLuminance) {
+    PassRig rig;
+    // 32 to 316 cd/m^2. Devices weigh taps in steps of 1/256: 2 * 284 / 256 = 2.2 cd/m^2.
+    expect_scene(rig, shining_wall(lights(8, 12, 1), 100), view_of({64, 64}), {.emission = 0.02, .emission_floor = 120});
+    // 4 x 4 texels to the pixel: the second mip level is the mean over exactly those.
+    expect_scene(rig, shining_wall(lights(256, 13, 6), 100), view_of({64, 64}),
+                 {.emission = 1e-3, .filter = reference::Filter::Area});
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Where 32-bit floats cannot be filtered: 2^-11 of the value, from 1e-9 of the brightest on.
+TEST(Gbuffer, PicturesOfLightInHalfFloats) {
+    PassRig rig;
+    const TextureUse nearest{0, Wrap::Clamp, Wrap::Clamp, true};
+    expect_scene(rig, shining_wall(lights(8, 14, 8.9f), 2e4f, nearest), view_of({64, 64}),
+                 {.emission = 5e-4, .filter = reference::Filter::Nearest, .pictures = PictureFormat::Half});
+    LuminancePicture black = lights(2, 15, 1);
+    std::fill(black.rgb.begin(), black.rgb.end(), 0.0f);
+    expect_scene(rig, shining_wall(black, 7), view_of({64, 64}), {.pictures = PictureFormat::Half});
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -94,7 +94,7 @@ inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, d
     const double epsilon = 3e-7 * (lamp ? 1 + (glm::length(point) + glm::length(dvec3(light.position))) / d : 1);
     const double cosine = glm::dot(dvec3(light.axis), -l), d2 = lamp ? d * d : 1.0;
     const double e = (measured ? measured->intensity(-l) : intensity(light, kind, cosine)) / d2;
-    // Maps hold half floats: 2^-11, or 2^-25 of the largest; a step of their edge is a threshold's.
+    // The device takes angles from polynomials (glsl/maps.glsl): 6e-4 of the value, and 2^-24 of the largest beside an edge.
     const double more = measured ? e * 1.0006 + light.intensity / d2 * std::exp2(-24) : intensity(light, kind, std::min(cosine + epsilon, 1.0)) / d2 * (1 + 3 * epsilon);
     const double less = measured ? e * 0.9994 - light.intensity / d2 * std::exp2(-24) : intensity(light, kind, cosine - epsilon) / d2 * (1 - 3 * epsilon);
     const double nl = glm::dot(n, l);

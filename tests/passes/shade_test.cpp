@@ -1,27 +1,14 @@
 // Shading on the device: against the reference, and clustered against every light. SPDX-License-Identifier: MIT
-#include "passes/shade_reference.h"
-
 #include <random>
 
 #include "base/error.h"
-#include "support/compare.h"
 #include "support/lights.h"
-#include "support/texels.h"
+#include "support/shading.h"
 
 namespace vesper::test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
-
-/// What the G-buffer pass would have left.
-struct Surfaces {
-    VkExtent2D extent;
-    std::vector<glm::vec4> reflectance, surface, emission;
-
-    reference::SurfaceTexel texel(size_t i) const {
-        return {glm::dvec4(reflectance[i]), glm::dvec4(surface[i]), glm::dvec3(emission[i])};
-    }
-};
 
 /// A street of noise: walls and road with every normal, depth, roughness and colour, some signs, some sky.
 Surfaces street(VkExtent2D extent, uint32_t seed, float nearest = 0.5f, float farthest = 300) {
@@ -42,58 +29,6 @@ Surfaces street(VkExtent2D extent, uint32_t seed, float nearest = 0.5f, float fa
             i % 7 == 0 ? std::pow(10.0f, 12 * unit(random) - 4) * glm::vec3(1, 0.7f, 0.3f) : glm::vec3(0), 1);
     }
     return s;
-}
-
-struct Shot {
-    std::vector<glm::vec4> pixels;
-    shared::ClusterPush cluster;
-    shared::ClusterReport report;
-};
-
-Shot shade(PassRig& rig, const Surfaces& s, const LightList& list, const ClusterSettings& clusters,
-           const ShadeSettings& settings) {
-    FrameGraph graph;
-    const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
-    const GBuffer g{rig.image(graph, "reflectance", kReflectanceFormat, s.extent, to_halves(s.reflectance)),
-                    rig.image(graph, "surface", kSurfaceFormat, s.extent, s.surface),
-                    rig.image(graph, "emission", kEmissionFormat, s.extent, s.emission),
-                    {}};
-    const Clusters c = add_clusters(graph, rig.kernels(), list, no_maps(graph), view, clusters);
-    const Resource scene = keep<glm::vec4>(graph, add_shading(graph, rig.kernels(), g, c, view, settings)),
-                   report = keep<shared::ClusterReport>(graph, c.report);
-    rig.run(graph);
-    return {rig.got<glm::vec4>(scene), c.push, rig.got<shared::ClusterReport>(report).at(0)};
-}
-
-shared::ShadePush push_of(const Surfaces& s, const Shot& shot, const ShadeSettings& settings) {
-    shared::ShadePush p{};
-    p.size = {s.extent.width, s.extent.height};
-    p.grid = shot.cluster.grid, p.lights = shot.cluster.lights, p.threshold = shot.cluster.threshold;
-    p.lambert = settings.lambert, p.emission_limit = settings.emission_limit, p.ambient = settings.ambient,
-    p.sky = settings.sky;
-    return p;
-}
-
-Picture picture(VkExtent2D extent, const std::vector<glm::vec4>& pixels) {
-    Picture p(extent.width, extent.height, 3);
-    for (size_t i = 0; i < pixels.size(); ++i)
-        for (int c = 0; c < 3; ++c) p.values[3 * i + size_t(c)] = pixels[i][c];
-    return p;
-}
-
-void expect_reference(const Shot& shot, const Surfaces& s, const LightList& list, const ShadeSettings& settings) {
-    const shared::ShadePush p = push_of(s, shot, settings);
-    Picture want(s.extent.width, s.extent.height, 3), rounding = want;
-    for (size_t i = 0; i < shot.pixels.size(); ++i) {
-        const auto shaded = reference::shade(s.texel(i), {i % s.extent.width, i / s.extent.width}, list.lights, p);
-        for (int c = 0; c < 3; ++c)
-            want.values[3 * i + size_t(c)] = shaded.luminance[c],
-                                rounding.values[3 * i + size_t(c)] = shaded.rounding[c];
-        EXPECT_EQ(shot.pixels[i].w, 1.0f);
-    }
-    // 2e-5 for sums of positive terms in float with exp2 and log2 of cosines; `rounding` holds what cancels: dot
-    // products near a threshold, a cone's edge or a mirror's highlight. 1e-12 cd/m^2 is nothing.
-    EXPECT_TRUE(same_light("scene", picture(s.extent, shot.pixels), want, {2e-5, 1e-7}, rounding));
 }
 
 TEST(Shade, MatchesTheReferenceAtEverySize) {

@@ -5,9 +5,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "resident/sky.h"
-#include "support/compare.h"
-#include "support/texels.h"
+#include "support/shading.h"
 
 namespace vesper::test {
 namespace {
@@ -24,17 +22,17 @@ Environment night(uint32_t height, uint32_t seed) {
     return e;
 }
 
-struct Surfaces {
-    VkExtent2D extent;
-    std::vector<glm::vec4> reflectance, surface, scene;
+/// Surfaces, and what lamps gave them.
+struct Lit : Surfaces {
+    std::vector<glm::vec4> scene;
 };
 
 /// Noise: metals, dielectrics, mirrors, coded materials, matt surfaces, a quarter of sky.
-Surfaces noise(VkExtent2D extent, uint32_t seed) {
+Lit noise(VkExtent2D extent, uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     std::normal_distribution<double> normal;
-    Surfaces s{extent, {}, {}, {}};
+    Lit s{{extent, {}, {}, {}}, {}};
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         const auto value = [&] { return std::floor(unit(random) * 1024) / 1024; };  // exact in a 16-bit float
         const float codes[]{0, 0, value(), 1, 2, 5, -1, -2};
@@ -47,12 +45,9 @@ Surfaces noise(VkExtent2D extent, uint32_t seed) {
     return s;
 }
 
-std::vector<glm::vec4> add(PassRig& rig, const Surfaces& s, const SkyMap& sky, const View& view, float lambert) {
+std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const SkyMap& sky, const View& view, float lambert) {
     FrameGraph graph;
-    const GBuffer g{rig.image(graph, "reflectance", kReflectanceFormat, s.extent, to_halves(s.reflectance)),
-                    rig.image(graph, "surface", kSurfaceFormat, s.extent, s.surface),
-                    {},
-                    {}};
+    const GBuffer g = upload(graph, s);
     const Resource scene = rig.image(graph, "scene", kSceneFormat, s.extent, s.scene);
     const Resource texels = graph.upload("sky", sky_texels(sky), VK_FORMAT_R32G32B32A32_SFLOAT);
     const Resource wanted =
@@ -61,17 +56,14 @@ std::vector<glm::vec4> add(PassRig& rig, const Surfaces& s, const SkyMap& sky, c
     return rig.got<glm::vec4>(wanted);
 }
 
-void expect_reference(const std::vector<glm::vec4>& got, const Surfaces& s, const SkyMap& sky, const View& view,
-                      float lambert) {
-    Picture want(s.extent.width, s.extent.height, 3), have = want, rounding = want;
-    for (size_t i = 0; i < got.size(); ++i) {
-        const glm::dvec2 centre(double(i % s.extent.width) + 0.5, double(i / s.extent.width) + 0.5);
-        const reference::SurfaceTexel texel{glm::dvec4(s.reflectance[i]), glm::dvec4(s.surface[i]), {}};
-        const glm::dvec3 l = reference::add_sky(sky, texel, glm::dvec3(s.scene[i]), centre, view, lambert);
-        // Lamps in the sky are edges: a direction off by 3e-7 moves on the sharp map by a small part of a texel, and
-        // what differs between neighbours comes in. Found by turning the ray. The table of fractions is within 0.008.
-        const glm::dmat3 off = glm::dmat3(glm::rotate(glm::dmat4(1), 1e-6, glm::dvec3(0.6, 0.64, 0.48)));
-        const glm::dmat3 world = glm::transpose(glm::dmat3(view.world_to_view));
+void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const SkyMap& sky, const View& view, float lambert) {
+    // Lamps in the sky are edges: a direction off by 3e-7 moves on the sharp map by a small part of a texel, and
+    // what differs between neighbours comes in. Found by turning the ray. The table of fractions is within 0.008.
+    const glm::dmat3 off = glm::dmat3(glm::rotate(glm::dmat4(1), 1e-6, glm::dvec3(0.6, 0.64, 0.48)));
+    const glm::dmat3 world = glm::transpose(glm::dmat3(view.world_to_view));
+    expect_light("sky", s.extent, got, {2e-5, 1e-6}, [&](size_t i) {
+        const glm::dvec2 centre = glm::dvec2(s.pixel(i)) + 0.5;
+        const reference::SurfaceTexel texel = s.texel(i);
         const glm::dvec2 slope = glm::dvec2(view.ray_scale()) * centre + glm::dvec2(view.ray_offset());
         const glm::dvec3 ray = world * glm::normalize(glm::dvec3(slope, -1));
         const bool drawn = s.surface[i].z > 0;
@@ -81,13 +73,9 @@ void expect_reference(const std::vector<glm::vec4>& got, const Surfaces& s, cons
         const glm::dvec3 sky_here = reference::blurred_sky(sky, seen, roughness);
         const glm::dvec3 moved = glm::abs(reference::blurred_sky(sky, off * seen, roughness) - sky_here);
         const bool shiny = drawn && texel.reflectance.w >= 0 && (texel.surface.w < 1 || texel.reflectance.w > 0);
-        for (int c = 0; c < 3; ++c) {
-            want.values[3 * i + size_t(c)] = l[c], have.values[3 * i + size_t(c)] = got[i][c];
-            rounding.values[3 * i + size_t(c)] = moved[c] + (shiny ? 0.016 * sky_here[c] : 0);
-        }
-        EXPECT_EQ(got[i].w, 1.0f);
-    }
-    EXPECT_TRUE(same_light("sky", have, want, {2e-5, 1e-6}, rounding));
+        return reference::Shaded{reference::add_sky(sky, texel, glm::dvec3(s.scene[i]), centre, view, lambert),
+                                 moved + (shiny ? 0.016 * sky_here : glm::dvec3(0))};
+    });
 }
 
 TEST(Sky, MatchesTheReferenceAtEverySize) {
@@ -97,7 +85,7 @@ TEST(Sky, MatchesTheReferenceAtEverySize) {
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {67, 65}}) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
         const View view = View::symmetric(extent, 1.2f, glm::translate(turned, {5, -3, 8}));
-        const Surfaces s = noise(extent, extent.width);
+        const Lit s = noise(extent, extent.width);
         expect_reference(add(rig, s, sky, view, 0.318309886f), s, sky, view, 0.318309886f);
     }
     EXPECT_EQ(rig.complaints(), "");
@@ -110,7 +98,7 @@ TEST(Sky, AUniformSkyIsAFurnace) {
     const SkyMap sky = make_sky_map({64, 32, std::vector<float>(64 * 32 * 3, 2.0f)});
     const VkExtent2D extent{40, 21};
     const View view = View::symmetric(extent, 0.8f, glm::mat4(1));
-    Surfaces s = noise(extent, 9);
+    Lit s = noise(extent, 9);
     for (size_t i = 0; i < s.scene.size(); ++i) {
         s.scene[i] = {0, 0, 0, 1};
         if (i % 8 == 3) s.reflectance[i] = {1, 1, 1, 1};  // a perfect metal
@@ -137,8 +125,8 @@ TEST(Sky, WhatIsNotFiniteStaysInItsPixel) {
     const SkyMap sky = make_sky_map(night(64, 3));
     const VkExtent2D extent{40, 16};
     const View view = View::symmetric(extent, 0.8f, glm::mat4(1));
-    const Surfaces clean = noise(extent, 4);
-    Surfaces s = clean;
+    const Lit clean = noise(extent, 4);
+    Lit s = clean;
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     for (size_t i = 3; i < s.scene.size(); i += 7)
         s.surface[i] = {kNan, kNan, i % 2 ? kNan : 5, kNan}, s.reflectance[i].w = kNan;

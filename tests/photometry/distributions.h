@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "photometry/distribution.h"
+#include "support/complaints.h"
 
 namespace vesper::test {
 
@@ -55,21 +55,6 @@ inline glm::dvec3 type_a(double h, double v) {
 inline glm::dvec3 type_b(double h, double v) {
     return {std::sin(h * kDegree), std::cos(h * kDegree) * std::sin(v * kDegree),
             -std::cos(h * kDegree) * std::cos(v * kDegree)};
-}
-
-/// The message of the Error that a call throws; empty when it throws none.
-inline std::string complaint_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
-}
-
-inline testing::AssertionResult has(const std::string& text, const std::string& part) {
-    if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-    return testing::AssertionFailure() << "'" << text << "' does not contain '" << part << "'";
 }
 
 inline std::string replaced(std::string text, const std::string& what, const std::string& with) {

@@ -74,7 +74,7 @@ TEST(Grid, SaysWhereAndWhy) {
         {",-10,0,20\n0,1,2,3\n", "one vertical angle"},
         {"," + std::string(10'000, ',') + "\n", "line 1: more columns"},
     };
-    for (const auto& c : cases) EXPECT_TRUE(has(complaint(c.text), c.wanted)) << c.text.substr(0, 60);
+    for (const auto& c : cases) EXPECT_TRUE(contains(complaint(c.text), c.wanted)) << c.text.substr(0, 60);
 }
 
 /// Writes a picture of 3 x 2 cd, rows from the top.
@@ -107,16 +107,16 @@ TEST(Grid, ReadsOpenExr) {
     EXPECT_EQ(read_grid_exr(folder / "b.exr").goniometry, Goniometry::TypeB);
     write_picture(folder / "d.exr", "D");
     EXPECT_TRUE(
-        has(complaint_of([&] { read_grid_exr(folder / "d.exr"); }), "d.exr: OpenEXR: its header attribute gonio"));
+        contains(complaint_of([&] { read_grid_exr(folder / "d.exr"); }), "d.exr: OpenEXR: its header attribute gonio"));
     write_picture(folder / "e.exr", "", false);
-    EXPECT_TRUE(has(complaint_of([&] { read_grid_exr(folder / "e.exr"); }), "verticalTop"));
+    EXPECT_TRUE(contains(complaint_of([&] { read_grid_exr(folder / "e.exr"); }), "verticalTop"));
 
     // A header that states more than is there is refused before anything is allocated for it.
     std::string huge = read_text(folder / "a.exr");
     const size_t window = huge.find("dataWindow");
     ASSERT_NE(window, huge.npos);
     huge.replace(window + 11 + 6 + 4 + 8, 4, "\xff\xff\xff\x7f", 4);
-    EXPECT_TRUE(has(complaint_of([&] { parse_grid_exr(bytes_of(huge), "huge.exr"); }), "horizontal angles"));
+    EXPECT_TRUE(contains(complaint_of([&] { parse_grid_exr(bytes_of(huge), "huge.exr"); }), "horizontal angles"));
 }
 
 TEST(Grid, DamagedOpenExrGivesAnError) {
@@ -151,8 +151,8 @@ TEST(Grid, FilesAreKnownByNameOrContents) {
     write_picture(folder / "x.exr", "");
     std::filesystem::rename(folder / "x.exr", folder / "picture");
     EXPECT_EQ(read_distribution(folder / "picture").horizontal.size(), 3u);
-    EXPECT_TRUE(has(complaint_of([&] { read_distribution(folder.write("x.ldt", kPlain)); }), "x.ldt: line "));
-    EXPECT_TRUE(has(complaint_of([&] { read_distribution(folder / "none.ies"); }), "none.ies: cannot be opened"));
+    EXPECT_TRUE(contains(complaint_of([&] { read_distribution(folder.write("x.ldt", kPlain)); }), "x.ldt: line "));
+    EXPECT_TRUE(contains(complaint_of([&] { read_distribution(folder / "none.ies"); }), "none.ies: cannot be opened"));
 }
 
 }  // namespace

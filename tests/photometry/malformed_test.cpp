@@ -90,8 +90,8 @@ TEST(Malformed, NothingIsAllocatedForWhatIsOnlyStated) {
             parse_ies(bytes_of("IESNA91\nTILT=NONE\n1 -1 1 " + counts + " 1 2 0 0 0 1 1 1\n0 45 90\n"), "x.ies");
         });
     };
-    EXPECT_TRUE(has(message("4096 4096"), "more than 8000000 intensities"));
-    EXPECT_TRUE(has(message("4096 1900"), "the file ends"));
+    EXPECT_TRUE(contains(message("4096 4096"), "more than 8000000 intensities"));
+    EXPECT_TRUE(contains(message("4096 1900"), "the file ends"));
 }
 
 }  // namespace

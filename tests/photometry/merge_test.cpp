@@ -5,6 +5,7 @@
 
 #include "photometry/brackets.h"
 #include "scene/scene_files.h"
+#include "support/shared_data.h"
 
 namespace vesper::test {
 namespace {
@@ -38,10 +39,8 @@ TEST(Merge, RecoversRadianceWithinFivePercent) {
 }
 
 TEST(Merge, RecoversASharedPicture) {
-    const std::filesystem::path file =
-        std::filesystem::path(VESPER_SHARED_DATA) / "hdr/polyhaven/dikhololo_night_1k.hdr";
-    std::error_code missing;
-    if (!std::filesystem::exists(file, missing)) GTEST_SKIP() << "the shared set is not here";
+    const std::filesystem::path file = shared_data("hdr/polyhaven/dikhololo_night_1k.hdr");
+    if (!is_here(file)) GTEST_SKIP() << "the shared set is not here";
     const HdrImage scene = read_hdr_image(file);
     for (const KnownCamera& camera : {gamma_camera(), film_camera()}) {
         const auto exposures = bracket(scene, camera, 0.01, 4, 10);

@@ -4,24 +4,16 @@
 
 #include "photometry/distributions.h"
 #include "photometry/eulumdat.h"
-
-#ifndef VESPER_SHARED_DATA
-#define VESPER_SHARED_DATA ""
-#endif
+#include "support/shared_data.h"
 
 namespace vesper::test {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kFolder = fs::path(VESPER_SHARED_DATA) / "photometry";
-
-bool is_here() {
-    std::error_code missing;
-    return !std::string(VESPER_SHARED_DATA).empty() && fs::is_directory(kFolder, missing);
-}
+const fs::path kFolder = shared_data("photometry");
 
 TEST(SharedPhotometry, FluxIsWhatIsStated) {
-    if (!is_here()) GTEST_SKIP() << "the shared set is not here";
+    if (!is_here(kFolder)) GTEST_SKIP() << "the shared set is not here";
     // Of the first set of lamps: flux of the set times the light output ratio by integration. (For files of several
     // sets the README states the sum of all of them as intensity; sets are alternatives.) no_symmetry.ldt states planes
     // every 90 deg but lists them every 15: the list counts.
@@ -65,9 +57,8 @@ TEST(SharedPhotometry, FluxIsWhatIsStated) {
 }
 
 TEST(SharedPhotometry, BothFormatsOfOneLuminaireAgree) {
-    const fs::path folder = fs::path(VESPER_SHARED_DATA).parent_path() / "reference" / "data";
-    std::error_code missing;
-    if (!is_here() || !fs::exists(folder / "synthetic_road.ies", missing)) GTEST_SKIP() << "the shared set is not here";
+    const fs::path folder = kFolder.parent_path().parent_path() / "reference/data";
+    if (!is_here(folder / "synthetic_road.ies")) GTEST_SKIP() << "the shared set is not here";
     const Distribution ies = read_distribution(folder / "synthetic_road.ies");
     const Distribution ldt = read_distribution(folder / "synthetic_road.ldt");
     EXPECT_NEAR(luminous_flux(ies), 8803.2, 0.01 * 8803.2);

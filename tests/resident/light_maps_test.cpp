@@ -23,7 +23,7 @@ glm::vec4 cell(const LightMaps& maps, const LightMaps::Intensities& map, uint32_
     return maps.texels.at(map.first + size_t(i) * map.cells.y + j);
 }
 
-/// Every tabulated value is a corner of a cell, within the rounding of half floats: 2^-11, or 2^-25 of the largest.
+/// Every tabulated value is a corner of a cell, within what floats round: 2^-22, or 2^-24 of the largest.
 void expect_every_value(const std::string& file) {
     const Distribution d = read_distribution(kData / file);
     const LightMaps maps = light_maps(with(d));
@@ -40,7 +40,7 @@ void expect_every_value(const std::string& file) {
             const bool first = node.x == 0;  // the cell before the first nodes may be dark
             const glm::vec4 corners = cell(maps, map, std::max(node.x, 1u), std::max(node.y, 1u));
             const double value = double(node.y == 0 ? (first ? corners.x : corners.y) : (first ? corners.z : corners.w)) * double(map.largest);
-            ASSERT_NEAR(value, d.at(h, v), d.at(h, v) * std::exp2(-11) + double(map.largest) * std::exp2(-24)) << azimuth << " " << polar;
+            ASSERT_NEAR(value, d.at(h, v), d.at(h, v) * std::exp2(-22) + double(map.largest) * std::exp2(-24)) << azimuth << " " << polar;
         }
 }
 
@@ -112,7 +112,7 @@ TEST(LightMaps, RoadsKeepEveryTabulatedValue) {
                 ASSERT_EQ(at, std::round(at));
                 const size_t cell = (size_t(at) - 1) * shared::kRoadBetaCells + size_t(table.beta[b]) - 1;
                 const double value = 1e-4 * double(maps.texels.at(maps.roads[k] + cell).w);
-                ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-11)) << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
+                ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-22)) << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
             }
     }
 }

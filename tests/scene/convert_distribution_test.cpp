@@ -49,12 +49,7 @@ protected:
                        folder_ / output);
     }
     std::string complaint_with(const json& rule) {
-        try {
-            convert_with({rule});
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return complaint_of([&] { convert_with({rule}); });
     }
     /// Intensity of the first measured lamp of the result in a direction of the world, cd.
     double seen(glm::dvec3 direction, const std::string& output = "out.gltf") const {

@@ -44,12 +44,7 @@ protected:
     Scene converted(const std::string& output = "out.gltf") const { return read_gltf(folder_ / output).scene; }
     Environment sky() const { return converted().environment.value(); }
     std::string complaint_with(const json& photometry) {
-        try {
-            convert_with(photometry);
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return complaint_of([&] { convert_with(photometry); });
     }
 
     TempFolder folder_;
@@ -187,12 +182,7 @@ TEST_F(ConvertSky, TheReaderChecks) {
     const auto complaint = [&](const char* pointer, const json& value) -> std::string {
         json bad = good;
         bad[json::json_pointer(std::string("/extras/vesper/") + pointer)] = value;
-        try {
-            read_gltf(folder_.write("bad.gltf", bad.dump()));
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return complaint_of([&] { read_gltf(folder_.write("bad.gltf", bad.dump())); });
     };
     EXPECT_EQ(complaint("environment/scale", 2), "");
     EXPECT_TRUE(contains(complaint("environment/width", 66), "twice the height"));

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/hdr_image.h"
 #include "photometry/ies.h"
 #include "scene/convert.h"
+#include "scene/convert_rules.h"
 #include "scene/light.h"
 #include "scene/scene_files.h"
 
@@ -97,6 +99,23 @@ TEST_F(ConvertSourcesTest, OpeningsOfMeasuredLampsAreStored) {
     }
 }
 
+// 600 cd over 0.06 m^2 are 10,000 cd/m^2 in the mean, whatever the picture.
+TEST_F(ConvertSourcesTest, PicturesAreComparedByTheirMean) {
+    HdrImage image{.width = 4, .height = 1, .white_luminance = 1};
+    for (const float value : {39997.0f, 1.0f, 1.0f, 1.0f}) image.rgb.insert(image.rgb.end(), 3, value);
+    write_exr(folder_ / "lamp.exr", image);
+    json& attributes = street_.root["meshes"][0]["primitives"][0]["attributes"];
+    attributes["TEXCOORD_0"] = street_.vec2({0, 1, 1, 1, 1, 0, 0, 0});
+    const json emitter = {{"materials", "glass"}, {"image", "lamp.exr"}};
+    EXPECT_EQ(given(convert_with(lamp(600), emitter)), 0u);
+    EXPECT_FALSE(mentions(convert_with(lamp(600), emitter).warnings, "in the mean of its picture"));
+    EXPECT_TRUE(mentions(convert_with(lamp(900), emitter).warnings,
+                         "emitter 'glass': 1e+04 cd/m^2 in the mean of its picture, 900 cd of lamp 'beam' over 0.06 m^2 is 1.5e+04 cd/m^2 (50 % more)"));
+    // Only the bright quarter of the picture lies on the glass.
+    attributes["TEXCOORD_0"] = street_.vec2({0, 1, 0.25, 1, 0.25, 0, 0, 0});
+    EXPECT_TRUE(mentions(convert_with(lamp(600), emitter).warnings, "emitter 'glass': 4e+04 cd/m^2 in the mean"));
+}
+
 TEST_F(ConvertSourcesTest, GlassOfALampDoesNotEmitBesides) {
     json rule = lamp(600);
     rule["opening"] = opening();
@@ -142,13 +161,8 @@ TEST_F(ConvertSourcesTest, OnlyGlassBesideALampIsMeasured) {
 }
 
 TEST_F(ConvertSourcesTest, NamesThePlaceOfWhatIsWrong) {
-    const auto complaint = [&](const json& rule, const json& emitter) -> std::string {
-        try {
-            convert_with(rule, emitter);
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+    const auto complaint = [&](const json& rule, const json& emitter) {
+        return complaint_of([&] { convert_with(rule, emitter); });
     };
     json rule = lamp(600);
     EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}}), "/emitters/0/lamp: the lamp rule 'beam' has no opening"));

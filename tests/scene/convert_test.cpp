@@ -69,12 +69,7 @@ protected:
     }
     Scene converted(const std::string& output = "out.gltf") const { return read_gltf(folder_ / output).scene; }
     std::string complaint_with(const json& photometry, const std::string& output = "out.gltf") {
-        try {
-            convert_with(photometry, output);
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return complaint_of([&] { convert_with(photometry, output); });
     }
 
     TempFolder folder_;

@@ -4,10 +4,7 @@
 #include "scene/convert.h"
 #include "scene/photometry.h"
 #include "scene/scene_files.h"
-
-#ifndef VESPER_SHARED_DATA
-#define VESPER_SHARED_DATA ""
-#endif
+#include "support/shared_data.h"
 
 namespace vesper::test {
 namespace {
@@ -27,8 +24,8 @@ TEST(Examples, EveryPhotometryFileIsValid) {
 }
 
 TEST(Examples, TheStreetOfFreeModelsIsAssembledAndConverted) {
-    const fs::path example = kData / "examples/kaykit-street", assets = fs::path(VESPER_SHARED_DATA) / "gltf";
-    if (!fs::is_directory(assets / "kaykit-city")) GTEST_SKIP() << "the shared set is not here";
+    const fs::path example = kData / "examples/kaykit-street", assets = shared_data("gltf");
+    if (!is_here(assets / "kaykit-city")) GTEST_SKIP() << "the shared set is not here";
     if (std::system("python3 --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "there is no python3";
     const TempFolder folder;
     const std::string command = "python3 '" + (example / "assemble.py").string() + "' '" + assets.string() + "' -o '" +

@@ -96,11 +96,7 @@ TEST(RoadFile, ListsOfPositions) {
 }
 
 TEST(RoadFile, NamesThePlaceOfWhatIsWrong) {
-    const struct {
-        const char* pointer;
-        json value;
-        const char* place;
-    } cases[] = {
+    const std::vector<Fault> faults{
         {"/version", 2, "/version"},
         {"/lamps", 1, "/lamps: unknown key"},
         {"/class", "M9", "/class"},
@@ -121,16 +117,7 @@ TEST(RoadFile, NamesThePlaceOfWhatIsWrong) {
         {"/luminaires/height", 8, "/luminaires/height: unknown key"},
         {"/observer_age", 200, "/observer_age"},
     };
-    for (const auto& c : cases) {
-        json file = layout();
-        file[json::json_pointer(c.pointer)] = c.value;
-        try {
-            read(file);
-            ADD_FAILURE() << c.pointer << " = " << c.value << " was accepted";
-        } catch (const Error& error) {
-            EXPECT_TRUE(contains(error.what(), std::string("road.json: ") + c.place)) << c.value;
-        }
-    }
+    expect_places(layout(), faults, [](const json& file) { return complaint_of([&] { read(file); }); }, "road.json: ");
     for (const char* key : {"carriageway", "surface", "luminaires"}) {
         json file = layout();
         file.erase(key);
@@ -242,12 +229,7 @@ protected:
                        folder_ / "night.gltf");
     }
     std::string complaint(const json& surface) {
-        try {
-            run(json::array({surface}));
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return complaint_of([&] { run(json::array({surface})); });
     }
     GltfFile street_;
     TempFolder folder_;
@@ -303,12 +285,8 @@ TEST_F(RoadSurface, RefusesWhatIsNoTable) {
     for (const auto& c : cases) {
         json damaged = good;
         damaged["extras"]["vesper"][json::json_pointer(c.pointer)] = c.value;
-        try {
-            read_gltf(folder_.write("damaged.gltf", damaged.dump()));
-            ADD_FAILURE() << c.pointer << " = " << c.value << " was accepted";
-        } catch (const Error& error) {
-            EXPECT_TRUE(contains(error.what(), "damaged.gltf: /extras/vesper/"));
-        }
+        const std::string refusal = complaint_of([&] { read_gltf(folder_.write("damaged.gltf", damaged.dump())); });
+        EXPECT_TRUE(contains(refusal, "damaged.gltf: /extras/vesper/")) << c.pointer << " = " << c.value;
     }
 }
 

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "scene/gltf.h"
 #include "scene/uri.h"
+#include "support/complaints.h"
 
 namespace vesper::test {
 
@@ -49,6 +50,25 @@ private:
 inline std::string read_text(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// A value somewhere in a JSON file that makes it wrong, and what the complaint must name.
+struct Fault {
+    const char* pointer;
+    nlohmann::json value;
+    const char* place;
+};
+
+/// Puts each fault alone into a good file. `complaint(file)` is what reading it throws.
+template <class Complaint>
+void expect_places(const nlohmann::json& good, const std::vector<Fault>& faults, const Complaint& complaint,
+                   const std::string& name = "") {
+    EXPECT_EQ(complaint(good), "");
+    for (const Fault& fault : faults) {
+        nlohmann::json file = good;
+        file[nlohmann::json::json_pointer(fault.pointer)] = fault.value;
+        EXPECT_TRUE(contains(complaint(file), name + fault.place)) << fault.pointer << " = " << fault.value;
+    }
 }
 
 /// A glTF file in the making: JSON, and one buffer that accessors are appended to.
@@ -105,12 +125,7 @@ public:
 
     /// The message of the Error that reading throws; empty when it throws none.
     std::string complaint(const SceneLimits& limits = {}) {
-        try {
-            read(limits);
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
+        return complaint_of([&] { read(limits); });
     }
 };
 
@@ -121,11 +136,6 @@ inline bool mentions(const std::vector<std::string>& lines, const std::string& p
     for (const std::string& line : lines)
         if (line.find(part) != std::string::npos) return true;
     return false;
-}
-
-inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
-    if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
-    return testing::AssertionFailure() << "'" << text << "' does not contain '" << part << "'";
 }
 
 }  // namespace vesper::test

@@ -4,10 +4,7 @@
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "scene/scene_files.h"
-
-#ifndef VESPER_SHARED_DATA
-#define VESPER_SHARED_DATA ""
-#endif
+#include "support/shared_data.h"
 
 namespace vesper::test {
 namespace {
@@ -17,9 +14,8 @@ namespace fs = std::filesystem;
 /// Files below a folder of the shared set, sorted; empty where the set is missing.
 std::vector<fs::path> files_below(const std::string& folder) {
     std::vector<fs::path> files;
-    const fs::path root = fs::path(VESPER_SHARED_DATA) / folder;
-    std::error_code missing;
-    if (std::string(VESPER_SHARED_DATA).empty() || !fs::is_directory(root, missing)) return files;
+    const fs::path root = shared_data(folder);
+    if (!is_here(root)) return files;
     for (const auto& entry : fs::recursive_directory_iterator(root))
         if (entry.is_regular_file()) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
@@ -68,7 +64,7 @@ TEST(SharedFiles, WholeSetsAreRead) {
         EXPECT_NO_THROW(read_gltf(file)) << file;
     }
     // An inked (YCCK) picture.
-    const fs::path inked = fs::path(VESPER_SHARED_DATA) / "malformed/image/jpeg/YCbCrK.jpg";
+    const fs::path inked = shared_data("malformed/image/jpeg/YCbCrK.jpg");
     const Image image = decode_image(read_file(inked, 1u << 20), 4096);
     EXPECT_GT(image.rgba[0] + image.rgba[1] + image.rgba[2], 0);
 }

@@ -36,6 +36,19 @@ inline std::optional<reference::Texture> texture_of(const Scene& scene, const Te
     return t;
 }
 
+/// A luminance picture as a texture of the reference.
+inline std::optional<reference::Texture> picture_of(const Scene& scene, TextureUse use) {
+    const LuminancePicture& picture = scene.luminance_pictures.at(use.image);
+    Scene blank;
+    blank.images = {{"", 1, 1, {0, 0, 0, 0}}};
+    use.image = 0;
+    reference::Texture t = *texture_of(blank, use, nullptr);  // wrapping
+    t.width = picture.width, t.height = picture.height, t.texels.clear();
+    for (size_t i = 0; i < picture.rgb.size(); i += 3)
+        t.texels.emplace_back(picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2], 1);
+    return t;
+}
+
 /// Every triangle of every node, in the order of nodes.
 inline reference::Geometry geometry_of(const Scene& scene, const std::vector<glm::mat4>& world,
                                        const glm::mat4& world_to_view) {
@@ -47,7 +60,8 @@ inline reference::Geometry geometry_of(const Scene& scene, const std::vector<glm
         s.emission = glm::dvec3(m.emission);
         s.base_texture = texture_of(scene, m.base_colour_texture, &scene.transfer);
         s.metallic_roughness_texture = texture_of(scene, m.metallic_roughness_texture, nullptr);
-        s.emission_texture = texture_of(scene, m.emission_texture, &srgb);
+        s.emission_texture = m.emission_picture.image == kNone ? texture_of(scene, m.emission_texture, &srgb)
+                                                               : picture_of(scene, m.emission_picture);
         s.double_sided = m.double_sided;
         s.alpha_cutoff = m.alpha == Material::Alpha::Mask ? m.alpha_cutoff : 0;
         g.surfaces.push_back(s);

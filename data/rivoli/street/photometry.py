@@ -85,13 +85,7 @@ def photometry():
                 "colour_temperature_K": 3400,
                 "modulate": True,
             },
-            {
-                "name": "shop fascia",
-                "materials": "sign_lit",
-                "luminance_cd_m2": 220,
-                "colour_temperature_K": 3800,
-                "modulate": True,
-            },
+            {"name": "neon sign", "materials": "sign_lit", "image": "signs.exr"},
             {
                 "name": "pharmacy cross",
                 "materials": "sign_cross",

@@ -1,4 +1,4 @@
-// JPEG files with Exif data, byte by byte. SPDX-License-Identifier: MIT
+// JPEG files, with and without Exif data. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,10 @@ inline std::vector<uint8_t> exif_of(uint32_t seconds_over, uint32_t seconds_unde
     return bytes;
 }
 
-/// RGBA codes as a JPEG of best quality, with an APP1 marker if there is a payload for one.
-inline std::vector<uint8_t> jpeg_with(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba,
-                                      const std::vector<uint8_t>& app1 = {}) {
+/// Rows of codes as a JPEG of best quality, with an APP1 marker if there is a payload for one. `halved`: chroma has half
+/// the resolution.
+inline std::vector<uint8_t> jpeg_of(uint32_t width, uint32_t height, int components, J_COLOR_SPACE space,
+                                    const std::vector<uint8_t>& rows, const std::vector<uint8_t>& app1 = {}, bool halved = true) {
     jpeg_error_mgr errors;
     jpeg_compress_struct jpeg{};
     jpeg.err = jpeg_std_error(&errors);
@@ -43,25 +44,31 @@ inline std::vector<uint8_t> jpeg_with(uint32_t width, uint32_t height, const std
     jpeg_mem_dest(&jpeg, &memory, &size);
     jpeg.image_width = width;
     jpeg.image_height = height;
-    jpeg.input_components = 3;
-    jpeg.in_color_space = JCS_RGB;
+    jpeg.input_components = components;
+    jpeg.in_color_space = space;
     jpeg_set_defaults(&jpeg);
     jpeg_set_quality(&jpeg, 100, TRUE);
-    jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = 1;
+    if (!halved) jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = 1;
     jpeg_start_compress(&jpeg, TRUE);
     if (!app1.empty()) jpeg_write_marker(&jpeg, JPEG_APP0 + 1, app1.data(), static_cast<unsigned>(app1.size()));
-    std::vector<uint8_t> row(size_t{3} * width);
     while (jpeg.next_scanline < height) {
-        for (size_t x = 0; x < width; ++x)
-            for (size_t c = 0; c < 3; ++c) row[3 * x + c] = rgba[4 * (size_t{jpeg.next_scanline} * width + x) + c];
-        JSAMPROW pointer = row.data();
-        jpeg_write_scanlines(&jpeg, &pointer, 1);
+        JSAMPROW row = const_cast<JSAMPROW>(rows.data()) + size_t{jpeg.next_scanline} * width * static_cast<size_t>(components);
+        jpeg_write_scanlines(&jpeg, &row, 1);
     }
     jpeg_finish_compress(&jpeg);
     jpeg_destroy_compress(&jpeg);
     std::vector<uint8_t> file(memory, memory + size);
     free(memory);
     return file;
+}
+
+/// RGBA codes as a photograph.
+inline std::vector<uint8_t> jpeg_with(uint32_t width, uint32_t height, const std::vector<uint8_t>& rgba,
+                                      const std::vector<uint8_t>& app1 = {}) {
+    std::vector<uint8_t> rgb;
+    for (size_t i = 0; i < rgba.size(); ++i)
+        if (i % 4 != 3) rgb.push_back(rgba[i]);
+    return jpeg_of(width, height, 3, JCS_RGB, rgb, app1, false);
 }
 
 }  // namespace vesper::test

@@ -1,0 +1,104 @@
+// Shading of made-up surfaces on the device, and what the reference says of them. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "passes/shade_reference.h"
+#include "resident/light_maps.h"
+#include "resident/sky.h"
+#include "support/compare.h"
+#include "support/texels.h"
+
+namespace vesper::test {
+
+/// What the G-buffer pass would have left.
+struct Surfaces {
+    VkExtent2D extent;
+    std::vector<glm::vec4> reflectance, surface, emission;
+
+    glm::uvec2 pixel(size_t i) const { return {i % extent.width, i / extent.width}; }
+    reference::SurfaceTexel texel(size_t i) const {
+        return {glm::dvec4(reflectance[i]), glm::dvec4(surface[i]), emission.empty() ? glm::dvec3(0) : glm::dvec3(emission[i])};
+    }
+};
+
+/// As images of a frame; without emission for a pass that reads none.
+inline GBuffer upload(FrameGraph& graph, const Surfaces& s) {
+    return {PassRig::image(graph, "reflectance", kReflectanceFormat, s.extent, to_halves(s.reflectance)),
+            PassRig::image(graph, "surface", kSurfaceFormat, s.extent, s.surface),
+            s.emission.empty() ? Resource{} : PassRig::image(graph, "emission", kEmissionFormat, s.extent, s.emission),
+            {}};
+}
+
+inline MapTexels upload(FrameGraph& graph, const LightMaps& maps) {
+    return {graph.upload("maps", maps.texels, VK_FORMAT_R32G32B32A32_SFLOAT), maps.roads.empty() ? 0 : maps.roads.front(),
+            !maps.roads.empty()};
+}
+
+struct Shot {
+    std::vector<glm::vec4> pixels;
+    shared::ClusterPush cluster;
+    shared::ClusterReport report;
+};
+
+/// Clusters and shades, seen from the origin along -Z. `sheets`: classes of retroreflection, if there are any.
+inline Shot shade(PassRig& rig, const Surfaces& s, const LightList& list, const ClusterSettings& clusters, ShadeSettings settings,
+                  const LightMaps& maps = {}, const std::vector<Retroreflector>& sheets = {}) {
+    FrameGraph graph;
+    const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
+    const GBuffer g = upload(graph, s);
+    if (!sheets.empty()) settings.retro = graph.upload("retro", retro_texels(sheets), VK_FORMAT_R32G32B32A32_SFLOAT);
+    const Clusters c = add_clusters(graph, rig.kernels(), list, upload(graph, maps), view, clusters);
+    const Resource scene = keep<glm::vec4>(graph, add_shading(graph, rig.kernels(), g, c, view, settings)),
+                   report = keep<shared::ClusterReport>(graph, c.report);
+    rig.run(graph);
+    return {rig.got<glm::vec4>(scene), c.push, rig.got<shared::ClusterReport>(report).at(0)};
+}
+
+/// What the shader was told, for the reference.
+inline shared::ShadePush push_of(const Surfaces& s, const Shot& shot, const ShadeSettings& settings) {
+    shared::ShadePush p{};
+    p.size = {s.extent.width, s.extent.height};
+    p.grid = shot.cluster.grid, p.lights = shot.cluster.lights, p.threshold = shot.cluster.threshold;
+    p.lambert = settings.lambert, p.emission_limit = settings.emission_limit, p.ambient = settings.ambient,
+    p.sky = settings.sky;
+    return p;
+}
+
+inline Picture picture(VkExtent2D extent, const std::vector<glm::vec4>& pixels) {
+    Picture p(extent.width, extent.height, 3);
+    for (size_t i = 0; i < pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) p.values[3 * i + size_t(c)] = pixels[i][c];
+    return p;
+}
+
+/// Compares opaque pixels with `shaded(i)`, the reference::Shaded of each.
+template <class OfPixel>
+void expect_light(const std::string& name, VkExtent2D extent, const std::vector<glm::vec4>& pixels, Tolerance tolerance,
+                  const OfPixel& shaded) {
+    Picture want(extent.width, extent.height, 3), rounding = want;
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        const reference::Shaded pixel = shaded(i);
+        for (int c = 0; c < 3; ++c)
+            want.values[3 * i + size_t(c)] = pixel.luminance[c], rounding.values[3 * i + size_t(c)] = pixel.rounding[c];
+        EXPECT_EQ(pixels[i].w, 1.0f);
+    }
+    EXPECT_TRUE(same_light(name, picture(extent, pixels), want, tolerance, rounding));
+}
+
+/// Compares a shot with the reference. 2e-5 for sums of positive terms in float with exp2 and log2 of cosines; the
+/// reference's rounding holds what cancels: dot products near a threshold, a cone's edge or a mirror's highlight. 1e-12
+/// cd/m^2 is nothing. `on_roads`: relative error besides, on surfaces with a table.
+inline void expect_reference(const Shot& shot, const Surfaces& s, const LightList& list, const ShadeSettings& settings,
+                             const reference::Measurements& measurements = {}, Tolerance tolerance = {2e-5, 1e-7},
+                             double on_roads = 0) {
+    const shared::ShadePush p = push_of(s, shot, settings);
+    expect_light("scene", s.extent, shot.pixels, tolerance, [&](size_t i) {
+        reference::Shaded shaded = reference::shade(s.texel(i), s.pixel(i), list.lights, p, measurements);
+        if (s.reflectance[i].w < 0) shaded.rounding += on_roads * shaded.luminance;
+        return shaded;
+    });
+}
+
+}  // namespace vesper::test

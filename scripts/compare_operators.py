@@ -62,6 +62,7 @@ def read_picture(file):
 class Comparison:
     def __init__(self, vesper, folder):
         self.vesper, self.folder, self.rows, self.broken = vesper, folder, [], False
+        self.help = run([vesper, "tonemap", "--help"]).decode()
 
     def add(self, what, picture, measured, limit, unit):
         good = measured <= limit
@@ -82,6 +83,10 @@ class Comparison:
         run([self.vesper, "tonemap", source, "-o", made, *LOW_BLACK, *options])
         return (read_exr(made) - 1e-6) / (1 - 1e-6)
 
+    def given(self, *options):
+        """Options with their values, where vesper has all of them."""
+        return options if all(o in self.help for o in options if o.startswith("--")) else ()
+
     def pfstmo(self, source, *operator):
         # Halves and lossy compression are the defaults of pfsoutexr.
         made = self.folder / "pfs.exr"
@@ -89,10 +94,14 @@ class Comparison:
         return read_exr(made)
 
 
+def cleaned(picture):
+    return np.maximum(np.nan_to_num(read_picture(picture), nan=0, posinf=0, neginf=0), 0)
+
+
 def bright_copy(comparison, picture):
     """A copy with a median of 100 cd/m^2 and no luminance under 0.1: pfstmo divides by luminance, and adds 1e-5 to it before
     it takes logarithms where vesper takes max(L, 1e-4). So neither matters."""
-    rgb = np.maximum(np.nan_to_num(read_picture(picture), nan=0, posinf=0, neginf=0), 0)
+    rgb = cleaned(picture)
     luminance = rgb @ WEIGHTS
     rgb = rgb * (100 / np.median(luminance[luminance > 0])) + 0.1
     made = comparison.folder / "bright.exr"
@@ -110,13 +119,22 @@ def compare_reinhard(comparison, picture):
     write_exr(source, np.repeat((rgb @ WEIGHTS)[..., None], 3, axis=-1))
     difference = comparison.display_light(source, *options) - comparison.pfstmo(source, "pfstmo_reinhard02", "--key", "0.18")
     comparison.add("Reinhard 2002", picture.name, np.abs(difference).max(), 1e-4, "of white")
+    epsilon = comparison.given("--log-epsilon", "1e-5")
+    if epsilon:  # as dark as the picture is; pfstmo divides zero by zero where it is black
+        write_exr(source, np.repeat((cleaned(picture) @ WEIGHTS)[..., None], 3, axis=-1))
+        difference = comparison.display_light(source, *options, *epsilon) - comparison.pfstmo(source, "pfstmo_reinhard02", "--key", "0.18")
+        comparison.add("Reinhard 2002, as it is", picture.name, np.nanmax(np.abs(difference)), 1e-4, "of white")
 
 
 def compare_pattanaik(comparison, picture):
-    source, _ = bright_copy(comparison, picture)
-    got = comparison.display_light(source, "--operator", "pattanaik")
+    # Adapted to 1 cd/m^2: the log average of the frame. Greys, as above; pfstmo has 5e4 where Hunt has 5e5, and ends at white.
+    _, rgb = bright_copy(comparison, picture)
+    grey = rgb @ WEIGHTS
+    source = comparison.folder / "grey.exr"
+    write_exr(source, np.repeat((grey / np.exp(np.log(grey).mean()))[..., None], 3, axis=-1))
+    got = comparison.display_light(source, "--operator", "pattanaik", *comparison.given("--rod-constant", "5e4"), *comparison.given("--adapt-to", "average"))
     want = comparison.pfstmo(source, "pfstmo_pattanaik00", "--cone", "1", "--rod", "1")
-    comparison.add("Pattanaik 2000", picture.name, np.abs(got - want).max(), 1e-4, "of white")
+    comparison.add("Pattanaik 2000", picture.name, np.abs(np.clip(got, 0, 1) - want).max(), 1e-4, "of white")
 
 
 def foveal_votes(luminance, level):
@@ -146,12 +164,13 @@ def pcond_curve(comparison, votes, weights):
 
 
 def compare_ward(comparison, picture):
-    # Both take the cones' threshold where luminance is more than 1 cd/m^2; below, pcond has the rods as well. So the darkest
-    # of a thousand texels has 2 cd/m^2.
-    level = 5
-    rgb = np.maximum(np.nan_to_num(read_picture(picture), nan=0, posinf=0, neginf=0), 0)
+    # Without the human threshold (cones and rods) the cones' is compared, where both are the same: from 1 cd/m^2, so the
+    # darkest of a thousand texels has 2 cd/m^2 then, and 0.02 otherwise.
+    level = 3  # many votes: with few, each is a step of the curve, and bins put it in different places
+    human = comparison.given("--ceiling", "human", "--whole-votes")
+    rgb = cleaned(picture)
     votes, _ = foveal_votes(np.maximum(rgb @ WEIGHTS, 1e-9), level)
-    rgb = rgb * (2 / 10 ** np.quantile(votes, 0.001))
+    rgb = rgb * ((0.02 if human else 2) / 10 ** np.quantile(votes, 0.001))
     source = comparison.folder / "ward.exr"
     write_exr(source, rgb)
     luminance = rgb.astype(np.float32) @ WEIGHTS
@@ -161,12 +180,16 @@ def compare_ward(comparison, picture):
         return
     made = comparison.folder / "vesper.exr"
     run([comparison.vesper, "tonemap", source, "-o", made, "--operator", "ward", "--foveal-level", level, "--bins", "256", "--display-peak", "100", "--display-black", "1",
-         "--display-ambient", "0"])
+         "--display-ambient", "0", *human])
     shown = np.log10(read_exr(made) @ WEIGHTS).ravel()
     order = np.argsort(luminance.ravel())
     world = np.log10(np.maximum(luminance.ravel()[order], 1e-9))
     curve = pcond_curve(comparison, votes, weights)
-    inside = (curve[:, 0] >= max(world[0], np.quantile(votes, 0.001), 0)) & (curve[:, 0] <= min(world[-1], votes.max()))
+    rising = np.diff(curve[:, 1]) > 1e-6
+    if rising.any() and np.ptp((np.diff(curve[:, 1]) / np.diff(curve[:, 0]))[rising][1:-1]) < 0.01:
+        comparison.note("Ward 1997, curve", picture.name, "pcond gave up: it is linear")
+        return
+    inside = (curve[:, 0] >= max(world[0], np.quantile(votes, 0.001), -3 if human else 0)) & (curve[:, 0] <= min(world[-1], votes.max()))
     # A vote is somewhere in its bin, and the bins of the two are not the same: the curve is known within half a bin of
     # luminance, so what counts is the distance to what vesper has there.
     half = (curve[1, 0] - curve[0, 0]) / 2
@@ -240,7 +263,7 @@ def main():
     folder = Path(tempfile.mkdtemp(prefix="vesper-compare-"))
     try:
         comparison = Comparison(arguments.vesper.resolve(), folder)
-        has_pattanaik = b"pattanaik" in run([comparison.vesper, "tonemap", "--help"])
+        has_pattanaik = "pattanaik" in comparison.help.split("--operator", 1)[1].splitlines()[0]
         for picture in pictures:
             compare_reinhard(comparison, picture)
             if has_pattanaik:

@@ -148,8 +148,8 @@ def foveal_votes(luminance, level):
 
 def pcond_curve(comparison, votes, weights):
     """Radiance's curve for the same votes, from 1 to 100 cd/m^2: pairs of log10, where its histogram is."""
-    low, high = np.floor(votes.min() * 20) / 20, np.ceil(votes.max() * 20) / 20
-    counts, edges = np.histogram(votes, bins=max(100, int(round((high - low) * 20))), range=(low, high), weights=weights)
+    # As fine as its reader takes: it sorts them into a hundred bins of its own.
+    counts, edges = np.histogram(votes, bins=1000, range=(votes.min(), votes.max()), weights=weights)
     centres = (edges[:-1] + edges[1:]) / 2
     text = "".join(f"{c:.6f} {int(n)}\n" for c, n in zip(centres, counts))
     tools = Path(pyradiance.__file__).parent / "bin"
@@ -178,23 +178,22 @@ def compare_ward(comparison, picture):
     if votes.max() - votes.min() < 2.2:
         comparison.note("Ward 1997, curve", picture.name, f"spans {votes.max() - votes.min():.1f} decades: pcond is linear there")
         return
-    made = comparison.folder / "vesper.exr"
-    run([comparison.vesper, "tonemap", source, "-o", made, "--operator", "ward", "--foveal-level", level, "--bins", "256", "--display-peak", "100", "--display-black", "1",
-         "--display-ambient", "0", *human])
-    shown = np.log10(read_exr(made) @ WEIGHTS).ravel()
-    order = np.argsort(luminance.ravel())
-    world = np.log10(np.maximum(luminance.ravel()[order], 1e-9))
     curve = pcond_curve(comparison, votes, weights)
     rising = np.diff(curve[:, 1]) > 1e-6
     if rising.any() and np.ptp((np.diff(curve[:, 1]) / np.diff(curve[:, 0]))[rising][1:-1]) < 0.01:
         comparison.note("Ward 1997, curve", picture.name, "pcond gave up: it is linear")
         return
+    # The same hundred bins.
+    step = (curve[-1, 0] - curve[0, 0]) / 99
+    low, high = curve[0, 0] - step / 2, curve[-1, 0] + step / 2
+    made = comparison.folder / "vesper.exr"
+    run([comparison.vesper, "tonemap", source, "-o", made, "--operator", "ward", "--foveal-level", level, "--bins", "100", "--histogram-low", 10**low,
+         "--histogram-high", 10**high, "--display-peak", "100", "--display-black", "1", "--display-ambient", "0", *human])
+    shown = np.log10(read_exr(made) @ WEIGHTS).ravel()
+    order = np.argsort(luminance.ravel())
+    world = np.log10(np.maximum(luminance.ravel()[order], 1e-9))
     inside = (curve[:, 0] >= max(world[0], np.quantile(votes, 0.001), -3 if human else 0)) & (curve[:, 0] <= min(world[-1], votes.max()))
-    # A vote is somewhere in its bin, and the bins of the two are not the same: the curve is known within half a bin of
-    # luminance, so what counts is the distance to what vesper has there.
-    half = (curve[1, 0] - curve[0, 0]) / 2
-    low, high = (np.interp(curve[inside, 0] + shift, world, shown[order]) for shift in (-half, half))
-    distance = np.maximum(np.maximum(low - curve[inside, 1], curve[inside, 1] - high), 0)
+    distance = np.abs(np.interp(curve[inside, 0], world, shown[order]) - curve[inside, 1])
     comparison.add("Ward 1997, curve", picture.name, distance.max(), 0.02, "log10")
 
 

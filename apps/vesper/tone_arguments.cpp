@@ -1,5 +1,6 @@
 #include "tone_arguments.h"
 
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -35,6 +36,8 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
     command.add_option("--operator", a.tone_operator, "How luminance is shown")->check(CLI::IsMember({"irawan", "ward", "reinhard", "linear", "ldr"}))->capture_default_str();
     command.add_option("--glare", a.glare, "ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr"}))->capture_default_str();
     command.add_option("--bins", a.histogram.bins, "Bins of the histogram")->check(CLI::Range(1u, shared::kMaxBins))->capture_default_str();
+    command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
+    command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
     command.add_option("--foveal-level", a.foveal_level, "Pyramid level of the histogram (default: 1 degree per texel; the paper: 5)")->check(CLI::Range(1, 14));
     command.add_option("--key", a.tone.key, "Reinhard: what the log average is shown as, relative to white")->check(between(1e-4, 10.0))->capture_default_str();
     command.add_option("--white", a.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
@@ -55,6 +58,9 @@ ToneChainSettings tone_settings(const ToneArguments& arguments) {
     settings.histogram = arguments.histogram;
     settings.tone = arguments.tone;
     if (arguments.foveal_level > 0) settings.foveal_level = uint32_t(arguments.foveal_level);
+    settings.histogram.log10_low = float(std::log10(arguments.histogram_low));
+    settings.histogram.log10_high = float(std::log10(arguments.histogram_high));
+    if (!(arguments.histogram_high >= 1.01 * arguments.histogram_low)) throw Error("--histogram-high must be more than --histogram-low");
     if (settings.tone.linear_high > 0 && settings.tone.linear_high <= settings.tone.linear_low)
         throw Error("--linear-max must be more than --linear-min");
     settings.display = display_of(arguments);

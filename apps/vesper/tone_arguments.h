@@ -16,6 +16,7 @@ struct ToneArguments {
     std::string tone_operator = "ward", glare = "none", display;
     std::optional<float> peak, black, gamma, ambient, reflection;  ///< in place of the display's
     int foveal_level = 0;
+    double histogram_low = 1e-4, histogram_high = 1e6;  ///< cd/m^2
     HistogramSettings histogram;
     ToneSettings tone;
 };

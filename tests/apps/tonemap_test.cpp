@@ -181,7 +181,7 @@ TEST_F(TonemapProgram, RefusesInOneLine) {
     for (const char* arguments : {"a.exr", "a.exr -o a.tiff", "a.exr -o none/a.png", "a.exr -o none/", "a.exr b.exr -o x.png", "a.exr b.exr -o x.mp4", "a.exr -o x.mp4",
                                   "f.%d.exr -o x.%d.png", "f.%s.exr -o x.png", "a.exr f.%d.exr -o x.%d.png", "a.exr -o x.%d.%d.png", "a.exr a.exr -o all", "a.exr -o x.png -o x.png", "a.exr -o a.exr", "a.exr b.exr -o ./%d.exr -o a.exr",
                                   "a.exr -o x.png --scale 0", "a.exr -o x.png --scale nan", "a.exr -o x.png --fov 180", "a.exr -o x.png --fps -1", "a.exr -o x.png --operator foo",
-                                  "a.exr -o x.png --display foo", "a.exr -o x.png --foveal-level 9", "a.exr --fps 5 -o x.mp4 -o y.mp4", "a.exr -o x.png --device nowhere"})
+                                  "a.exr -o x.png --display foo", "a.exr -o x.png --foveal-level 9", "a.exr -o x.png --histogram-low 5 --histogram-high 5", "a.exr --fps 5 -o x.mp4 -o y.mp4", "a.exr -o x.png --device nowhere"})
         expect_refused(std::string("tonemap ") + arguments);
     EXPECT_FALSE(exists("x.png"));
     EXPECT_TRUE(left_nothing_behind());

@@ -7,7 +7,7 @@ namespace vesper {
 
 ToneMapper::ToneMapper(Device& device) : device_(device), kernels_(device), executor_(device) {}
 
-ToneMapped ToneMapper::map(const ToneChainSettings& settings, const LuminancePicture& picture, float seconds, Outputs outputs) {
+ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture& picture, float seconds, Outputs outputs) {
     const auto start = std::chrono::steady_clock::now();
     const auto [width, height] = picture.extent;
     const uint64_t pixels = uint64_t{width} * height, bytes = pixels * 4 * sizeof(float);

@@ -10,7 +10,7 @@
 namespace vesper {
 
 /// A picture on the host.
-struct LuminancePicture {
+struct HostPicture {
     VkExtent2D extent{};            ///< px
     std::span<const float> values;  ///< RGB (or RGBA, alpha ignored) in linear Rec. 709, rows from the top
     uint32_t channels = 3;          ///< 3 or 4
@@ -25,7 +25,7 @@ public:
     explicit ToneMapper(Device& device);
 
     /// `seconds` have passed since the last picture. NaN and infinities are shown black and counted. Throws Error.
-    ToneMapped map(const ToneChainSettings&, const LuminancePicture&, float seconds, Outputs outputs = {});
+    ToneMapped map(const ToneChainSettings&, const HostPicture&, float seconds, Outputs outputs = {});
 
     /// Forgets what the eye was adapted to, as between pictures that have nothing to do with each other.
     void reset_adaptation() {

@@ -1,5 +1,6 @@
 #include "tone_arguments.h"
 
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -34,6 +35,8 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
     for (const NamedDisplay& known : known_displays()) names += std::string(names.empty() ? "" : ", ") + known.name;
     add_eye_options(command, a.eye, a.histogram, a.tone);
     command.add_option("--glare", a.glare, "ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr"}))->capture_default_str();
+    command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
+    command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
     command.add_option("--key", a.tone.key, "Reinhard: what the log average is shown as, relative to white")->check(between(1e-4, 10.0))->capture_default_str();
     command.add_flag("--automatic", a.tone.automatic, "reinhard: key and white from the frame (Reinhard 2003)");
     command.add_option("--log-epsilon", a.tone.log_epsilon, "reinhard: added to luminance before logarithms, cd/m^2 (his program: 1e-5; default: none, but not below 1e-4)")->check(between(0.0, 1.0));
@@ -55,6 +58,9 @@ ToneChainSettings tone_settings(const ToneArguments& arguments) {
     settings.histogram = arguments.histogram;
     settings.tone = arguments.tone;
     apply(arguments.eye, settings);
+    settings.histogram.log10_low = float(std::log10(arguments.histogram_low));
+    settings.histogram.log10_high = float(std::log10(arguments.histogram_high));
+    if (!(arguments.histogram_high >= 1.01 * arguments.histogram_low)) throw Error("--histogram-high must be more than --histogram-low");
     if (settings.tone.linear_high > 0 && settings.tone.linear_high <= settings.tone.linear_low)
         throw Error("--linear-max must be more than --linear-min");
     settings.display = display_of(arguments);

@@ -17,6 +17,7 @@ struct ToneArguments {
     EyeArguments eye;
     std::string glare = "none", display;
     std::optional<float> peak, black, gamma, ambient, reflection;  ///< in place of the display's
+    double histogram_low = 1e-4, histogram_high = 1e6;  ///< cd/m^2
     HistogramSettings histogram;
     ToneSettings tone;
 };

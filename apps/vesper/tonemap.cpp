@@ -63,6 +63,8 @@ void check_outputs(const Plan& plan) {
         for (const std::string& output : job.outputs) {
             if (!ends_with(output, ".png") && !ends_with(output, ".exr")) throw Error("-o " + one_line(output) + ": a .png, .exr or .mp4 file or a folder is expected");
             check_folder("-o", output);
+            std::error_code none;
+            if (fs::equivalent(output, job.input, none)) throw Error("-o " + one_line(output) + ": is the picture itself");
             if (!seen.insert(output).second) throw Error("-o " + one_line(output) + ": would be written twice, for " + one_line(job.input) + " again");
         }
 }
@@ -84,7 +86,9 @@ Plan plan_of(const TonemapArguments& arguments) {
     plan.fps = arguments.fps > 0 ? arguments.fps : 30;
     for (size_t i = 0; i < files.size(); ++i) {
         Job job{files[i].file, {}, 0};
-        if (plan.sequence && i > 0) job.seconds = (files[i].number - files[i - 1].number) / plan.fps;  // missing frames take their time
+        const unsigned missing = plan.sequence && i > 0 ? files[i].number - files[i - 1].number - 1 : 0;
+        if (plan.sequence && i > 0) job.seconds = (missing + 1) / plan.fps;  // missing frames take their time
+        if (missing > 0) std::fprintf(stderr, "note: %u pictures are missing before %s\n", missing, one_line(files[i].file).c_str());
         for (const std::string& output : arguments.outputs) {
             if (!ends_with(output, ".mp4"))
                 job.outputs.push_back(output_of(output, files[i].file, files[i].number, files.size() == 1));

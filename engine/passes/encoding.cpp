@@ -36,11 +36,13 @@ Encoding cells_of(const std::vector<float>& thresholds, uint32_t mantissa, bool&
     push.last = std::bit_cast<uint32_t>(1.0f) >> push.shift;
     push.first = std::min(std::bit_cast<uint32_t>(std::max(second, 1e-12f)) >> push.shift, push.last) - 1;
     exact = true;
+    auto begin = thresholds.begin();
     for (uint32_t cell = push.first; cell <= push.last; ++cell) {
         const float low = cell == push.first ? 0 : std::bit_cast<float>(cell << push.shift);
         const float high = std::bit_cast<float>((cell + 1) << push.shift);
-        const auto begin = std::upper_bound(thresholds.begin(), thresholds.end(), low);
-        const auto end = std::lower_bound(begin, thresholds.end(), high);
+        while (begin != thresholds.end() && *begin <= low) ++begin;
+        auto end = begin;
+        while (end != thresholds.end() && *end < high) ++end;
         const auto code = [&](auto at) { return float(at - thresholds.begin()); };
         exact &= end - begin <= 1;
         made.cells.emplace_back(begin == end ? kNever : begin[(end - begin) / 2], code(begin), code(end), 0);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/srgb.h"
 
 namespace vesper {
 namespace {
@@ -66,7 +67,7 @@ double DisplayCurve::emitted(double code) const {
     const double v = std::clamp(code, 0.0, 1.0);
     switch (eotf_) {
         case Eotf::Gamma: return black_ + (peak_ - black_) * std::pow(v, gamma_);
-        case Eotf::Srgb: return black_ + (peak_ - black_) * srgb_light(v);
+        case Eotf::Srgb: return black_ + (peak_ - black_) * srgb_to_linear(v);
         case Eotf::Pq: return std::clamp(pq_luminance(v), black_, peak_);
         case Eotf::Table: break;
     }
@@ -83,8 +84,6 @@ double pq_luminance(double signal) {
     const double e = std::pow(std::clamp(signal, 0.0, 1.0), 1 / m2);
     return 10000 * std::pow(std::max(e - c1, 0.0) / (c2 - c3 * e), 1 / m1);
 }
-
-double srgb_light(double signal) { return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4); }
 
 const std::vector<NamedDisplay>& known_displays() {
     // lcd, office, bright and crt: pfstools 2.2.0 (pfstmo_mantiuk08, --display-function).

@@ -61,8 +61,6 @@ private:
 
 /// SMPTE ST 2084: luminance, cd/m^2, of a signal in [0, 1].
 double pq_luminance(double signal);
-/// IEC 61966-2-1: linear light of a signal, both in [0, 1].
-double srgb_light(double signal);
 
 struct NamedDisplay {
     const char* name;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/srgb.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
 
@@ -151,7 +152,7 @@ DisplayFit fit_display(std::span<const DisplayMeasurement> measured, uint32_t bi
     if (eotf == Eotf::Table) fit_table(display, measured);
     if (eotf == Eotf::Srgb) {
         std::vector<double> x;
-        for (const DisplayMeasurement& m : measured) x.push_back(srgb_light(double(m.code) / display.largest_code()));
+        for (const DisplayMeasurement& m : measured) x.push_back(srgb_to_linear(double(m.code) / display.largest_code()));
         const Line line = fit_line(measured, floor, x);
         display.black = float(line.black), display.peak = float(line.black + line.range);
     }

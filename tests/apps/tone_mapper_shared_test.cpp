@@ -5,6 +5,7 @@
 
 #include "io/hdr_image.h"
 #include "support/reference_chain.h"
+#include "support/shared_data.h"
 #include "tone_mapper.h"
 
 namespace vesper::test {
@@ -13,9 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(ToneMapperShared, EveryPictureEqualsTheReference) {
-    const fs::path root = fs::path(VESPER_SHARED_DATA) / "hdr";
-    std::error_code missing;
-    if (!fs::exists(root, missing)) GTEST_SKIP() << "the shared set is not here";
+    const fs::path root = shared_data("hdr");
+    if (!is_here(root)) GTEST_SKIP() << "the shared set is not here";
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(root))
         if (entry.path().extension() == ".exr" || entry.path().extension() == ".hdr") files.push_back(entry.path());

@@ -111,6 +111,7 @@ TEST_F(TonemapProgram, AnglesSetTheFovealLevel) {
 TEST_F(TonemapProgram, SequencesRememberAndOthersDoNot) {
     for (const int number : {8, 9, 10, 14}) write_layout(folder / ("f." + std::to_string(number) + ".exr"), street(20 + uint32_t(number), 20), {.white_luminance = 1});
     ASSERT_EQ(tonemap("f.%d.exr --fps 4 -o o.%03d.exr"), 0) << said;
+    EXPECT_EQ(said, "note: 3 pictures are missing before f.14.exr\n");
     EXPECT_EQ(header("o.008.exr", "vesper:eyeSeconds"), "0");
     EXPECT_EQ(header("o.009.exr", "vesper:eyeSeconds"), "0.25");
     EXPECT_EQ(header("o.010.exr", "vesper:eyeSeconds"), "0.5");
@@ -178,9 +179,9 @@ TEST_F(TonemapProgram, RefusesInOneLine) {
     fs::copy(folder / "a.exr", folder / "b.exr");
     fs::create_directory(folder / "all");
     for (const char* arguments : {"a.exr", "a.exr -o a.tiff", "a.exr -o none/a.png", "a.exr -o none/", "a.exr b.exr -o x.png", "a.exr b.exr -o x.mp4", "a.exr -o x.mp4",
-                                  "f.%d.exr -o x.%d.png", "f.%s.exr -o x.png", "a.exr f.%d.exr -o x.%d.png", "a.exr -o x.%d.%d.png", "a.exr a.exr -o all", "a.exr -o x.png -o x.png",
+                                  "f.%d.exr -o x.%d.png", "f.%s.exr -o x.png", "a.exr f.%d.exr -o x.%d.png", "a.exr -o x.%d.%d.png", "a.exr a.exr -o all", "a.exr -o x.png -o x.png", "a.exr -o a.exr", "a.exr b.exr -o ./%d.exr -o a.exr",
                                   "a.exr -o x.png --scale 0", "a.exr -o x.png --scale nan", "a.exr -o x.png --fov 180", "a.exr -o x.png --fps -1", "a.exr -o x.png --operator foo",
-                                  "a.exr -o x.png --display foo", "a.exr -o x.png --foveal-level 9", "a.exr --fps 5 -o x.mp4 -o y.mp4", "a.exr -o x.png --device nowhere"})
+                                  "a.exr -o x.png --display foo", "a.exr -o x.png --foveal-level 9", "a.exr -o x.png --histogram-low 5 --histogram-high 5", "a.exr --fps 5 -o x.mp4 -o y.mp4", "a.exr -o x.png --device nowhere"})
         expect_refused(std::string("tonemap ") + arguments);
     EXPECT_FALSE(exists("x.png"));
     EXPECT_TRUE(left_nothing_behind());
@@ -197,6 +198,7 @@ TEST_F(TonemapProgram, Films) {
     EXPECT_EQ(read_text(folder / "film.mp4"), "an earlier film");
     EXPECT_TRUE(left_nothing_behind());
     if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not here";
+    ASSERT_EQ(tonemap("f%d.exr --display hdr10 -o film.mp4"), 0) << said;
     ASSERT_EQ(tonemap("f%d.exr --fps 12 -o film.mp4 -o shown%d.png"), 0) << said;
     EXPECT_GT(fs::file_size(folder / "film.mp4"), 500u);
     EXPECT_EQ(read_text(folder / "film.mp4").substr(4, 4), "ftyp");

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/srgb.h"
 
 namespace vesper::test {
 namespace {
@@ -24,9 +25,9 @@ TEST(Display, PqIsAbsolute) {
 }
 
 TEST(Display, SrgbAndGamma) {
-    EXPECT_NEAR(srgb_light(0.5), 0.214041, 1e-6);
-    EXPECT_NEAR(srgb_light(0.02), 0.02 / 12.92, 1e-12);
-    EXPECT_NEAR(srgb_light(0.04045), srgb_light(0.040451), 1e-6) << "the parts join";
+    EXPECT_NEAR(srgb_to_linear(0.5), 0.214041, 1e-6);
+    EXPECT_NEAR(srgb_to_linear(0.02), 0.02 / 12.92, 1e-12);
+    EXPECT_NEAR(srgb_to_linear(0.04045), srgb_to_linear(0.040451), 1e-6) << "the parts join";
     const DisplayCurve srgb(Display{.peak = 80, .black = 0.5f, .eotf = Eotf::Srgb});
     EXPECT_NEAR(srgb.emitted(0.5), 0.5 + 79.5 * 0.214041, 1e-4);
     const DisplayCurve gamma(Display{.peak = 200, .black = 0.8f, .gamma = 2});

@@ -2,7 +2,7 @@
 
 Reinhard 2002    pfstmo_reinhard02, every pixel: at most 1e-4 of white
 Pattanaik 2000   pfstmo_pattanaik00, likewise, where vesper has the operator
-Ward 1997        Radiance's pcond with the same histogram, the tone curve: at most 0.02 in log10
+Ward 1997        Radiance's pcond with the same histogram and bins, the tone curve: at most 0.02 in log10
 time             the tone chain of vesper against pfstmo_reinhard02 and OpenCV's TonemapReinhard, 1680 x 1050 px
 """
 
@@ -163,25 +163,28 @@ def pcond_curve(comparison, votes, weights):
     return np.log10(np.loadtxt(curve))
 
 
-def compare_ward(comparison, picture):
-    # Without the human threshold (cones and rods) the cones' is compared, where both are the same: from 1 cd/m^2, so the
-    # darkest of a thousand texels has 2 cd/m^2 then, and 0.02 otherwise.
-    level = 3  # many votes: with few, each is a step of the curve, and bins put it in different places
+def compare_ward(comparison, picture, darkest):
+    """The picture scaled so that the darkest of a thousand texels has `darkest` cd/m^2. Without the human threshold (cones and
+    rods) the cones' is compared, which is the same from 1 cd/m^2 up."""
+    what = f"Ward 1997, from {darkest} cd/m^2"
+    level = 3  # 64 pixels a vote
     human = comparison.given("--ceiling", "human", "--whole-votes")
+    if not human and darkest < 1:
+        return
     rgb = cleaned(picture)
     votes, _ = foveal_votes(np.maximum(rgb @ WEIGHTS, 1e-9), level)
-    rgb = rgb * ((0.02 if human else 2) / 10 ** np.quantile(votes, 0.001))
+    rgb = rgb * (darkest / 10 ** np.quantile(votes, 0.001))
     source = comparison.folder / "ward.exr"
     write_exr(source, rgb)
     luminance = rgb.astype(np.float32) @ WEIGHTS
     votes, weights = foveal_votes(luminance, level)
     if votes.max() - votes.min() < 2.2:
-        comparison.note("Ward 1997, curve", picture.name, f"spans {votes.max() - votes.min():.1f} decades: pcond is linear there")
+        comparison.note(what, picture.name, f"spans {votes.max() - votes.min():.1f} decades: pcond is linear there")
         return
     curve = pcond_curve(comparison, votes, weights)
     rising = np.diff(curve[:, 1]) > 1e-6
     if rising.any() and np.ptp((np.diff(curve[:, 1]) / np.diff(curve[:, 0]))[rising][1:-1]) < 0.01:
-        comparison.note("Ward 1997, curve", picture.name, "pcond gave up: it is linear")
+        comparison.note(what, picture.name, "pcond gave up: it is linear")
         return
     # The same hundred bins.
     step = (curve[-1, 0] - curve[0, 0]) / 99
@@ -194,7 +197,7 @@ def compare_ward(comparison, picture):
     world = np.log10(np.maximum(luminance.ravel()[order], 1e-9))
     inside = (curve[:, 0] >= max(world[0], np.quantile(votes, 0.001), -3 if human else 0)) & (curve[:, 0] <= min(world[-1], votes.max()))
     distance = np.abs(np.interp(curve[inside, 0], world, shown[order]) - curve[inside, 1])
-    comparison.add("Ward 1997, curve", picture.name, distance.max(), 0.02, "log10")
+    comparison.add(what, picture.name, distance.max(), 0.02, "log10")
 
 
 def fastest(repeat, act):
@@ -267,7 +270,8 @@ def main():
             compare_reinhard(comparison, picture)
             if has_pattanaik:
                 compare_pattanaik(comparison, picture)
-            compare_ward(comparison, picture)
+            for darkest in (0.02, 2):
+                compare_ward(comparison, picture, darkest)
         if not has_pattanaik:
             comparison.note("Pattanaik 2000", "", "vesper does not have it yet")
         compare_time(comparison)

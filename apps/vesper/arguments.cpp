@@ -14,10 +14,26 @@ bool ends_with(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-void check_folder(const std::string& option, const std::string& file) {
+// One name for each file, whatever links and dots lead to it.
+static std::string true_name(const std::string& file) {
+    std::error_code failed;
+    const std::filesystem::path name = std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
+    return failed ? file : name.string();
+}
+
+void Files::reads(const std::string& file) {
+    if (!file.empty()) read_.insert(true_name(file));
+}
+
+void Files::writes(const std::string& option, const std::string& file) {
+    if (file.empty()) return;
+    const std::string place = option + " " + one_line(file) + ": ";
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw Error(option + " " + file + ": there is no folder " + folder.string());
+    std::error_code failed;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, failed)) throw Error(place + "there is no folder " + one_line(folder.string()));
+    const std::string name = true_name(file);
+    if (read_.contains(name)) throw Error(place + "would replace what is read");
+    if (!written_.insert(name).second) throw Error(place + "would be written twice");
 }
 
 CLI::Validator between(double low, double high) {

@@ -1,6 +1,7 @@
 // What the commands share: checks of arguments, texts. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <set>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -8,8 +9,17 @@
 namespace vesper {
 
 bool ends_with(const std::string& text, const std::string& end);
-/// Throws Error unless the folder that `file` is to be written to exists.
-void check_folder(const std::string& option, const std::string& file);
+/// The files of a command: no output may replace an input or another output.
+class Files {
+public:
+    /// Everything that is read is named first. An empty name is no file.
+    void reads(const std::string& file);
+    /// Throws Error if the folder that `file` is to be written to does not exist, if the file is read or written twice.
+    void writes(const std::string& option, const std::string& file);
+
+private:
+    std::set<std::string> read_, written_;
+};
 /// A number in a range; not-a-number is in none.
 CLI::Validator between(double low, double high);
 

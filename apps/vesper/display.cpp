@@ -50,7 +50,9 @@ void run_patterns(PatternArguments& a) {
 
 void run_fit(const FitArguments& a) {
     if (!ends_with(a.output, ".json")) throw Error("-o " + one_line(a.output) + ": a .json file is expected");
-    check_folder("-o", a.output);
+    Files files;
+    files.reads(a.measurements);
+    files.writes("-o", a.output);
     const auto measured = read_display_measurements(a.measurements, a.bits);
     DisplayFit fit;
     try {

@@ -48,11 +48,11 @@ Kind kind_of(const std::string& file) {
 }
 
 void run(const InspectArguments& a) {
-    if (!a.json.empty()) check_folder("--json", a.json);
-    if (!a.picture.empty()) {
-        if (!ends_with(a.picture, ".png")) throw Error("-o " + a.picture + ": a .png file is expected");
-        check_folder("-o", a.picture);
-    }
+    Files files;
+    files.reads(a.file);
+    files.writes("--json", a.json);
+    if (!a.picture.empty() && !ends_with(a.picture, ".png")) throw Error("-o " + a.picture + ": a .png file is expected");
+    files.writes("-o", a.picture);
     const Kind kind = kind_of(a.file);
     const auto only = [&](bool given, Kind wanted, const char* what) {
         if (given && kind != wanted) throw Error(what);

@@ -157,8 +157,10 @@ void run(const MergeArguments& arguments) {
         throw Error(std::to_string(arguments.images.size()) + " picture(s): 2 to " + std::to_string(kMaxExposures) + " can be merged");
     if (!arguments.luminance.empty() && arguments.scale > 0) throw Error("--luminance and --scale exclude one another");
     if (std::filesystem::path(arguments.output).extension() != ".exr") throw Error("-o " + one_line(arguments.output) + ": a .exr file is expected");
-    check_folder("-o", arguments.output);
-    if (!arguments.response.empty()) check_folder("--response", arguments.response);
+    Files files;
+    for (const std::string& image : arguments.images) files.reads(image);
+    files.writes("-o", arguments.output);
+    files.writes("--response", arguments.response);
     const KnownLuminance known = arguments.luminance.empty() ? KnownLuminance{} : parse_luminance(arguments.luminance);
 
     std::vector<Exposure> exposures = read_exposures(arguments);

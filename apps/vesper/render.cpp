@@ -107,14 +107,17 @@ void check_arguments(RenderArguments& arguments) {
     RenderSettings& settings = arguments.settings;
     static_cast<ToneChainSettings&>(settings) = tone_settings(arguments.tone);
     settings.paper_lambert = arguments.lambert == "paper";
+    Files files;
+    files.reads(arguments.scene);
+    files.reads(arguments.replay_file);
     for (const std::string& output : arguments.outputs) {
         const bool exr = ends_with(output, ".exr");
         if (!exr && !ends_with(output, ".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
         if (exr && settings.tone_operator == Operator::Ldr) throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
-        check_folder("-o", file_of_frame(output, 0, arguments.frames));
+        files.writes("-o", file_of_frame(output, 0, arguments.frames));
     }
-    if (!arguments.statistics_file.empty()) check_folder("--stats-json", arguments.statistics_file);
-    if (!arguments.log_file.empty()) check_folder("--log", arguments.log_file);
+    files.writes("--stats-json", arguments.statistics_file);
+    files.writes("--log", arguments.log_file);
     if (arguments.outputs.empty() && arguments.log_file.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan)
         throw Error("nothing to do: give -o, --stats, --stats-json, --log or --plan");
 }

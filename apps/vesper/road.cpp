@@ -21,10 +21,14 @@ struct RoadArguments {
 };
 
 void run(const RoadArguments& arguments) {
+    Files files;
+    files.reads(arguments.layout);
     for (const std::string& file : arguments.pictures) {
         if (!ends_with(file, ".png") && !ends_with(file, ".exr")) throw Error("--render " + file + ": a .png or .exr file is expected");
-        check_folder("--render", file);
+        files.writes("--render", file);
     }
+    files.writes("--csv", arguments.csv);
+    files.writes("--json", arguments.json);
     if (!arguments.device.empty() && arguments.pictures.empty()) throw Error("--device has a meaning only beside --render");
     const RoadFile file = read_road(arguments.layout, arguments.overrides);
     const RoadResult result = calculate_road(file.layout);

@@ -124,8 +124,9 @@ std::vector<std::string> write_test_patterns(const std::string& folder, const Pa
         save(format("patch-%04u.png", code), patch(settings, code));
         table += std::to_string(code) + ",\n";
     }
+    // What somebody has filled in is kept.
     names.push_back((std::filesystem::path(folder) / "measurements.csv").string());
-    write_text(names.back(), table);
+    if (!std::filesystem::exists(names.back())) write_text(names.back(), table);
     return names;
 }
 

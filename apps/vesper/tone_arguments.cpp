@@ -37,7 +37,7 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
     command.add_option("--glare", a.glare, "ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr"}))->capture_default_str();
     command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
     command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
-    command.add_option("--key", a.tone.key, "Reinhard: what the log average is shown as, relative to white")->check(between(1e-4, 10.0))->capture_default_str();
+    command.add_option("--key", a.tone.key, "Reinhard: what the log average is scaled to, relative to white, before compression")->check(between(1e-4, 10.0))->capture_default_str();
     command.add_flag("--automatic", a.tone.automatic, "reinhard: key and white from the frame (Reinhard 2003)");
     command.add_option("--log-epsilon", a.tone.log_epsilon, "reinhard: added to luminance before logarithms, cd/m^2 (his program: 1e-5; default: none, but not below 1e-4)")->check(between(0.0, 1.0));
     command.add_option("--rod-constant", a.tone.rod_constant, "pattanaik: constant of the rods (pfstmo_pattanaik00: 5e4)")->check(between(1.0, 1e9))->capture_default_str();

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <set>
 
 #include "arguments.h"
 #include "base/error.h"
@@ -58,14 +57,13 @@ std::string output_of(const std::string& output, const std::string& input, unsig
 }
 
 void check_outputs(const Plan& plan) {
-    std::set<std::string> seen;
+    Files files;
+    for (const Job& job : plan.jobs) files.reads(job.input);
+    files.writes("-o", plan.film);
     for (const Job& job : plan.jobs)
         for (const std::string& output : job.outputs) {
             if (!ends_with(output, ".png") && !ends_with(output, ".exr")) throw Error("-o " + one_line(output) + ": a .png, .exr or .mp4 file or a folder is expected");
-            check_folder("-o", output);
-            std::error_code none;
-            if (fs::equivalent(output, job.input, none)) throw Error("-o " + one_line(output) + ": is the picture itself");
-            if (!seen.insert(output).second) throw Error("-o " + one_line(output) + ": would be written twice, for " + one_line(job.input) + " again");
+            files.writes("-o", output);
         }
 }
 
@@ -88,7 +86,7 @@ Plan plan_of(const TonemapArguments& arguments) {
         Job job{files[i].file, {}, 0};
         const unsigned missing = plan.sequence && i > 0 ? files[i].number - files[i - 1].number - 1 : 0;
         if (plan.sequence && i > 0) job.seconds = (missing + 1) / plan.fps;  // missing frames take their time
-        if (missing > 0) std::fprintf(stderr, "note: %u pictures are missing before %s\n", missing, one_line(files[i].file).c_str());
+        if (missing > 0) std::fprintf(stderr, "note: %u %s before %s\n", missing, missing == 1 ? "picture is missing" : "pictures are missing", one_line(files[i].file).c_str());
         for (const std::string& output : arguments.outputs) {
             if (!ends_with(output, ".mp4"))
                 job.outputs.push_back(output_of(output, files[i].file, files[i].number, files.size() == 1));
@@ -99,10 +97,7 @@ Plan plan_of(const TonemapArguments& arguments) {
         }
         plan.jobs.push_back(std::move(job));
     }
-    if (!plan.film.empty()) {
-        check_folder("-o", plan.film);
-        if (!plan.sequence) throw Error("-o " + one_line(plan.film) + ": a film is made of a sequence: give frame.%04d.exr, or --fps");
-    }
+    if (!plan.film.empty() && !plan.sequence) throw Error("-o " + one_line(plan.film) + ": a film is made of a sequence: give frame.%04d.exr, or --fps");
     check_outputs(plan);
     return plan;
 }

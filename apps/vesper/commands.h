@@ -16,5 +16,6 @@ void add_merge(CLI::App& program);
 void add_inspect(CLI::App& program);
 void add_tonemap(CLI::App& program);
 void add_display(CLI::App& program);
+void add_study(CLI::App& program);
 
 }  // namespace vesper

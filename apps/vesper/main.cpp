@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
     vesper::add_inspect(program);
     vesper::add_tonemap(program);
     vesper::add_display(program);
+    vesper::add_study(program);
     CLI::App* devices = program.add_subcommand("devices", "List the Vulkan devices of this machine");
     devices->callback([] {
         for (const std::string& line : vesper::list_devices()) std::puts(line.c_str());

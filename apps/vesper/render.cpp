@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
+#include "picture_arguments.h"
 #include "progress.h"
 #include "renderer.h"
 #include "scene/gltf.h"
@@ -29,14 +30,6 @@ struct RenderArguments {
     double dt = 1.0 / 30, start = 0;
     bool statistics = false, plan = false;
 };
-
-VkExtent2D parse_size(const std::string& text) {
-    unsigned width = 0, height = 0;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%5ux%5u%c", &width, &height, &rest) != 2 || width < 1 || height < 1 || width > 16384 || height > 16384)
-        throw Error("--size " + text + ": expected WIDTHxHEIGHT, 1x1 to 16384x16384");
-    return {width, height};
-}
 
 // The file of one frame of several: %04d is replaced by its number, or the number is put before the extension.
 std::string file_of_frame(const std::string& pattern, unsigned index, unsigned frames) {

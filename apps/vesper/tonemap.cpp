@@ -11,6 +11,7 @@
 #include "io/atomic_file.h"
 #include "io/hdr_image.h"
 #include "numbered_files.h"
+#include "picture_arguments.h"
 #include "progress.h"
 #include "tone_arguments.h"
 #include "tone_mapper.h"
@@ -21,7 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDefaultFov = 40;  // degrees of height
 constexpr size_t kMaxPictures = 1000000;
 
 struct TonemapArguments {
@@ -102,22 +102,9 @@ Plan plan_of(const TonemapArguments& arguments) {
     return plan;
 }
 
-/// Degrees of height: as given, as Vesper's own pictures say, or a guess.
-double fov_of(const TonemapArguments& arguments, const HdrImage& image) {
-    if (arguments.fov > 0) return arguments.fov;
-    for (const auto& [key, value] : image.header) {
-        double left = 0, bottom = 0, right = 0, top = 0;
-        if (key == "vesper:tangents" && std::sscanf(value.c_str(), "%lf %lf %lf %lf", &left, &bottom, &right, &top) == 4) {
-            const double degrees = (std::atan(top) - std::atan(bottom)) * 180 / std::numbers::pi;
-            if (degrees >= 0.1 && degrees <= 170) return degrees;
-        }
-    }
-    return kDefaultFov;
-}
-
 struct Shown {
     ToneMapped picture;
-    double scale = 1, fov = kDefaultFov;
+    double scale = 1, fov = 0;
     bool absolute = false;
 };
 
@@ -125,8 +112,8 @@ Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings,
     const HdrImage image = read_hdr_image(job.input);
     Shown shown;
     shown.absolute = arguments.scale > 0 || image.white_luminance > 0;
-    shown.scale = arguments.scale > 0 ? arguments.scale : image.white_luminance > 0 ? image.white_luminance : 1;
-    shown.fov = fov_of(arguments, image);
+    shown.scale = scale_of_picture(image, arguments.scale);
+    shown.fov = fov_of(image, arguments.fov);
     Outputs outputs{.display = wants_codes, .scene = false, .light = false};
     for (const std::string& output : job.outputs) (ends_with(output, ".png") ? outputs.display : outputs.light) = true;
     try {

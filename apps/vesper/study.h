@@ -1,0 +1,65 @@
+// Studies of the tone operators: what their settings do to pictures. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "line_plot.h"
+#include "progress.h"
+#include "study_page.h"
+#include "study_picture.h"
+#include "tone_arguments.h"
+#include "tone_mapper.h"
+
+namespace vesper {
+
+struct StudyArguments {
+    std::vector<std::string> inputs;
+    std::string folder, device;
+    PictureSource source;
+    double outside = 5000, inside = 50, seconds = 300;  ///< cd/m^2, s; of the tunnel
+    double contrast = 0.3, minutes = 10;                ///< of the target: (Lt - Lb) / Lb; diameter, arc minutes
+    ToneArguments tone;
+};
+
+/// What every study works with.
+struct Study {
+    const StudyArguments& arguments;
+    ToneChainSettings settings;
+    ToneMapper& mapper;
+    const std::vector<StudyPicture>& pictures;
+    StudyPage page;
+
+    std::string file(const std::string& name) const { return arguments.folder + "/" + name; }
+    /// The picture as an eye adapted to it sees it.
+    ToneMapped map(const StudyPicture& picture, const ToneChainSettings& with) const;
+};
+
+/// Operators that a study compares: the one given, which has to be among `candidates`, or all of those. Throws Error.
+std::vector<Operator> studied_operators(const StudyArguments&, const std::vector<Operator>& candidates, const std::string& why);
+/// Those that adjust the histogram.
+std::vector<Operator> histogram_operators();
+
+/// Luminances that a picture holds, cd/m^2, in equal steps of the logarithm.
+std::vector<double> luminances_of(const StudyPicture&);
+
+/// Codes that greys of these luminances are shown with, fractions of a code included.
+std::vector<double> curve_codes(const ToneMapped&, Operator, const Display&, const std::vector<double>& luminances);
+
+/// What changes between two settings.
+struct Difference {
+    double curve = 0;   ///< largest difference of the curves over the luminances of the picture, codes
+    double largest = 0, percentile = 0, mean = 0;  ///< of the pixels (their worst channel): largest, 99th percentile, mean, codes
+    std::vector<float> map;  ///< of every pixel, codes
+};
+Difference difference(const ToneMapped& from, const ToneMapped& to, const Display&);
+double largest_difference(const std::vector<double>&, const std::vector<double>&);
+
+/// Each study writes its files and fills the page.
+void study_bins(Study&);
+void study_adaptation(Study&);
+void study_mip(Study&);
+void study_operators(Study&);
+
+}  // namespace vesper

@@ -1,0 +1,118 @@
+// Study: step responses of the operators that remember, into a tunnel and out of it. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "arguments.h"
+#include "passes/shown.h"
+#include "perception/pattanaik.h"
+#include "study.h"
+
+namespace vesper {
+namespace {
+
+const std::vector<std::string> kColumns{"operator", "step", "seconds", "luminance", "pigment", "sigma", "threshold", "threshold_ratio", "shown"};
+
+std::vector<Operator> remembering() {
+    std::vector<Operator> found;
+    for (const OperatorInfo& op : operators())
+        if (op.remembers) found.push_back(op.tone_operator);
+    return found;
+}
+
+/// 0.01 s and on, ten to a decade.
+std::vector<double> moments(double until) {
+    std::vector<double> times;
+    for (double decade = 0.01; decade <= until; decade *= 10)
+        for (const double factor : {1.0, 1.25, 1.6, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+            if (factor * decade <= until * (1 + 1e-9)) times.push_back(factor * decade);
+    return times;
+}
+
+/// How visible small differences are at a luminance in the state of the eye.
+struct Sensitivity {
+    double pigment = 0, sigma = 0;
+    std::optional<double> threshold;  ///< cd/m^2, where the model has one
+    double ratio = 1;                 ///< threshold over that of the eye adapted to this luminance
+};
+
+Sensitivity of_eye(const ToneMapped& got, const Observer& observer, double luminance) {
+    const ReceptorModel cones(ReceptorKind::Cones, observer.observed_cones());
+    const double sigma = double(got.curve.cone_sigma), threshold = cones.threshold(luminance, sigma);
+    return {double(got.eye.cones.pigment), sigma, threshold, threshold / cones.adapted_threshold(luminance)};
+}
+
+/// Pattanaik et al. have responses and no threshold: a constant step of the cones' response p x / (1 + x), x = (L / sigma)^0.73,
+/// needs a difference in inverse proportion to its slope.
+Sensitivity of_lagging(const ToneMapped& got, double luminance) {
+    const auto slope = [&](double adaptation, double pigment) {
+        constexpr double kExponent = 0.73;
+        const double x = std::pow(luminance / pattanaik::cone_sigma(adaptation), kExponent);
+        return pigment * kExponent * x / (luminance * (1 + x) * (1 + x));
+    };
+    const double adaptation = double(got.eye.lagging.cones), pigment = double(got.eye.lagging.cone_pigment);
+    const pattanaik::State adapted = pattanaik::adapted(luminance);
+    return {pigment, pattanaik::cone_sigma(adaptation), {}, slope(adapted.cones, adapted.cone_pigment) / slope(adaptation, pigment)};
+}
+
+/// A field of one luminance, whose curve says what anything would be shown as.
+ToneMapped look(Study& study, const ToneChainSettings& settings, double luminance, double seconds) {
+    constexpr uint32_t kSide = 16;
+    const std::vector<float> values(size_t{3} * kSide * kSide, float(luminance));
+    return study.mapper.map(settings, {.extent = {kSide, kSide}, .values = values}, float(seconds), {.display = false});
+}
+
+struct Step {
+    const char* name;
+    double from, to;  ///< cd/m^2
+};
+
+}  // namespace
+
+void study_adaptation(Study& study) {
+    const StudyArguments& a = study.arguments;
+    const std::vector<Operator> ops = studied_operators(a, remembering(), "it remembers nothing");
+    const std::vector<double> times = moments(a.seconds);
+    const Step steps[]{{"in", a.outside, a.inside}, {"out", a.inside, a.outside}};
+    std::vector<std::vector<std::string>> rows;
+    Progress progress("adaptation", unsigned(ops.size() * std::size(steps)));
+    for (const Step& step : steps) {
+        const std::string title = format("From %g to %g cd/m\u00b2", step.from, step.to), name = std::string("adaptation-") + step.name;
+        LinePlot ratio{.title = title + ": threshold over that of the adapted eye", .x_name = "s", .y_name = "threshold, times the adapted one", .lines = {}, .log_x = true, .log_y = true, .rule = 1};
+        LinePlot sigma{.title = title + ": half saturation of the cones", .x_name = "s", .y_name = "\u03c3, cd/m\u00b2", .lines = {}, .log_x = true, .log_y = true};
+        LinePlot shown{.title = title + ": what the new luminance is shown as", .x_name = "s", .y_name = "cd/m\u00b2 on the display", .lines = {}, .log_x = true};
+        for (const Operator op : ops) {
+            ToneChainSettings settings = study.settings;
+            settings.tone_operator = op;
+            const OperatorInfo& info = operator_info(op);
+            for (LinePlot* plot : {&ratio, &sigma, &shown}) plot->lines.push_back({.name = name_of(op), .points = {}, .dashed = plot->lines.size() > 1});  // thresholds of two may be the same
+            study.mapper.reset_adaptation();
+            look(study, settings, step.from, 0);
+            double before = 0;
+            for (const double t : times) {
+                const ToneMapped got = look(study, settings, step.to, t - before);
+                before = t;
+                const Sensitivity s = info.model == shared::kModelLagging ? of_lagging(got, step.to) : of_eye(got, settings.tone.observer, step.to);
+                const double light = shown_luminance(got.curve, info.form, step.to, settings.display);
+                ratio.lines.back().points.push_back({t, s.ratio});
+                sigma.lines.back().points.push_back({t, s.sigma});
+                shown.lines.back().points.push_back({t, light});
+                rows.push_back({name_of(op), step.name, format("%g", t), format("%g", step.to), format("%.5f", s.pigment), format("%.6g", s.sigma),
+                                s.threshold ? format("%.6g", *s.threshold) : "", format("%.5g", s.ratio), format("%.5g", light)});
+            }
+            progress.step();
+        }
+        study.page.heading(title);
+        for (const auto& [plot, kind] : {std::pair{&ratio, "threshold"}, std::pair{&sigma, "sigma"}, std::pair{&shown, "shown"}}) {
+            save_plot(study.file(name + "-" + kind + ".png"), *plot);
+            study.page.plot(name + "-" + kind + ".png");
+        }
+    }
+    study.page.paragraph("The eye is adapted before each step. Thresholds are those of cones for small differences at the new luminance. Pattanaik et al. 2000 have no "
+                         "threshold: its ratio is the inverse ratio of slopes of the cones' response, so that a step of constant response is seen.");
+    write_text(study.file("adaptation.csv"), csv_of(kColumns, rows));
+    study.page.heading("All figures");
+    study.page.table(kColumns, rows);
+}
+
+}  // namespace vesper

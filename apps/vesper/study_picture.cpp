@@ -1,0 +1,72 @@
+#include "study_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "picture_arguments.h"
+#include "renderer.h"
+#include "scene/gltf.h"
+#include "shared/photometry.h"
+
+namespace vesper {
+namespace {
+
+bool is_scene(const std::string& name) { return ends_with(name, ".gltf") || ends_with(name, ".glb"); }
+
+/// Renders the scene once.
+StudyPicture rendered(const PictureSource& arguments, Device& device, const ToneChainSettings& settings, const std::string& input) {
+    const VkExtent2D extent = parse_size(arguments.size);
+    LoadedScene loaded = read_gltf(input);
+    for (const std::string& note : loaded.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+    loaded.scene.name = input;
+    const SceneFrame frame{world_transforms(loaded.scene, arguments.start)};
+    const View view = camera_view(loaded.scene, frame, arguments.camera, extent);
+    Renderer renderer(device, loaded.scene);
+    RenderSettings render;
+    static_cast<ToneChainSettings&>(render) = settings;
+    Frame made = renderer.render(render, view, frame, 0, {.display = false, .scene = true});
+    StudyPicture picture{.name = {}, .extent = extent, .values = std::move(made.scene), .channels = 4};
+    picture.vertical_fov = double(std::atan(view.tangent_high.y) - std::atan(view.tangent_low.y));
+    return picture;
+}
+
+StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
+    HdrImage image = read_hdr_image(input);
+    if (!(arguments.scale > 0) && !(image.white_luminance > 0))
+        std::fprintf(stderr, "note: %s: its header names no unit: taken as cd/m^2 (--scale tells another)\n", one_line(input).c_str());
+    return {.name = {},
+            .extent = {image.width, image.height},
+            .values = std::move(image.rgb),
+            .channels = 3,
+            .scale = float(scale_of_picture(image, arguments.scale)),
+            .vertical_fov = fov_of(image, arguments.fov) * std::numbers::pi / 180};
+}
+
+/// Looks for the darkest and the brightest light.
+void measure(StudyPicture& picture, const std::string& input) {
+    picture.darkest = HUGE_VAL;
+    for (size_t i = 0; i < picture.values.size(); i += picture.channels) {
+        const float* rgb = &picture.values[i];
+        const double l = double(picture.scale * (shared::kRed * rgb[0] + shared::kGreen * rgb[1] + shared::kBlue * rgb[2]));
+        if (!(l > 0) || !std::isfinite(l)) continue;
+        picture.darkest = std::min(picture.darkest, l), picture.brightest = std::max(picture.brightest, l);
+    }
+    if (!(picture.brightest > 0)) throw Error(one_line(input) + ": there is no light in the picture");
+    picture.darkest = std::max({picture.darkest, 1e-4, picture.brightest * 1e-12});
+    picture.brightest = std::max(picture.brightest, picture.darkest);
+}
+
+}  // namespace
+
+StudyPicture read_study_picture(const PictureSource& arguments, Device& device, const ToneChainSettings& settings, const std::string& input) {
+    StudyPicture picture = is_scene(input) ? rendered(arguments, device, settings, input) : loaded(arguments, input);
+    measure(picture, input);
+    return picture;
+}
+
+}  // namespace vesper

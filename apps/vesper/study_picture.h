@@ -1,0 +1,35 @@
+// Pictures to study: files, or scenes that are rendered once. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tone_mapper.h"
+
+namespace vesper {
+
+/// A picture under study, on the host.
+struct StudyPicture {
+    std::string name;           ///< what its files begin with
+    VkExtent2D extent{};
+    std::vector<float> values;  ///< rows from the top
+    uint32_t channels = 3;      ///< 3, or 4 with alpha that is ignored
+    float scale = 1;            ///< cd/m^2 per unit
+    double vertical_fov = 0.7;  ///< rad
+    double darkest = 0, brightest = 0;  ///< luminance of pixels with light, cd/m^2
+
+    HostPicture host() const { return {extent, values, channels, scale, vertical_fov}; }
+};
+
+/// How pictures are read and scenes are rendered.
+struct PictureSource {
+    std::string camera, size = "1680x1050";   ///< of a scene
+    double start = 0;                         ///< s, of a scene
+    double scale = 0;                         ///< cd/m^2 of a picture's 1.0; 0: as its file says, or 1
+    double fov = 0;                           ///< angle a picture covers in height, degrees; 0: as its file says, or 40
+};
+
+/// A picture without a name. Prints notes. Throws Error if it cannot be read or is black.
+StudyPicture read_study_picture(const PictureSource&, Device&, const ToneChainSettings&, const std::string& input);
+
+}  // namespace vesper

@@ -28,7 +28,7 @@ std::vector<std::string> check_arguments(const StudyArguments& arguments) {
     }
     parse_size(arguments.source.size);
     if (!fs::is_directory(arguments.folder)) {
-        check_folder("-o", fs::path(arguments.folder).lexically_normal().string());
+        Files().writes("-o", fs::path(arguments.folder).lexically_normal().string());
         if (fs::exists(arguments.folder)) throw Error("-o " + one_line(arguments.folder) + ": is not a folder");
     }
     return names;

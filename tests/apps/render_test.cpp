@@ -106,6 +106,16 @@ TEST_F(Program, HasThePresetOfThePaper) {
     EXPECT_NE(report.find("16x8"), std::string::npos) << "--size was given";
 }
 
+TEST_F(Program, NeverReplacesWhatItReadsOrWrites) {
+    ASSERT_EQ(render("-o a.png --log log.csv"), 0) << said;
+    const std::string scene = text_of(folder / "empty.gltf"), log = text_of(folder / "log.csv");
+    for (const char* arguments : {"-o a.png --log empty.gltf", "-o a.png --stats-json ./empty.gltf", "-o a.png --replay log.csv --log log.csv",
+                                  "-o a.png --log ./a.png", "-o a.png -o a.png", "-o a.png --log b --stats-json b"})
+        expect_refused(arguments);
+    EXPECT_EQ(text_of(folder / "empty.gltf"), scene);
+    EXPECT_EQ(text_of(folder / "log.csv"), log);
+}
+
 TEST_F(Program, RefusesWhatCannotBeInOneLine) {
     for (const char* arguments : {"", "-o a.tiff", "-o none/a.png", "-o a.png --stats-json none/a.json", "-o a.png --operator foo", "-o a.exr --operator ldr",
                                   "-o a.png --threshold nan", "-o a.png --dt nan", "-o a.png --frames 0", "-o a.png --frames 2 -o b%99d.png",

@@ -178,7 +178,8 @@ TEST_F(TonemapProgram, RefusesInOneLine) {
     write_layout(folder / "a.exr", uniform(4, 4, 1), {.white_luminance = 1});
     fs::copy(folder / "a.exr", folder / "b.exr");
     fs::create_directory(folder / "all");
-    for (const char* arguments : {"a.exr", "a.exr -o a.tiff", "a.exr -o none/a.png", "a.exr -o none/", "a.exr b.exr -o x.png", "a.exr b.exr -o x.mp4", "a.exr -o x.mp4",
+    fs::copy(folder / "a.exr", folder / "n.0000.exr"), fs::copy(folder / "a.exr", folder / "n.0001.exr");
+    for (const char* arguments : {"n.0001.exr n.0000.exr -o n.%04d.exr", "n.%04d.exr -o n.%04d.exr", "a.exr", "a.exr -o a.tiff", "a.exr -o none/a.png", "a.exr -o none/", "a.exr b.exr -o x.png", "a.exr b.exr -o x.mp4", "a.exr -o x.mp4",
                                   "f.%d.exr -o x.%d.png", "f.%s.exr -o x.png", "a.exr f.%d.exr -o x.%d.png", "a.exr -o x.%d.%d.png", "a.exr a.exr -o all", "a.exr -o x.png -o x.png", "a.exr -o a.exr", "a.exr b.exr -o ./%d.exr -o a.exr",
                                   "a.exr -o x.png --scale 0", "a.exr -o x.png --scale nan", "a.exr -o x.png --fov 180", "a.exr -o x.png --fps -1", "a.exr -o x.png --operator foo",
                                   "a.exr -o x.png --display foo", "a.exr -o x.png --foveal-level 9", "a.exr -o x.png --histogram-low 5 --histogram-high 5", "a.exr --fps 5 -o x.mp4 -o y.mp4", "a.exr -o x.png --device nowhere"})

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "arguments.h"
-#include "passes/shown.h"
 #include "perception/pattanaik.h"
+#include "shown.h"
 #include "study.h"
 
 namespace vesper {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "passes/shown.h"
+#include "shown.h"
 #include "study.h"
 
 namespace vesper {

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "arguments.h"
-#include "passes/shown.h"
 #include "perception/visibility.h"
 #include "shared/photometry.h"
+#include "shown.h"
 #include "study.h"
 
 namespace vesper {

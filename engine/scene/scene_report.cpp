@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "scene/colour.h"
-#include "scene/photometry.h"
+#include "scene/light.h"
 #include "scene/reflectance.h"
 #include "scene/scene_warnings.h"
 

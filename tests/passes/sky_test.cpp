@@ -5,6 +5,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "resident/sky.h"
 #include "support/shading.h"
 
 namespace vesper::test {

@@ -35,4 +35,8 @@ double scale_of_picture(const HdrImage& image, double given) {
     return given > 0 ? given : image.white_luminance > 0 ? image.white_luminance : 1;
 }
 
+void note_unknown_unit(const std::string& file) {
+    std::fprintf(stderr, "note: %s: its header names no unit: taken as cd/m^2 (--scale tells another)\n", one_line(file).c_str());
+}
+
 }  // namespace vesper

@@ -17,5 +17,7 @@ double fov_of(const HdrImage& image, double given);
 
 /// cd/m^2 of a picture's 1.0: as given (0: not), as the file says, or 1.
 double scale_of_picture(const HdrImage& image, double given);
+/// Says on standard error that neither told.
+void note_unknown_unit(const std::string& file);
 
 }  // namespace vesper

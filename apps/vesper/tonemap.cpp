@@ -145,7 +145,7 @@ void write_outputs(const ToneChainSettings& settings, const Device& device, cons
 
 void report(const TonemapArguments& arguments, const Job& job, const Shown& shown, bool first) {
     const ToneMapped& p = shown.picture;
-    if (!shown.absolute && first) std::fprintf(stderr, "note: %s: its header names no unit: taken as cd/m^2 (--scale tells another)\n", one_line(job.input).c_str());
+    if (!shown.absolute && first) note_unknown_unit(job.input);
     if (p.histogram.non_finite > 0)
         std::fprintf(stderr, "note: %s: %u of %u pixels are not finite and shown black\n", one_line(job.input).c_str(), p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite);
     if (!arguments.statistics) return;

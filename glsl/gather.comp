@@ -33,6 +33,7 @@ layout(push_constant, scalar) uniform Push { GatherPush push; };
 
 const uint kNodes = 9u, kPoints = 13u;             // nodes, then the points between
 const float kHalf = 0.5 * float(kBlockSize - 1u);  // px, from the middle of a block to its outer nodes
+const float kWidestCone = 0.35;                    // rad
 const float kMostTilt = 3e-4, kMostLift = 2e-4;    // of a plane's pixels: rad; and of their distance from the eye
 
 bool drawn, paved, glossy, retro;  // whether anything, some road, some specular lobe, some sheet is drawn
@@ -40,6 +41,7 @@ bool plane;                        // whether all of it is one plane of one kind
 vec3 normal;
 vec3 points[kPoints];              // m
 Road roads[kPoints];
+float radius;                      // of the points around the middle one, m
 vec3 sum[kNodes];                  // see shared/gather.h
 
 // Where a node or point is, from -1 to 1 between the outer nodes.
@@ -81,6 +83,7 @@ void look_at_block(uvec2 corner) {
         points[k] = ray * depth;
         if (kRoads != 0u) roads[k] = road_at(kind, normal, -normalize(points[k]), push.roads);
     }
+    radius = max(max(distance(points[0], points[4]), distance(points[2], points[4])), max(distance(points[6], points[4]), distance(points[8], points[4])));
 }
 
 // The value of the polynomial at a point between the nodes.
@@ -93,11 +96,21 @@ float between(float value[kPoints], uint k) {
     return (top ? near : far) * row[0] + middle * row[1] + (top ? far : near) * row[2];
 }
 
+// How wide a cone of directions may be, as an angle from its axis, rad, for the points to show all that is in it: a beam is not narrower than
+// that; a map's cells lie as densely as points do; and a lamp is not so near that its peak fits between them.
+float widest_cone(Lamp lamp, bool cone) {
+    float beam = kPi;
+    if (cone) beam = lamp.lobe_a > 0.0 ? arccos(clamp(-lamp.lobe_b / lamp.lobe_a, -1.0, 1.0)) : kPi;
+    if (!cone && kPowers != 0u) beam = inversesqrt(max(lamp.lobe_a, 0.1));  // where cos^n is still exp(-1/2)
+    if (!cone && kMaps != 0u) beam = lamp.measured ? 4.0 / max(abs(lamp.grid.x), abs(lamp.grid.z)) : beam;
+    return min(0.5 * beam, kWidestCone);
+}
+
 // Adds a lamp if it is smooth over the plane. Returns whether it stays on the list.
 bool remains(Lamp lamp, bool cone) {
     float value[kPoints];
     bool all_count = true, none_counts = true;
-    float least = 1e30;
+    float least = 1e30, nearest = 0.0;  // the inverse of a distance
     [[unroll]] for (uint k = 0u; k < kPoints; ++k) {
         const vec3 to = lamp.position - points[k];
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
@@ -111,12 +124,14 @@ bool remains(Lamp lamp, bool cone) {
         all_count = all_count && counts_here;
         none_counts = none_counts && !counts_here;
         least = min(least, value[k]);
+        nearest = max(nearest, inverse);
     }
     float error = 0.0;
     [[unroll]] for (uint k = kNodes; k < kPoints; ++k) error = max(error, abs(between(value, k) - value[k]));
-    const bool taken = all_count && error <= push.tolerance * least;
+    const bool resolved = radius * nearest <= widest_cone(lamp, cone);
+    const bool taken = resolved && all_count && error <= push.tolerance * least;
     [[unroll]] for (uint k = 0u; k < kNodes; ++k) sum[k] += lamp.colour * (taken ? value[k] : 0.0);
-    return !(taken || none_counts);
+    return !(taken || (resolved && none_counts));
 }
 
 // Gathers a block's lamps. Returns whether any is left on its list.

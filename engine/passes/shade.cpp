@@ -6,13 +6,7 @@
 namespace vesper {
 namespace {
 
-constexpr uint32_t kBlockCapacity = 256;  // lights of a block of pixels; more, and it looks at every light
-constexpr float kTolerance = 2e-3f;       // relative error of a lamp that is added up over a block
-
-constexpr uint64_t kWord = sizeof(uint32_t);
-constexpr VkFormat kWords = VK_FORMAT_R32_UINT;
-
-// What is in the blocks of a class, as bits of a shading kernel, beside what the frame has.
+// What is in the blocks of a class, as bits of a shading kernel, beside the lamps that the frame has.
 struct BlockClass {
     const char* name;
     uint32_t variant;
@@ -25,82 +19,38 @@ constexpr std::array<BlockClass, shared::kBlockClasses> kClasses{{
     {"shade paved listed", Kernels::kGathered | Kernels::kRoads | Kernels::kListed},
     {"shade glossy", Kernels::kGlossy | Kernels::kListed},
     {"shade glossy paved", Kernels::kGlossy | Kernels::kRoads | Kernels::kListed},
-    {"shade retro", Kernels::kRetro | Kernels::kGlossy | Kernels::kRoads | Kernels::kListed},
+    {"shade retro", Kernels::kRetro | Kernels::kGlossy | Kernels::kListed},
 }};
-
-// A class's words of the counts: no blocks yet.
-std::vector<uint32_t> empty_classes() {
-    std::vector<uint32_t> words;
-    for (uint32_t k = 0; k < shared::kBlockClasses; ++k) words.insert(words.end(), {0, 1, 1, 0});
-    static_assert(shared::kClassWords == 4);
-    return words;
-}
 
 }  // namespace
 
 Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g, const Clusters& clusters, const View& view, const ShadeSettings& settings) {
-    const Groups block_grid = cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
-    const uint32_t blocks = block_grid.x * block_grid.y;
-    const glm::uvec2 pixels{view.extent.width, view.extent.height};
-    const shared::LightCounts& lights = clusters.push.lights;
-
-    uint32_t frame = 0;  // what it has
-    if (lights.cones) frame |= Kernels::kCones;
-    if (lights.powers) frame |= Kernels::kPowers;
-    if (lights.maps) frame |= Kernels::kMaps;
-    if (clusters.maps.has_roads) frame |= Kernels::kRoads;
-    if (settings.retro) frame |= Kernels::kRetro;
-
-    const auto words = [&](const char* name, uint64_t count) { return graph.transient(name, buffer_shape(count * kWord, kWords)); };
-    const Resource counts = words("block counts", blocks * 2), entries = words("block entries", uint64_t(blocks) * kBlockCapacity);
-    const Kernel& select = kernels.select(frame);
-    graph.dispatch("select", select,
-                   {load(g.surface), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(counts), store(entries), sample(clusters.maps.texels)},
-                   shared::SelectPush{clusters.push, pixels, block_grid.x, kBlockCapacity},
-                   cover(block_grid.x, block_grid.y, select.group[0], select.group[1]));
-
-    const Resource no_blocks = graph.upload("no blocks", empty_classes(), kWords);
-    const Resource class_counts = words("class counts", shared::kBlockClasses * shared::kClassWords);
-    const Resource class_blocks = words("class blocks", uint64_t(blocks) * shared::kBlockClasses);
-    const Resource sums = graph.transient("block sums", buffer_shape(uint64_t(blocks) * shared::kGatherTexels * sizeof(glm::vec4), VK_FORMAT_R32G32B32A32_SFLOAT));
-    graph.copy("begin classes", no_blocks, class_counts);
-    const Kernel& gather = kernels.gather(frame);
-    graph.dispatch("gather", gather,
-                   {load(g.reflectance), load(g.surface), sample(clusters.lights), update(counts), update(entries), store(sums), sample(clusters.maps.texels),
-                    update(class_counts), store(class_blocks)},
-                   shared::GatherPush{.view = clusters.push, .size = pixels, .blocks_x = block_grid.x, .blocks_y = block_grid.y, .capacity = kBlockCapacity,
-                                      .roads = clusters.maps.roads, .tolerance = settings.all_lights ? -1 : kTolerance},
-                   cover(block_grid.x, block_grid.y, gather.group[0], 1));
-
-    shared::ShadePush push{.size = pixels,
+    const Blocks blocks = add_blocks(graph, kernels, g, clusters, view, settings.all_lights ? -1 : settings.gather_tolerance);
+    shared::ShadePush push{.size = {view.extent.width, view.extent.height},
                            .grid = clusters.push.grid,
-                           .lights = lights,
+                           .lights = clusters.push.lights,
                            .threshold = clusters.push.threshold,
                            .lambert = settings.lambert,
                            .emission_limit = settings.emission_limit,
                            .ambient = settings.ambient,
                            .sky = settings.sky,
-                           .blocks_x = block_grid.x,
-                           .capacity = kBlockCapacity,
+                           .blocks_x = blocks.columns,
+                           .capacity = blocks.capacity,
                            .roads = clusters.maps.roads,
-                           .blocks = blocks,
+                           .blocks = blocks.count,
                            .block_class = 0};
     const Resource retro = settings.retro ? settings.retro : clusters.maps.texels;  // the binding must hold something
-    constexpr uint32_t kSurfaces = Kernels::kRoads | Kernels::kRetro;  // of which a class without them needs none
-    for (const BlockClass& c : kClasses) {
-        if ((c.variant & Kernels::kRetro & ~frame) || (!(c.variant & Kernels::kRetro) && (c.variant & Kernels::kRoads & ~frame))) {
-            ++push.block_class;
-            continue;
-        }
-        uint32_t variant = (c.variant & ~kSurfaces) | (c.variant & frame & kSurfaces);
-        if (c.variant & Kernels::kListed) variant |= frame & (Kernels::kCones | Kernels::kPowers | Kernels::kMaps);
-        if (c.variant & Kernels::kListed && settings.all_lights) variant |= Kernels::kEveryLight;
-        const Arguments groups{class_counts, push.block_class * shared::kClassWords * kWord};
+    const uint32_t frame = frame_variant(clusters) | (settings.retro ? Kernels::kRetro : 0u);
+    for (push.block_class = 0; push.block_class < kClasses.size(); ++push.block_class) {
+        const BlockClass& c = kClasses[push.block_class];
+        if (c.variant & Kernels::kRoads & ~frame) continue;
+        // The last class has any surfaces; without classes of retroreflection a sheet is a glossy surface.
+        uint32_t variant = c.variant & Kernels::kRetro ? (c.variant & ~Kernels::kRetro) | (frame & (Kernels::kRetro | Kernels::kRoads)) : c.variant;
+        if (variant & Kernels::kListed) variant |= (frame & (Kernels::kCones | Kernels::kPowers | Kernels::kMaps)) | (settings.all_lights ? Kernels::kEveryLight : 0u);
         graph.dispatch(c.name, kernels.shade(variant),
-                       {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(counts), sample(entries), sample(clusters.maps.texels),
-                        sample(retro), sample(sums), sample(class_counts), sample(class_blocks)},
-                       push, groups);
-        ++push.block_class;
+                       {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(blocks.counts), sample(blocks.entries),
+                        sample(clusters.maps.texels), sample(retro), sample(blocks.sums), sample(blocks.class_counts), sample(blocks.class_blocks)},
+                       push, Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
     }
     return g.emission;
 }

@@ -15,6 +15,9 @@ constexpr Primaries kDisplayP3{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {
 constexpr Primaries kRec2020{{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}};
 constexpr Primaries kXyz{{1, 0}, {0, 1}, {0, 0}, {1.0 / 3, 1.0 / 3}};
 
+/// Whether white lies inside the triangle of the primaries, so that they can make it.
+bool make_white(const Primaries&);
+
 /// Colours of these primaries as Rec. 709: the same X, Y and Z, with Y(1, 1, 1) = 1 on both sides (SMPTE RP 177). No
 /// adaptation to white. Throws Error if the primaries span no volume.
 glm::dmat3 to_rec709(const Primaries&);

@@ -17,7 +17,8 @@ namespace {
 // The floats of EyeState before the shares, in order.
 constexpr const char* kStateNames[]{"adaptation", "eye_seconds", "cone_pigment", "cone_fast", "cone_slow", "rod_pigment",
                                     "rod_fast",   "rod_slow",    "ln_placed",    "bins",      "ln_low",    "bins_per_ln",
-                                    "lagging_cones", "lagging_rods", "lagging_cone_pigment", "lagging_rod_pigment"};
+                                    "lagging_cones", "lagging_rods", "lagging_cone_pigment", "lagging_rod_pigment",
+                                    "chroma_long", "chroma_middle", "chroma_short"};
 constexpr size_t kNamed = std::size(kStateNames);
 constexpr size_t kFloats = sizeof(shared::EyeState) / sizeof(float);
 static_assert(kFloats == kNamed + shared::kMaxBins);

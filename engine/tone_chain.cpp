@@ -21,7 +21,8 @@ Resource bring_back(FrameGraph& graph, const std::string& name, Resource from, u
 
 ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource scene, const View& view, const ToneChainSettings& settings, float seconds, Outputs outputs, const shared::EyeState* remembered) {
     const OperatorInfo& op = operator_info(settings.tone_operator);
-    const uint32_t tone = op.form | (settings.tone.colour_loss ? shared::kToneColourLoss : 0) | (settings.tone.purkinje ? shared::kTonePurkinje : 0);
+    uint32_t tone = op.form | (settings.tone.colour_loss ? shared::kToneColourLoss : 0) | (settings.tone.purkinje ? shared::kTonePurkinje : 0) |
+                          (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0);
     const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent, settings.tone.log_epsilon);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
     HistogramSettings votes = settings.histogram;
@@ -29,8 +30,14 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource sce
     votes.fine = votes.fine && (op.model == shared::kModelHistogram || op.model == shared::kModelTrimmed || settings.tone.automatic);
     const Resource histogram = add_histogram(graph, kernels, luminance, level, view.extent, votes);
     const FovealView fovea{level, luminance.extents[level - 1], view.extent};
-    const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, op, tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, seconds), level, remembered);
-    const Resource seen = settings.tone.acuity_loss ? add_acuity(graph, kernels, scene, luminance, level, view) : scene;
+    const shared::ToneParameters parameters = tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, seconds);
+    const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, op, parameters, level, remembered,
+                                                 op.chromatic ? add_colours(graph, kernels, scene, view.extent) : Colours{});
+    Resource seen = settings.tone.acuity_loss ? add_acuity(graph, kernels, scene, luminance, level, view) : scene;
+    if (op.bands) {
+        seen = add_bands(graph, kernels, seen, luminance, level, adaptation.curve, tone, parameters.cone_break, view.extent);
+        tone = shared::kToneLinear;
+    }
     Resource glare;
     if (settings.glare == Glare::Ldr)
         glare = add_ldr_glare(graph, kernels, seen, adaptation.curve, tone, view, settings.display, settings.ldr_glare);

@@ -15,7 +15,7 @@ enum class Glare : uint8_t { None, Ldr };
 
 /// Everything between the luminance of a frame and its display codes.
 struct ToneChainSettings {
-    Operator tone_operator = Operator::Ward;
+    Operator tone_operator = Operator::Irawan;
     HistogramSettings histogram;
     std::optional<uint32_t> foveal_level;  ///< pyramid level of the histogram; default: 1 degree per texel
     ToneSettings tone;

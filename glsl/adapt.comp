@@ -18,6 +18,7 @@ layout(binding = 3, scalar) readonly buffer Settings { ToneParameters parameters
 layout(binding = 4, scalar) readonly buffer Previous { EyeState previous; };
 layout(binding = 5, scalar) writeonly buffer Current { EyeState current; };
 layout(binding = 6, scalar) writeonly buffer Curve { ToneCurve curve; };
+layout(binding = 7, rgba32f) readonly uniform image2D colours;  // mean colours of tiles and their pixels; any image where there are none
 
 #include "threshold.glsl"
 #include "eye.glsl"
@@ -25,6 +26,7 @@ layout(binding = 6, scalar) writeonly buffer Curve { ToneCurve curve; };
 #include "adjust.glsl"
 #include "trim.glsl"
 #include "pattanaik.glsl"
+#include "chroma.glsl"
 
 shared float percentile[2];
 
@@ -74,17 +76,19 @@ void main() {
     const float looked_at = parameters.adapt_to == kAdaptAverage ? log_average : gaze_luminance();
     const float goal = empty && !first ? previous.adaptation : looked_at;
     const float adaptation = clamp(goal, kLuminanceFloor, kBrightest);
+    const float scotopic = parameters.scotopic * adaptation;
     const float l = log10_of(adaptation);
-    const float cones_see = power_of_ten(cone_log_threshold(l, parameters.cone_break)), rods_see = power_of_ten(rod_log_threshold(l, parameters.rod_break));
+    const float cones_see = power_of_ten(cone_log_threshold(l, parameters.cone_break)), rods_see = power_of_ten(rod_log_threshold(log10_of(scotopic), parameters.rod_break));
     ReceptorMemory cones, rods;
     if (first) {
         cones = adapted(parameters.cones, adaptation, cones_see);
-        rods = adapted(parameters.rods, adaptation, rods_see);
+        rods = adapted(parameters.rods, scotopic, rods_see);
     } else {
         cones = after(previous.cones, parameters.cones, adaptation, cones_see, parameters.seconds);
-        rods = after(previous.rods, parameters.rods, adaptation, rods_see, parameters.seconds);
+        rods = after(previous.rods, parameters.rods, scotopic, rods_see, parameters.seconds);
     }
-    const Thresholds eye = Thresholds(sigma_of(parameters.cones, cones), sigma_of(parameters.rods, rods));
+    const float cone_sigma = sigma_of(parameters.cones, cones), rod_sigma = sigma_of(parameters.rods, rods);
+    const Thresholds eye = Thresholds(cone_sigma, rod_sigma / parameters.scotopic);  // of rods in luminance, as the histogram is
 
     // The smoothed histogram.
     const bool same_bins = previous.bins == float(parameters.bins) && previous.ln_low == parameters.ln_low && previous.bins_per_ln == parameters.bins_per_ln;
@@ -112,10 +116,17 @@ void main() {
     for (uint i = parameters.bins + 1u + bin; kModel != kModelLagging && i <= kMaxNodes; i += kMaxBins) curve.node[i] = vec4(0.0);
     LaggingEye lagging = previous.lagging;
     if (kModel == kModelLagging) {
-        lagging = lagging_after(lagging, adaptation, parameters.seconds, first);
+        lagging = lagging_after(lagging, adaptation, scotopic, parameters.seconds, first);
         for (uint i = bin; i <= kMaxNodes; i += kMaxBins) curve.node[i] = lagging_node(lagging, i);
     }
     if (kModel == kModelFixed && parameters.automatic != 0u) find_percentiles(share, max(voters, 1e-30));
+    vec3 chroma = previous.chroma;
+    mat3 seen = mat3(1.0);
+    if (kModel == kModelGains && parameters.colour_tiles.x > 0u) {
+        const vec3 goal_chroma = looked_at_chroma(previous.chroma);
+        chroma = first ? goal_chroma : blend(previous.chroma, goal_chroma, exp(-parameters.seconds / kSlowSeconds));
+        seen = transpose(chromatic_adaptation(kAtOnce * goal_chroma + (1.0 - kAtOnce) * chroma, adaptation));
+    }
     current.share[bin] = share;
     if (bin != 0u) return;
 
@@ -132,19 +143,20 @@ void main() {
         // Thresholds of the scene become those of the display: luminance of the display over that of the scene.
         const float shown = power_of_ten(cone_log_threshold(log10_of(0.5 * parameters.display_high), parameters.cone_break));
         const bool in_state = parameters.ceiling == kCeilingEye;
-        const float cone_gain = shown / (in_state ? mal_adapted_threshold(parameters.cones, adaptation, eye.cone_sigma) : cones_see * parameters.cones.factor);
-        const float rod_gain = shown / (in_state ? mal_adapted_threshold(parameters.rods, adaptation, eye.rod_sigma) : rods_see * parameters.rods.factor);
+        const float cone_gain = shown / (in_state ? mal_adapted_threshold(parameters.cones, adaptation, cone_sigma) : cones_see * parameters.cones.factor);
+        const float rod_gain = shown / (in_state ? mal_adapted_threshold(parameters.rods, scotopic, rod_sigma) : rods_see * parameters.rods.factor);
         const float rods_count = clamp(1.0 - (0.5 * adaptation - 0.01) / 9.99, 0.0, 1.0);
         linear_low = parameters.display_low / cone_gain;
         linear_gain = cone_gain / (parameters.display_high - parameters.display_low);
-        rod_light = rods_count * rods_count * rod_gain / cone_gain * parameters.rod_tint;
+        rod_light = rods_count * rods_count * rod_gain * parameters.scotopic / cone_gain * parameters.rod_tint;
     }
     curve.reinhard_scale = key / log_average;
     curve.reinhard_white = 1.0 / (scaled_white * scaled_white);
     curve.linear_low = linear_low;
     curve.linear_gain = linear_gain;
     curve.rods = rod_light;
-    curve.unused_too = 0.0;
+    curve.unused = 0.0;
+    curve.red = vec4(seen[0], 0.0), curve.green = vec4(seen[1], 0.0), curve.blue = vec4(seen[2], 0.0);
     const bool own_table = kModel == kModelLagging;
     curve.ln_low = own_table ? kTableLow : parameters.ln_low;
     curve.bins_per_ln = own_table ? float(kMaxNodes) / (kTableHigh - kTableLow) : parameters.bins_per_ln;
@@ -154,15 +166,20 @@ void main() {
     curve.log_average = log_average;
     curve.maximum = maximum;
     curve.slack = left_over;
-    curve.cone_sigma = eye.cone_sigma;
-    curve.rod_sigma = eye.rod_sigma;
-    curve.unused[0] = 0.0, curve.unused[1] = 0.0;
+    curve.cone_sigma = cone_sigma;
+    curve.rod_sigma = rod_sigma;
+    curve.response_offset = 0.0, curve.response_unit = 0.0;
+    if (kModel == kModelLagging) {
+        const Appearance as = appearance_of(lagging, hunt_cone_sigma(lagging.cones), hunt_rod_sigma(lagging.rods));
+        curve.response_offset = as.offset, curve.response_unit = as.unit;
+    }
     current.adaptation = adaptation;
     current.seconds = previous.seconds + parameters.seconds;
     current.cones = cones;
     current.rods = rods;
     current.ln_placed = placed;
     current.lagging = lagging;
+    current.chroma = chroma;
     current.bins = float(parameters.bins);
     current.ln_low = parameters.ln_low;
     current.bins_per_ln = parameters.bins_per_ln;

@@ -24,7 +24,7 @@ void main() {
         if (any(greaterThanEqual(pixel, push.size))) continue;
         const vec3 rgb = perceived(tone, imageLoad(scene_image, ivec2(pixel)).rgb);
         const vec3 light = displayed(curve, tone, rgb, rgb, push.display_low, push.display_high);
-        sum += luminance_of(light) >= push.threshold ? light : vec3(0.0);
+        sum += max(light.r, max(light.g, light.b)) >= push.threshold ? light : vec3(0.0);
         pixels += 1.0;
     }
     imageStore(bright_image, ivec2(at), vec4(sum / pixels, 1.0));

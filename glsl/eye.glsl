@@ -17,6 +17,7 @@ ReceptorMemory adapted(ReceptorParameters r, float luminance, float threshold) {
 
 // A weighted mean, so that no time leaves the last bit as it was.
 float blend(float from, float to, float kept) { return from * kept + to * (1.0 - kept); }
+vec3 blend(vec3 from, vec3 to, float kept) { return from * kept + to * (1.0 - kept); }
 
 float approach(float from, float to, float time_constants) { return blend(from, to, exp(-time_constants)); }
 

@@ -1,7 +1,6 @@
-// Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000 (perception/pattanaik.h): the curve, the exponent of colour
-// and the share of the cones, as a table over ln luminance. For adapt.comp.
+// Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000 (perception/pattanaik.h): responses of cones and rods and
+// the exponent of colour, as a table over ln luminance. For adapt.comp.
 
-const float kHunt = 0.73;          // exponent of the responses
 const float kDisplayCones = 25.0;  // cd/m^2 that the display's observer is adapted to
 const float kWhiteOver = 5.0, kBlackOver = 5.0 / 32.0;  // reference luminances over the adaptation luminance
 const float kTableLow = -9.210340372, kTableHigh = 18.420680744;  // ln of 1e-4 and 1e8 cd/m^2
@@ -16,7 +15,7 @@ float hunt_rod_sigma(float a) {
     return 2.5874 * a / (19000.0 * j * j * a + 0.2615 * rest * rest * rest * rest * pow(a, 1.0 / 6.0));
 }
 
-float excitation(float luminance, float sigma) { return pow(luminance / sigma, kHunt); }
+float excitation(float luminance, float sigma) { return pow(luminance / sigma, kResponsePower); }
 float response(float luminance, float sigma) {
     const float x = excitation(luminance, sigma);
     return x / (1.0 + x);
@@ -26,29 +25,39 @@ float pigment_after(float pigment, float goal, float tau, float half_bleached, f
     return approach(pigment, half_bleached / (half_bleached + goal), (1.0 + goal / half_bleached) / tau * seconds);
 }
 
-LaggingEye lagging_after(LaggingEye before, float goal, float seconds, bool first) {
-    if (first || !(before.cones > 0.0)) return LaggingEye(goal, goal, 2e6 / (2e6 + goal), 0.04 / (0.04 + goal));
-    return LaggingEye(approach(before.cones, goal, seconds / 0.080), approach(before.rods, goal, seconds / 0.150),
+// `scotopic`: of the goal, scotopic cd/m^2.
+LaggingEye lagging_after(LaggingEye before, float goal, float scotopic, float seconds, bool first) {
+    if (first || !(before.cones > 0.0)) return LaggingEye(goal, scotopic, 2e6 / (2e6 + goal), 0.04 / (0.04 + scotopic));
+    return LaggingEye(approach(before.cones, goal, seconds / 0.080), approach(before.rods, scotopic, seconds / 0.150),
                       pigment_after(before.cone_pigment, goal, 110.0, 2e6, seconds),
-                      pigment_after(before.rod_pigment, goal, 400.0, 0.04, seconds));
+                      pigment_after(before.rod_pigment, scotopic, 400.0, 0.04, seconds));
 }
 
-// Node `index` of kMaxNodes + 1.
-vec4 lagging_node(LaggingEye eye, uint index) {
-    const float cone_sigma = hunt_cone_sigma(eye.cones), rod_sigma = hunt_rod_sigma(eye.rods), display_sigma = hunt_cone_sigma(kDisplayCones);
+// From responses of the eye to those of the display's observer: R scale + offset.
+struct Appearance {
+    float scale, offset;
+    float unit;   // see ToneCurve::response_unit
+    float range;  // of the observer's responses, from black to white
+};
+
+Appearance appearance_of(LaggingEye eye, float cone_sigma, float rod_sigma) {
+    const float display_sigma = hunt_cone_sigma(kDisplayCones);
     const float display_white = response(kWhiteOver * kDisplayCones, display_sigma), display_black = response(kBlackOver * kDisplayCones, display_sigma);
     const float white = eye.cone_pigment * response(kWhiteOver * eye.cones, cone_sigma) + eye.rod_pigment * response(kWhiteOver * eye.rods, rod_sigma);
     const float black = eye.cone_pigment * response(kBlackOver * eye.cones, cone_sigma) + eye.rod_pigment * response(kBlackOver * eye.rods, rod_sigma);
     const bool dimmed = white > display_white, raised = !dimmed && black < display_black;
     const float scale = dimmed || raised ? min((display_white - display_black) / (white - black), 1.0) : 1.0;
     const float from = dimmed ? white : raised ? black : 0.0, to = dimmed ? display_white : raised ? display_black : 0.0;
+    return Appearance(scale, to - from * scale, display_sigma / (kWhiteOver * kDisplayCones), display_white - display_black);
+}
 
+// Node `index` of kMaxNodes + 1.
+vec4 lagging_node(LaggingEye eye, uint index) {
+    const float cone_sigma = hunt_cone_sigma(eye.cones), rod_sigma = hunt_rod_sigma(eye.rods);
+    const Appearance as = appearance_of(eye, cone_sigma, rod_sigma);
     const float luminance = exp(mix(kTableLow, kTableHigh, float(index) / float(kMaxNodes)));
     const float x = excitation(luminance, cone_sigma);
-    const float cones = eye.cone_pigment * x / (1.0 + x), rods = eye.rod_pigment * response(luminance, rod_sigma);
-    const float shown = clamp((cones + rods - from) * scale + to, 0.0, 0.9999999);
-    // Far beyond white all is the same.
-    const float relative = min(display_sigma / (kWhiteOver * kDisplayCones) * pow(shown / (1.0 - shown), 1.0 / kHunt), 1000.0);
-    const float exponent = eye.cone_pigment * kHunt * x / ((1.0 + x) * (1.0 + x)) / ((display_white - display_black) / log10_of(32.0));
-    return vec4(log(parameters.display_low + relative * (parameters.display_high - parameters.display_low)), exponent, cones / max(cones + rods, 1e-30), 0.0);
+    const float cones = eye.cone_pigment * x / (1.0 + x), rods = eye.rod_pigment * response(parameters.scotopic * luminance, rod_sigma);
+    const float exponent = eye.cone_pigment * kResponsePower * x / ((1.0 + x) * (1.0 + x)) / (as.range / log10_of(32.0));
+    return vec4(as.scale * cones, exponent, as.scale * rods, 0.0);
 }

@@ -14,21 +14,32 @@ struct Tone {
     float ln_low, bins_per_ln;   // curve
     float bins;
     vec3 rods;                   // rods
+    mat3 colour;
+    float offset, unit;          // responses
 };
 
 Tone read_tone(samplerBuffer curve) {
     const vec4 a = texelFetch(curve, 0), b = texelFetch(curve, 1);
     const vec3 rods = kForm == kToneRods ? texelFetch(curve, 4).rgb : vec3(0.0);
-    return Tone(a.r, a.g, a.b, a.a, b.r, b.g, b.b, rods);
+    const vec2 responses = kForm == kToneColour ? texelFetch(curve, 3).ba : vec2(0.0);
+    mat3 colour = mat3(1.0);
+    if (kForm == kToneRods) colour = transpose(mat3(texelFetch(curve, 5).rgb, texelFetch(curve, 6).rgb, texelFetch(curve, 7).rgb));
+    return Tone(a.r, a.g, a.b, a.a, b.r, b.g, b.b, rods, colour, responses.r, responses.g);
 }
 
 float luminance_of(vec3 rgb) { return dot(rgb, vec3(kRed, kGreen, kBlue)); }
 
-float scotopic_of(vec3 rgb) { return dot(rgb, vec3(kScotopicRed, kScotopicGreen, kScotopicBlue)); }
+// Scotopic luminance over that of white. Light outside of Rec. 709 counts as the nearest inside.
+float scotopic_of(vec3 rgb) {
+    if ((kTone & kTonePhotopicRods) != 0u) return luminance_of(rgb);
+    rgb = max(rgb, vec3(0.0));
+    const float x = dot(rgb, vec3(kXRed, kXGreen, kXBlue)), y = luminance_of(rgb), z = dot(rgb, vec3(kZRed, kZGreen, kZBlue));
+    return y > 0.0 ? y * ((kScotopicSlope * (1.0 + (y + z) / x) - kScotopicOffset) / kScotopicOfWhite) : 0.0;
+}
 
-// What is seen of a pixel, cd/m^2, before it is mapped: rods add grey, or dim light loses its colour.
+// What is seen of a pixel, cd/m^2, before it is mapped: the eye has adapted to colours and rods add grey, or dim light loses its colour.
 vec3 perceived(Tone tone, vec3 rgb) {
-    if (kForm == kToneRods) rgb += scotopic_of(rgb) * tone.rods;
+    if (kForm == kToneRods) rgb = tone.colour * rgb + scotopic_of(rgb) * tone.rods;
     if ((kTone & (kToneColourLoss | kTonePurkinje)) == 0u || kForm == kToneLdr) return rgb;
     const float luminance = luminance_of(rgb);
     if (!(luminance > 0.0)) return rgb;
@@ -37,49 +48,72 @@ vec3 perceived(Tone tone, vec3 rgb) {
     return (kTone & kToneColourLoss) != 0u ? mix(vec3(grey), rgb, cones) : rgb * (mix(grey, luminance, cones) / luminance);
 }
 
-// Displayed luminance, relative: 0 at the display's darkest, 1 at its brightest.
-float displayed_luminance(samplerBuffer curve, Tone tone, float luminance, float display_low, float display_high) {
+// A node of the table, between its nodes.
+vec4 node_at(samplerBuffer curve, Tone tone, float luminance) {
+    const float at = clamp((log(max(luminance, kLuminanceFloor)) - tone.ln_low) * tone.bins_per_ln, 0.0, tone.bins);
+    const float bin = min(floor(at), tone.bins - 1.0);
+    return mix(texelFetch(curve, int(kToneNode0) + int(bin)), texelFetch(curve, int(kToneNode0) + int(bin) + 1), at - bin);
+}
+
+// What the operator makes of a pixel: displayed luminance, relative, 0 at the display's darkest and 1 at its brightest; and
+// with kToneColour the exponent and the share of its colour.
+struct Mapped {
+    float luminance;
+    float exponent, share;
+};
+
+Mapped mapped(samplerBuffer curve, Tone tone, vec3 rgb, float display_low, float display_high) {
+    const float luminance = max(luminance_of(rgb), 0.0);
     if (kForm == kToneReinhard) {
         const float x = tone.scale * luminance;
-        return x * (1.0 + x * tone.white) / (1.0 + x);
+        return Mapped(x * (1.0 + x * tone.white) / (1.0 + x), 1.0, 1.0);
     }
-    if (kForm == kToneLinear || kForm == kToneRods) return (luminance - tone.low) * tone.gain;
-    const float at = clamp((log(max(luminance, kLuminanceFloor)) - tone.ln_low) * tone.bins_per_ln, 0.0, tone.bins);
-    const float bin = min(floor(at), tone.bins - 1.0);
-    const float below = texelFetch(curve, int(kToneNode0) + int(bin)).r;
-    const float above = texelFetch(curve, int(kToneNode0) + int(bin) + 1).r;
-    return (exp(mix(below, above, at - bin)) - display_low) / (display_high - display_low);
+    if (kForm == kToneLinear || kForm == kToneRods) return Mapped((luminance - tone.low) * tone.gain, 1.0, 1.0);
+    const vec4 node = node_at(curve, tone, luminance);
+    if (kForm == kToneColour) {
+        const float rods = node_at(curve, tone, scotopic_of(rgb)).b;
+        const float seen = clamp(node.r + rods + tone.offset, 0.0, 0.9999999);
+        // Far beyond white all is the same.
+        return Mapped(min(tone.unit * pow(seen / (1.0 - seen), 1.0 / kResponsePower), 1000.0), node.g, node.r / max(node.r + rods, 1e-30));
+    }
+    return Mapped((exp(node.r) - display_low) / (display_high - display_low), 1.0, 1.0);
 }
 
-// Ratios of a colour, raised to the power and mixed with the grey that the table has for its luminance.
-vec3 faded(samplerBuffer curve, Tone tone, vec3 ratios, float luminance) {
-    const float at = clamp((log(max(luminance, kLuminanceFloor)) - tone.ln_low) * tone.bins_per_ln, 0.0, tone.bins);
-    const float bin = min(floor(at), tone.bins - 1.0);
-    const vec2 below = texelFetch(curve, int(kToneNode0) + int(bin)).gb, above = texelFetch(curve, int(kToneNode0) + int(bin) + 1).gb;
-    const vec2 exponent_and_share = mix(below, above, at - bin);
+// Ratios of a colour, raised to the power and mixed with grey.
+vec3 faded(vec3 ratios, Mapped to) {
     // A channel without light keeps some, so that in the dark, where exponents go to 0, it goes grey with the others.
-    return mix(vec3(1.0), pow(max(ratios, vec3(kLeastRatio)), vec3(exponent_and_share.x)), exponent_and_share.y);
+    return mix(vec3(1.0), pow(max(ratios, vec3(kLeastRatio)), vec3(to.exponent)), to.share);
 }
 
-// Displayed light of a pixel, RGB in [0, 1]; `own` is its colour in the display's primaries. Colour keeps its ratios; where
-// a channel would exceed white the pixel fades towards the grey of its own luminance. Pixels that are not finite, or have
-// no luminance, are black.
+bool is_finite(float x) { return abs(x) <= 3.4e38; }
+
+// A colour of displayed luminance d as the display can show it. What is outside its primaries goes towards the grey of d,
+// as far as it must; what is brighter than the display is in that colour is shown as bright as it can.
+vec3 in_gamut(vec3 light, float d) {
+    const float least = min(light.r, min(light.g, light.b));
+    if (least < 0.0) light = max(d + (light - d) * (d / (d - least)), vec3(0.0));
+    return light / max(max(light.r, max(light.g, light.b)), 1.0);
+}
+
+// Displayed light of a pixel, RGB in [0, 1]; `own` is its colour in the display's primaries. Pixels that are not finite are
+// black; those without luminance are shown as what has hardly any.
 vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, vec3 own, float display_low, float display_high) {
-    if (kForm == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(own, 0.0, 1.0) : vec3(0.0);
+    if (kForm == kToneLdr) return is_finite(rgb.r) && is_finite(rgb.g) && is_finite(rgb.b) ? clamp(own, 0.0, 1.0) : vec3(0.0);
     const float luminance = luminance_of(rgb);
-    if (!(luminance > 0.0 && luminance <= 3.4e38)) return vec3(0.0);
-    const float d = clamp(displayed_luminance(curve, tone, luminance, display_low, display_high), 0.0, 1.0);
-    const vec3 light = kForm == kToneColour ? faded(curve, tone, own / luminance, luminance) * d : max(own * (d / luminance), vec3(0.0));
-    const float brightest = max(light.r, max(light.g, light.b));
-    if (brightest <= 1.0) return light;
-    return clamp(d + (light - d) * ((1.0 - d) / (brightest - d)), 0.0, 1.0);
+    if (!is_finite(luminance)) return vec3(0.0);
+    const Mapped to = mapped(curve, tone, rgb, display_low, display_high);
+    const float d = clamp(to.luminance, 0.0, 1.0);
+    if (luminance <= 0.0) return vec3(d);
+    return in_gamut(kForm == kToneColour ? faded(own / luminance, to) * d : own * (d / luminance), d);
 }
 
 // The same in Rec. 709, whatever the display's limits.
 vec3 displayed_unbounded(samplerBuffer curve, Tone tone, vec3 rgb, float display_low, float display_high) {
-    if (kForm == kToneLdr) return all(lessThanEqual(abs(rgb), vec3(3.4e38))) ? clamp(rgb, 0.0, 1.0) : vec3(0.0);
+    if (kForm == kToneLdr) return displayed(curve, tone, rgb, rgb, display_low, display_high);
     const float luminance = luminance_of(rgb);
-    if (!(luminance > 0.0 && luminance <= 3.4e38)) return vec3(0.0);
-    const float d = max(displayed_luminance(curve, tone, luminance, display_low, display_high), 0.0);
-    return kForm == kToneColour ? faded(curve, tone, rgb / luminance, luminance) * d : rgb * (d / luminance);
+    if (!is_finite(luminance)) return vec3(0.0);
+    const Mapped to = mapped(curve, tone, rgb, display_low, display_high);
+    const float d = max(to.luminance, 0.0);
+    if (luminance <= 0.0) return vec3(d);
+    return kForm == kToneColour ? faded(rgb / luminance, to) * d : rgb * (d / luminance);
 }

@@ -132,7 +132,7 @@ def compare_pattanaik(comparison, picture):
     grey = rgb @ WEIGHTS
     source = comparison.folder / "grey.exr"
     write_exr(source, np.repeat((grey / np.exp(np.log(grey).mean()))[..., None], 3, axis=-1))
-    got = comparison.display_light(source, "--operator", "pattanaik", *comparison.given("--rod-constant", "5e4"), *comparison.given("--adapt-to", "average"))
+    got = comparison.display_light(source, "--operator", "pattanaik", *comparison.given("--rod-constant", "5e4"), "--photopic-rods", *comparison.given("--adapt-to", "average"))
     want = comparison.pfstmo(source, "pfstmo_pattanaik00", "--cone", "1", "--rod", "1")
     comparison.add("Pattanaik 2000", picture.name, np.abs(np.clip(got, 0, 1) - want).max(), 1e-4, "of white")
 

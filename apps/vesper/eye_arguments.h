@@ -12,7 +12,7 @@ namespace vesper {
 
 /// Part of ToneArguments.
 struct EyeArguments {
-    std::string tone_operator = "ward", adapt_to = "operator", ceiling = "operator", preset = "none";
+    std::string tone_operator = "irawan", adapt_to = "operator", ceiling = "operator", preset = "none";
     std::vector<float> gaze{0.5f, 0.5f};
     bool whole_votes = false;
     int foveal_level = 0;

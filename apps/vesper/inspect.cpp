@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "io/atomic_file.h"
 #include "photometry/distribution.h"
+#include "picture_arguments.h"
 
 namespace vesper {
 namespace {
@@ -92,6 +93,7 @@ void add_inspect(CLI::App& program) {
     command->add_option("--json", a->json, "Write the report to a JSON file");
     command->add_option("--output,-o", a->picture, "OUT.png: diagrams of a lamp, false colours of a picture");
     command->add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
+    command->add_option("--layer", a->layer, kLayerHelp);
     command->add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2")->check(between(1e-30, 1e30));
     command->add_option("--high", a->high, "Pictures: upper end of the colour scale, cd/m^2")->check(between(1e-30, 1e30));
     command->add_flag("--contours", a->contours, "Pictures: lines at the luminances of the classes M6 to M1 of EN 13201-2");

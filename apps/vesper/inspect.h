@@ -9,7 +9,7 @@
 namespace vesper {
 
 struct InspectArguments {
-    std::string file, json, picture;
+    std::string file, json, picture, layer;
     std::vector<std::string> probes;
     double low = 0, high = 0;  ///< ends of the colour scale; 0: found
     bool contours = false;

@@ -77,7 +77,7 @@ void draw(const InspectArguments& arguments, const ValuePicture& full, const std
 }  // namespace
 
 Inspection inspect_picture(const InspectArguments& arguments) {
-    const HdrImage image = read_hdr_image(arguments.file);
+    const HdrImage image = read_hdr_image(arguments.file, {}, arguments.layer);
     const bool absolute = image.white_luminance > 0;
     const double factor = absolute ? image.white_luminance : 1;
     const std::string unit = absolute ? "cd/m\u00b2" : "relative";

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     program.require_subcommand(1);
     program.footer("Example:\n"
                    "  vesper convert street.gltf --photometry street.photometry.json -o night.gltf\n"
-                   "  vesper render night.gltf --camera driver --operator ward --stats -o night.png\n");
+                   "  vesper render night.gltf --camera driver --stats -o night.png\n");
     vesper::add_convert(program);
     vesper::add_render(program);
     vesper::add_road(program);

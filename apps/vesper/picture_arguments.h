@@ -12,6 +12,9 @@ namespace vesper {
 /// WIDTHxHEIGHT, px, with sides from `least` to `most`. Throws Error.
 VkExtent2D parse_size(const std::string& text, unsigned least = 1, unsigned most = 16384);
 
+/// Of the option that names a layer of an OpenEXR file, as read_hdr_image takes it.
+constexpr const char* kLayerHelp = "OpenEXR: name of the layer or part to take (default: the one without a name, or the only one)";
+
 /// Angle a picture covers in height, degrees: as given (0: not), as Vesper's own pictures say, or 40.
 double fov_of(const HdrImage& image, double given);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -7,6 +8,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
 #include "picture_arguments.h"
@@ -122,6 +124,20 @@ struct Moment {
     std::optional<shared::EyeState> eye;
 };
 
+// A replay shows what was logged: with the operator and the histogram of the log, at its times.
+void check_replay(const RenderArguments& arguments, const std::vector<LoggedFrame>& log) {
+    const auto fail = [&](const std::string& reason) { throw Error("--replay " + one_line(arguments.replay_file) + ": " + reason); };
+    if (arguments.tone.eye.command->count("--dt")) fail("times are those of the log: --dt has no meaning beside it");
+    const std::string wanted = name_of(arguments.settings.tone_operator);
+    const HistogramSettings& bins = arguments.settings.histogram;
+    for (const LoggedFrame& frame : log) {
+        if (frame.tone_operator != wanted) fail("is of the operator " + one_line(frame.tone_operator, 40) + " and not of " + wanted);
+        if (frame.eye.bins != float(bins.bins) || frame.eye.ln_low != bins.ln_low() || frame.eye.bins_per_ln != bins.bins_per_ln())
+            fail(format("has a histogram of %.0f bins from %.4g to %.4g cd/m^2, which is not that of --bins, --histogram-low and --histogram-high", double(frame.eye.bins), std::exp(double(frame.eye.ln_low)),
+                        std::exp(double(frame.eye.ln_low) + double(frame.eye.bins / frame.eye.bins_per_ln))));
+    }
+}
+
 std::vector<Moment> moments_of(const RenderArguments& arguments) {
     std::vector<Moment> moments;
     if (arguments.replay_file.empty()) {
@@ -129,6 +145,7 @@ std::vector<Moment> moments_of(const RenderArguments& arguments) {
         return moments;
     }
     const std::vector<LoggedFrame> log = read_log(arguments.replay_file);
+    check_replay(arguments, log);
     const unsigned frames = arguments.tone.eye.command->count("--frames") ? arguments.frames : ~0u;
     for (size_t i = 0; i < log.size() && moments.size() < frames; ++i)
         if (log[i].seconds >= arguments.start) moments.push_back({log[i].seconds, log[i].step, i == 0 ? shared::EyeState{} : log[i - 1].eye});
@@ -169,7 +186,7 @@ void run(RenderArguments& arguments) {
                                             {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
         write_outputs(arguments, device, view, frame, index, seconds);
-        if (!arguments.log_file.empty()) log += log_line(index, {seconds, step, frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display);
+        if (!arguments.log_file.empty()) log += log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display);
         if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);
         if (last) {
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
@@ -203,7 +220,7 @@ void add_render(CLI::App& program) {
     command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")->check(between(1e-9, 1e3))->capture_default_str();
     add_tone_options(*command, a->tone);
     command->add_flag("--all-lights", a->settings.all_lights, "Shade without clusters: the slow way to the same picture");
-    command->footer("Examples:\n  vesper render night.gltf --camera driver --operator ward --stats -o night.png\n"
+    command->footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"
                     "  vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
     command->callback([a] { run(*a); });

@@ -51,7 +51,7 @@ Sensitivity of_lagging(const ToneMapped& got, double luminance) {
         return pigment * kExponent * x / (luminance * (1 + x) * (1 + x));
     };
     const double adaptation = double(got.eye.lagging.cones), pigment = double(got.eye.lagging.cone_pigment);
-    const pattanaik::State adapted = pattanaik::adapted(luminance);
+    const pattanaik::State adapted = pattanaik::adapted(luminance, luminance);
     return {pigment, pattanaik::cone_sigma(adaptation), {}, slope(adapted.cones, adapted.cone_pigment) / slope(adaptation, pigment)};
 }
 

@@ -36,7 +36,7 @@ StudyPicture rendered(const PictureSource& arguments, Device& device, const Tone
 }
 
 StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
-    HdrImage image = read_hdr_image(input);
+    HdrImage image = read_hdr_image(input, {}, arguments.layer);
     if (!(arguments.scale > 0) && !(image.white_luminance > 0)) note_unknown_unit(input);
     return {.name = {},
             .extent = {image.width, image.height},

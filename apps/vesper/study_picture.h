@@ -27,6 +27,7 @@ struct StudyPicture {
 struct PictureSource {
     std::string camera, size = "1680x1050";   ///< of a scene
     double start = 0;                         ///< s, of a scene
+    std::string layer;                        ///< of OpenEXR files, see read_hdr_image
     double scale = 0;                         ///< cd/m^2 of a picture's 1.0; 0: as its file says, or 1
     double fov = 0;                           ///< angle a picture covers in height, degrees; 0: as its file says, or 40
 };

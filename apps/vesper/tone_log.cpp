@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "io/atomic_file.h"
 #include "shown.h"
 
 namespace vesper {
@@ -16,7 +17,8 @@ namespace {
 // The floats of EyeState before the shares, in order.
 constexpr const char* kStateNames[]{"adaptation", "eye_seconds", "cone_pigment", "cone_fast", "cone_slow", "rod_pigment",
                                     "rod_fast",   "rod_slow",    "ln_placed",    "bins",      "ln_low",    "bins_per_ln",
-                                    "lagging_cones", "lagging_rods", "lagging_cone_pigment", "lagging_rod_pigment"};
+                                    "lagging_cones", "lagging_rods", "lagging_cone_pigment", "lagging_rod_pigment",
+                                    "chroma_long", "chroma_middle", "chroma_short"};
 constexpr size_t kNamed = std::size(kStateNames);
 constexpr size_t kFloats = sizeof(shared::EyeState) / sizeof(float);
 static_assert(kFloats == kNamed + shared::kMaxBins);
@@ -46,7 +48,7 @@ std::vector<std::pair<std::string, double>> named_state(const shared::EyeState& 
 }
 
 std::string log_heading() {
-    std::string line = "frame,seconds,step";
+    std::string line = "frame,seconds,step,operator";
     for (const char* name : kStateNames) line += std::string(",") + name;
     for (uint32_t i = 0; i < shared::kMaxBins; ++i) line += format(",share%u", i);
     line += ",cone_sigma,rod_sigma,log_average,maximum,under_full,slack";
@@ -55,7 +57,7 @@ std::string log_heading() {
 }
 
 std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form, const Display& display) {
-    std::string line = format("%u,%.17g,%.9g", index, frame.seconds, double(frame.step));
+    std::string line = format("%u,%.17g,%.9g,%s", index, frame.seconds, double(frame.step), frame.tone_operator.c_str());
     for (float value : floats_of(frame.eye)) line += format(",%.9g", double(value));
     for (float value : {curve.cone_sigma, curve.rod_sigma, curve.log_average, curve.maximum, curve.under_full, curve.slack}) line += format(",%.9g", double(value));
     for (double shown : curve_samples(curve, form, display)) line += format(",%.6g", shown);
@@ -63,28 +65,46 @@ std::string log_line(unsigned index, const LoggedFrame& frame, const shared::Ton
 }
 
 std::vector<LoggedFrame> read_log(const std::string& file) {
+    constexpr size_t kName = 3;  // the column that is no number
     std::ifstream in(file);
-    if (!in) throw Error(file + ": cannot be read");
+    if (!in) throw Error(one_line(file) + ": cannot be read");
+    size_t number = 0;
+    const auto fail = [&](const std::string& reason) { throw Error(one_line(file) + ": line " + std::to_string(number) + ": " + reason); };
+    const auto next_line = [&](std::string& line) {
+        ++number;
+        if (!std::getline(in, line)) return false;
+        if (line.ends_with('\r')) line.pop_back();
+        return true;
+    };
     std::vector<LoggedFrame> frames;
     std::string line;
-    if (!std::getline(in, line) || line + "\n" != log_heading()) throw Error(file + ": line 1: these are not the columns of a log of this version");
+    if (!next_line(line) || line + "\n" != log_heading()) fail("these are not the columns of a log of this version");
     const size_t columns = size_t(std::count(line.begin(), line.end(), ',')) + 1;
-    for (size_t number = 2; std::getline(in, line); ++number) {
+    while (next_line(line)) {
+        LoggedFrame frame;
         std::vector<double> values;
         const char* at = line.c_str();
         while (*at) {
-            char* end = nullptr;
-            values.push_back(std::strtod(at, &end));
-            if (end == at || (*end != ',' && *end != 0) || !std::isfinite(values.back())) throw Error(file + ": line " + std::to_string(number) + ": a number is expected in column " + std::to_string(values.size()));
+            const char* end = std::strchr(at, ',');
+            if (!end) end = at + std::strlen(at);
+            if (values.size() == kName) {
+                frame.tone_operator.assign(at, end);
+                values.push_back(0);
+            } else {
+                char* parsed = nullptr;
+                values.push_back(std::strtod(at, &parsed));
+                if (parsed == at || parsed != end || !std::isfinite(values.back())) fail("a number is expected in column " + std::to_string(values.size()));
+            }
             at = *end ? end + 1 : end;
         }
-        if (values.size() != columns) throw Error(file + ": line " + std::to_string(number) + ": has " + std::to_string(values.size()) + " of " + std::to_string(columns) + " values");
-        LoggedFrame frame{values[1], float(values[2])};
-        std::vector<float> state(values.begin() + 3, values.begin() + 3 + kFloats);
+        if (values.size() != columns) fail("has " + std::to_string(values.size()) + " of " + std::to_string(columns) + " values");
+        frame.seconds = values[1];
+        frame.step = float(values[2]);
+        std::vector<float> state(values.begin() + kName + 1, values.begin() + kName + 1 + kFloats);
         std::memcpy(&frame.eye, state.data(), sizeof frame.eye);
-        frames.push_back(frame);
+        frames.push_back(std::move(frame));
     }
-    if (frames.empty()) throw Error(file + ": no frames");
+    if (frames.empty()) throw Error(one_line(file) + ": no frames");
     return frames;
 }
 

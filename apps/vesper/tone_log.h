@@ -12,6 +12,7 @@ namespace vesper {
 struct LoggedFrame {
     double seconds = 0;      ///< of the scene
     float step = 0;          ///< since the frame before, s
+    std::string tone_operator;  ///< its name
     shared::EyeState eye{};
 };
 

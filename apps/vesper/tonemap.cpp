@@ -26,7 +26,7 @@ constexpr size_t kMaxPictures = 1000000;
 
 struct TonemapArguments {
     std::vector<std::string> inputs, outputs;
-    std::string device;
+    std::string device, layer;
     ToneArguments tone;
     double scale = 0, fps = 0, fov = 0;
     bool statistics = false;
@@ -109,7 +109,7 @@ struct Shown {
 };
 
 Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, ToneMapper& mapper, const Job& job, bool wants_codes) {
-    const HdrImage image = read_hdr_image(job.input);
+    const HdrImage image = read_hdr_image(job.input, {}, arguments.layer);
     Shown shown;
     shown.absolute = arguments.scale > 0 || image.white_luminance > 0;
     shown.scale = scale_of_picture(image, arguments.scale);
@@ -198,13 +198,14 @@ void add_tonemap(CLI::App& program) {
     const auto a = std::make_shared<TonemapArguments>();
     command->add_option("pictures", a->inputs, "OpenEXR or Radiance pictures, or frame.%04d.exr for a sequence")->required();
     command->add_option("--output,-o", a->outputs, "OUT.png: codes; OUT.exr: cd/m^2 on the display; OUT.mp4; a folder or %04d for several; may be given more than once")->required();
+    command->add_option("--layer", a->layer, kLayerHelp);
     command->add_option("--scale", a->scale, "cd/m^2 of the picture's 1.0 (default: its whiteLuminance, or 1)")->check(between(1e-12, 1e12));
     command->add_option("--fps", a->fps, "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for frame.%04d.exr: 30)")->check(between(0.001, 10000.0));
     command->add_option("--fov", a->fov, "Angle the picture covers in height, degrees (default: what vesper render wrote, or 40)")->check(between(0.1, 170.0));
     command->add_flag("--stats", a->statistics, "Print adaptation and milliseconds of each picture");
     command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     add_tone_options(*command, a->tone);
-    command->footer("Examples:\n  vesper tonemap night.exr --operator ward --display projector -o night.png\n"
+    command->footer("Examples:\n  vesper tonemap night.exr --display projector -o night.png\n"
                     "  vesper tonemap *.hdr --scale 179 --operator reinhard -o shown/\n"
                     "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"
                     "  vesper tonemap night.exr --display hdr10 -o night-pq.png -o night-on-display.exr\n");

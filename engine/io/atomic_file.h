@@ -17,7 +17,7 @@ std::vector<uint8_t> read_file(const std::filesystem::path& file, uint64_t max_b
 /// is no regular file (a pipe, /dev/stdout) is written to directly. Throws Error.
 void replace_file(const std::filesystem::path& file, std::span<const uint8_t> bytes);
 
-/// Text made fit for a one-line message: control characters replaced, shortened beyond `max_bytes`.
+/// Text made fit for a one-line message: control characters and what is no UTF-8 replaced, shortened beyond `max_bytes`.
 std::string one_line(const std::string& text, size_t max_bytes = 300);
 
 }  // namespace vesper

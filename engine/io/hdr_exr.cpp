@@ -12,12 +12,13 @@
 #include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
-#include <ImfPartType.h>
-#include <ImfRgbaFile.h>
+#include <ImfRgbaYca.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
 #include "base/error.h"
+#include "io/exr_chroma.h"
+#include "io/exr_layers.h"
 #include "io/hdr_parts.h"
 
 namespace vesper::hdr {
@@ -78,16 +79,15 @@ void read_rows(HdrImage& image, const Window& data, const Window& display, std::
 }
 
 /// R, G and B as they are, or Y three times.
-void read_channels(HdrImage& image, Imf::MultiPartInputFile& file, const Window& data, const Window& display,
-                   bool grey) {
-    Imf::InputPart part(file, 0);
+void read_channels(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, const Window& data, const Window& display) {
+    const bool grey = !layer.colour;
     std::vector<float> block;
     read_rows(image, data, display, block, [&](int first, int last) {
         const int64_t x_stride = 3 * sizeof(float), y_stride = x_stride * data.width();
         Imf::FrameBuffer pixels;
         const char* names[] = {grey ? "Y" : "R", "G", "B"};
         for (int c = 0; c < (grey ? 1 : 3); ++c)
-            pixels.insert(names[c], Imf::Slice(Imf::FLOAT, origin(block.data() + c, data.x0, first, x_stride, y_stride),
+            pixels.insert(layer.prefix + names[c], Imf::Slice(Imf::FLOAT, origin(block.data() + c, data.x0, first, x_stride, y_stride),
                                                static_cast<size_t>(x_stride), static_cast<size_t>(y_stride)));
         part.setFrameBuffer(pixels);
         part.readPixels(first, last);
@@ -96,22 +96,47 @@ void read_channels(HdrImage& image, Imf::MultiPartInputFile& file, const Window&
     });
 }
 
-/// Luminance and subsampled chroma, as OpenEXR's own reader makes colours of it.
-void read_chroma(HdrImage& image, MemoryStream& stream, const Window& data, const Window& display) {
-    stream.seekg(0);
-    Imf::RgbaInputFile file(stream);
-    std::vector<Imf::Rgba> colours;
-    std::vector<float> block;
+/// Luminance and chroma that may be subsampled, at the precision of the file.
+void read_chroma(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, const Window& data, const Window& display) {
+    const Imf::Header& exr = part.header();
+    const Imath::V3f weights = Imf::RgbaYca::computeYw(Imf::hasChromaticities(exr) ? Imf::chromaticities(exr) : Imf::Chromaticities());
+    const glm::dvec3 yw(weights.x, weights.y, weights.z);
+    const char* names[] = {"RY", "BY"};
+    ChromaPlane planes[2];
+    for (int c = 0; c < 2; ++c)
+        if (const Imf::Channel* channel = exr.channels().findChannel(layer.prefix + names[c]))
+            planes[c].step = {channel->xSampling, channel->ySampling};
+    for (const ChromaPlane& plane : planes)
+        if (!plane.is_sound()) throw Error("OpenEXR: chroma of one in " + std::to_string(plane.step.x) + " x " + std::to_string(plane.step.y) + " pixels; 1 and 2 are read");
+
+    std::vector<float> luminance, block, line[2];
     read_rows(image, data, display, block, [&](int first, int last) {
-        colours.resize(block.size() / 3);
-        const int64_t width = data.width(), size = sizeof(Imf::Rgba);
-        file.setFrameBuffer(reinterpret_cast<Imf::Rgba*>(origin(colours.data(), data.x0, first, size, size * width)), 1,
-                            static_cast<size_t>(width));
-        file.readPixels(first, last);
-        for (size_t i = 0; i < colours.size(); ++i) {
-            block[3 * i] = colours[i].r;
-            block[3 * i + 1] = colours[i].g;
-            block[3 * i + 2] = colours[i].b;
+        // Rows that the chroma between two rows is made of, from one that has chroma.
+        const int64_t around = ChromaPlane::kReach;
+        const int64_t from = data.y0 + std::max<int64_t>(first - data.y0 - around, 0) / 2 * 2, to = std::min(last + around, data.y1);
+        const int64_t width = data.width(), size = sizeof(float);
+        luminance.resize(static_cast<size_t>(width * (to - from + 1)));
+        Imf::FrameBuffer pixels;
+        pixels.insert(layer.prefix + "Y", Imf::Slice(Imf::FLOAT, origin(luminance.data(), data.x0, from, size, size * width), static_cast<size_t>(size), static_cast<size_t>(size * width)));
+        for (int c = 0; c < 2; ++c) {
+            ChromaPlane& plane = planes[c];
+            plane.resize(width, to - from + 1);
+            const int64_t row = size * plane.width;
+            pixels.insert(layer.prefix + names[c], Imf::Slice(Imf::FLOAT, origin(plane.values.data(), data.x0 / plane.step.x, from / plane.step.y, size, row),
+                                                              static_cast<size_t>(size), static_cast<size_t>(row), plane.step.x, plane.step.y, 0.0));
+        }
+        part.setFrameBuffer(pixels);
+        part.readPixels(static_cast<int>(from), static_cast<int>(to));
+        float* out = block.data();
+        for (int64_t y = first; y <= last; ++y) {
+            for (int c = 0; c < 2; ++c) planes[c].line(y - from, width, line[c]);
+            const float* l = luminance.data() + width * (y - from);
+            for (size_t x = 0; x < static_cast<size_t>(width); ++x, out += 3) {
+                const double Y = static_cast<double>(l[x]), r = (static_cast<double>(line[0][x]) + 1) * Y, b = (static_cast<double>(line[1][x]) + 1) * Y;
+                out[0] = static_cast<float>(r);
+                out[1] = static_cast<float>((Y - r * yw.x - b * yw.z) / yw.y);
+                out[2] = static_cast<float>(b);
+            }
         }
     });
 }
@@ -138,16 +163,9 @@ Primaries primaries_of(const Imf::Header& exr) {
     return {xy(c.red), xy(c.green), xy(c.blue), xy(c.white)};
 }
 
-std::string list_of(const Imf::ChannelList& channels) {
-    std::string list;
-    for (auto it = channels.begin(); it != channels.end(); ++it)
-        list += (list.empty() ? "" : ", ") + std::string(it.name());
-    return list;
-}
-
 }  // namespace
 
-HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& limits) {
+HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& limits, const std::string& wanted) {
     // OpenEXR takes memory for tables and buffers while it opens a file; this setting of the whole library is its only
     // way to refuse before that. The same value every time.
     constexpr int kMaxSide = 1 << 18;
@@ -155,8 +173,8 @@ HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, con
     Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);
     MemoryStream stream(name, bytes);
     Imf::MultiPartInputFile file(stream);
-    const Imf::Header& exr = file.header(0);
-    if (exr.hasType() && Imf::isDeepData(exr.type())) throw Error("OpenEXR: deep pictures are not read");
+    const ExrLayer layer = choose_layer(file, wanted);
+    const Imf::Header& exr = file.header(layer.part);
     const Window data(exr.dataWindow()), display(exr.displayWindow());
     check_size("OpenEXR: data window", data.width(), data.height(), limits);
     check_size("OpenEXR: display window", display.width(), display.height(), limits);
@@ -165,17 +183,13 @@ HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, con
                    {limits.max_side, std::min(limits.max_pixels, uint64_t{1} << 24)});
 
     HdrImage image{static_cast<uint32_t>(display.width()), static_cast<uint32_t>(display.height())};
-    const Imf::ChannelList& channels = exr.channels();
-    const bool colour = channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B");
-    const bool grey = channels.findChannel("Y"), chroma = channels.findChannel("RY") || channels.findChannel("BY");
     const glm::dmat3 matrix = to_rec709(primaries_of(exr));
-    if (colour || (grey && !chroma))
-        read_channels(image, file, data, display, !colour);
-    else if (grey)
-        read_chroma(image, stream, data, display);
+    Imf::InputPart part(file, layer.part);
+    if (layer.colour || !layer.chroma)
+        read_channels(image, part, layer, data, display);
     else
-        throw Error("OpenEXR: none of the channels R, G, B, Y; it has " + list_of(channels));
-    if (colour || chroma) transform(image, matrix);  // a luminance alone is the same grey for all primaries
+        read_chroma(image, part, layer, data, display);
+    if (layer.colour || layer.chroma) transform(image, matrix);  // a luminance alone is the same grey for all primaries
     image.header = texts_of(exr);
     if (Imf::hasWhiteLuminance(exr)) image.white_luminance = static_cast<double>(Imf::whiteLuminance(exr));
     return image;

@@ -41,11 +41,14 @@ namespace {
 
 enum class Kind { Any, Exr, Radiance };
 
-HdrImage decode(std::span<const uint8_t> bytes, const std::string& name, Kind wanted, const HdrLimits& limits) {
+HdrImage decode(std::span<const uint8_t> bytes, const std::string& name, Kind wanted, const HdrLimits& limits, const std::string& layer) {
     const std::string type = media_type(bytes);
     try {
-        if (type == "image/x-exr" && wanted != Kind::Radiance) return hdr::decode_exr(bytes, name, limits);
-        if (type == "image/vnd.radiance" && wanted != Kind::Exr) return hdr::decode_radiance(bytes, limits);
+        if (type == "image/x-exr" && wanted != Kind::Radiance) return hdr::decode_exr(bytes, name, limits, layer);
+        if (type == "image/vnd.radiance" && wanted != Kind::Exr) {
+            if (!layer.empty()) throw Error("Radiance pictures have no layers");
+            return hdr::decode_radiance(bytes, limits);
+        }
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
@@ -58,21 +61,23 @@ HdrImage decode(std::span<const uint8_t> bytes, const std::string& name, Kind wa
     throw Error(one_line(name) + ": " + is + expected + (type.empty() ? "" : ", but " + type));
 }
 
-HdrImage read(const std::filesystem::path& file, Kind wanted, const HdrLimits& limits) {
-    return decode(read_file(file, hdr::kMaxFileBytes), file.string(), wanted, limits);
+HdrImage read(const std::filesystem::path& file, Kind wanted, const HdrLimits& limits, const std::string& layer) {
+    return decode(read_file(file, hdr::kMaxFileBytes), file.string(), wanted, limits, layer);
 }
 
 }  // namespace
 
-HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& limits) { return read(file, Kind::Exr, limits); }
-HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& limits) {
-    return read(file, Kind::Radiance, limits);
+HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& limits, const std::string& layer) {
+    return read(file, Kind::Exr, limits, layer);
 }
-HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& limits) {
-    return read(file, Kind::Any, limits);
+HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& limits) {
+    return read(file, Kind::Radiance, limits, {});
+}
+HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& limits, const std::string& layer) {
+    return read(file, Kind::Any, limits, layer);
 }
 HdrImage decode_hdr_image(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& limits) {
-    return decode(bytes, name, Kind::Any, limits);
+    return decode(bytes, name, Kind::Any, limits, {});
 }
 
 }  // namespace vesper

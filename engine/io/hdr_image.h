@@ -28,18 +28,19 @@ struct HdrLimits {
 };
 
 /// Reads an OpenEXR picture of any compression, in scan lines or tiles (the largest level), of half, float or integer
-/// values; channels R, G, B (missing ones are 0), or Y (grey), or Y, RY, BY (in half precision). Of several parts or
-/// views the first is read; deep pictures are refused. The result covers the display window and is 0 outside of the
-/// data window. Other primaries (attribute chromaticities) become Rec. 709 of the same tristimulus values: no
+/// values; channels R, G, B (missing ones are 0), or Y (grey), or Y, RY, BY (chroma of every pixel or of one in two). `layer`
+/// names a part, or a layer (channels LAYER.R and so on); without it those of the first part that are in no layer are
+/// read, or the only picture there is. Deep pictures are refused. The result covers the display window and is 0 outside
+/// of the data window. Other primaries (attribute chromaticities) become Rec. 709 of the same tristimulus values: no
 /// adaptation to white. Alpha is ignored. Throws Error with file and reason.
-HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& = {});
+HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& = {}, const std::string& layer = {});
 
-/// Reads a Radiance picture (RGBE or XYZE, run-length coded or not, rows from the top: -Y +X). EXPOSURE is divided out,
+/// Reads a Radiance picture (RGBE or XYZE, run-length coded or not, in any of the eight orders of pixels). EXPOSURE is divided out,
 /// so that pictures of one series agree; PRIMARIES become Rec. 709. A mantissa m stands for m + 1/2, as in Radiance.
 HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& = {});
 
 /// Reads either kind, told apart by content.
-HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& = {});
+HdrImage read_hdr_image(const std::filesystem::path& file, const HdrLimits& = {}, const std::string& layer = {});
 /// The same from the bytes of a file; `name` begins the messages.
 HdrImage decode_hdr_image(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& = {});
 

@@ -57,12 +57,21 @@ std::optional<std::vector<double>> numbers(const std::string& text, size_t count
     return values;
 }
 
+/// One axis of the resolution line, such as "-Y 480".
+struct Axis {
+    char sign = 0, name = 0;
+    int64_t size = 0;
+
+    /// Column or row, from the top left, of the index-th pixel along it. Y points up.
+    size_t place(size_t index) const { return (sign == '-') == (name == 'Y') ? index : static_cast<size_t>(size) - 1 - index; }
+};
+
 struct Description {
     Header header;
     double exposure = 1;
     Primaries primaries = kRec709;
     bool xyz = false;
-    int64_t width = 0, height = 0;
+    Axis lines, along;  ///< from line to line, and along one
 };
 
 void read_variable(Description& made, const std::string& name, const std::string& value) {
@@ -96,13 +105,15 @@ Description read_description(Bytes& bytes) {
         read_variable(made, made.header.back().first, made.header.back().second);
     }
     const std::string size = bytes.line();
-    int height = 0, width = 0, end = 0;
-    if (std::sscanf(size.c_str(), "-Y %9d +X %9d%n", &height, &width, &end) != 2 ||
-        size.find_first_not_of(' ', static_cast<size_t>(end)) != std::string::npos)
-        throw Error("Radiance: '" + size +
-                    "' where -Y HEIGHT +X WIDTH is expected (other orders of pixels are not read)");
-    made.width = width;
-    made.height = height;
+    Axis &a = made.lines, &b = made.along;
+    int lines = 0, along = 0, end = 0;
+    const bool read = std::sscanf(size.c_str(), "%c%c %9d %c%c %9d%n", &a.sign, &a.name, &lines, &b.sign, &b.name, &along, &end) == 6 &&
+                      size.find_first_not_of(' ', static_cast<size_t>(end)) == std::string::npos;
+    const auto sound = [](const Axis& axis) { return (axis.sign == '+' || axis.sign == '-') && (axis.name == 'X' || axis.name == 'Y'); };
+    if (!read || !sound(a) || !sound(b) || a.name == b.name)
+        throw Error("Radiance: '" + size + "' where -Y HEIGHT +X WIDTH, or another order of the two axes, is expected");
+    a.size = lines;
+    b.size = along;
     return made;
 }
 
@@ -142,30 +153,34 @@ void read_plain(Bytes& bytes, std::vector<Rgbe>& row) {
 HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits) {
     Bytes bytes(file);
     Description made = read_description(bytes);
-    check_size("Radiance: picture", made.width, made.height, limits);
+    const Axis &lines = made.lines, &along = made.along;
+    const bool rows = lines.name == 'Y';
+    const int64_t width = rows ? along.size : lines.size, height = rows ? lines.size : along.size;
+    check_size("Radiance: picture", width, height, limits);
     const glm::dmat3 matrix = to_rec709(made.xyz ? kXyz : made.primaries);
-    const auto width = static_cast<size_t>(made.width), height = static_cast<size_t>(made.height);
-    if (bytes.left() / 4 < height) throw Error("Radiance: is cut off");  // a row takes four bytes at the very least
+    const auto count = static_cast<size_t>(lines.size), length = static_cast<size_t>(along.size);
+    if (bytes.left() / 4 < count) throw Error("Radiance: is cut off");  // a line takes four bytes at the very least
     HdrImage image{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
-    image.rgb.resize(width * height * 3);
-    std::vector<Rgbe> row(width);
-    float* out = image.rgb.data();
-    for (size_t y = 0; y < height; ++y) {
+    image.rgb.resize(count * length * 3);
+    std::vector<Rgbe> line(length);
+    for (size_t i = 0; i < count; ++i) {
         const bool runs =
-            width >= 8 && width < 32768 && bytes.peek(0) == 2 && bytes.peek(1) == 2 && bytes.peek(2) < 128;
+            length >= 8 && length < 32768 && bytes.peek(0) == 2 && bytes.peek(1) == 2 && bytes.peek(2) < 128;
         if (runs) {
             const size_t marked = size_t{bytes.peek(2)} << 8 | bytes.peek(3);
-            if (marked != width)
+            if (marked != length)
                 throw Error("Radiance: a row of " + std::to_string(marked) + " px in a picture of " +
-                            std::to_string(width));
-            for (int i = 0; i < 4; ++i) bytes.next();
-            read_runs(bytes, row);
+                            std::to_string(length));
+            for (int k = 0; k < 4; ++k) bytes.next();
+            read_runs(bytes, line);
         } else {
-            read_plain(bytes, row);
+            read_plain(bytes, line);
         }
-        for (const Rgbe& pixel : row) {
-            const double unit = pixel[3] ? std::ldexp(1.0, pixel[3] - 136) / made.exposure : 0;
-            for (size_t c = 0; c < 3; ++c) *out++ = static_cast<float>((pixel[c] + 0.5) * unit);
+        for (size_t j = 0; j < length; ++j) {
+            const size_t x = rows ? along.place(j) : lines.place(i), y = rows ? lines.place(i) : along.place(j);
+            float* out = image.rgb.data() + 3 * (y * image.width + x);
+            const double unit = line[j][3] ? std::ldexp(1.0, line[j][3] - 136) / made.exposure : 0;
+            for (size_t c = 0; c < 3; ++c) out[c] = static_cast<float>((line[j][c] + 0.5) * unit);
         }
     }
     transform(image, matrix);

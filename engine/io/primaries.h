@@ -20,6 +20,9 @@ constexpr Primaries kXyz{{1, 0}, {0, 1}, {0, 0}, {1.0 / 3, 1.0 / 3}};
 /// As files and commands call them.
 constexpr std::array<std::pair<const char*, Primaries>, 3> kPrimariesNames{{{"rec709", kRec709}, {"p3", kDisplayP3}, {"rec2020", kRec2020}}};
 
+/// Whether white lies inside the triangle of the primaries, so that they can make it.
+bool make_white(const Primaries&);
+
 /// Colours of these primaries as Rec. 709: the same X, Y and Z, with Y(1, 1, 1) = 1 on both sides (SMPTE RP 177). No
 /// adaptation to white. Throws Error if the primaries span no volume.
 glm::dmat3 to_rec709(const Primaries&);

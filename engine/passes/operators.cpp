@@ -17,8 +17,10 @@ constexpr OperatorInfo kOperators[]{
     {Operator::Ldr, "ldr", "no HDR: lamps of 1.0, sums clamped to 1", kToneLdr, kModelFixed, kCeilingEye, kAdaptGaze, false},
     {Operator::Pattanaik, "pattanaik", "Pattanaik, Tumblin, Yee, Greenberg 2000: responses of an eye that adapts over time", kToneColour, kModelLagging, kCeilingEye, kAdaptAverage, true},
     {Operator::Ferwerda, "ferwerda", "Ferwerda, Pattanaik, Shirley, Greenberg 1996: linear gains of cones and rods", kToneRods, kModelGains, kCeilingHuman, kAdaptGaze, false},
-    {Operator::Durand, "durand", "Durand, Dorsey 2000 (reconstructed): gains of cones and rods of an eye that adapts over time; no chromatic adaptation", kToneRods, kModelGains, kCeilingEye, kAdaptGaze, true,
-     {1.05f, 0.97f, 1.27f}},
+    {Operator::Durand, "durand", "Durand, Dorsey 2000 (reconstructed): gains of cones and rods of an eye that adapts over time, also to colour", kToneRods, kModelGains, kCeilingEye, kAdaptGaze, true,
+     {1.05f, 0.97f, 1.27f}, true},
+    {.tone_operator = Operator::Grave, .name = "grave", .summary = "Grave, Bremond 2008 (reconstructed): bands of contrast, each with the visibility level it has in the scene",
+     .form = kToneCurve, .model = kModelHistogram, .ceiling = kCeilingCones, .adapt_to = kAdaptGaze, .remembers = false, .bands = true},
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ enum class Operator : uint8_t {
     Pattanaik, ///< Pattanaik, Tumblin, Yee and Greenberg 2000: responses of an eye that adapts over time
     Ferwerda,  ///< Ferwerda, Pattanaik, Shirley and Greenberg 1996: linear gains of cones and rods
     Durand,    ///< Durand and Dorsey 2000, reconstructed: the same with the thresholds of an eye that adapts over time
+    Grave,     ///< Grave and Bremond 2008, reconstructed: contrast in bands, each as visible as in the scene
 };
 
 struct OperatorInfo {
@@ -29,6 +30,8 @@ struct OperatorInfo {
     uint32_t adapt_to;          ///< default of what the eye adapts to: shared::kAdapt*
     bool remembers;             ///< the picture depends on the frames before, and not only to smooth flicker
     float rod_tint[3] = {0, 0, 0};  ///< colour of what rods see; 0: grey
+    bool chromatic = false;     ///< the eye adapts to the colour it looks at
+    bool bands = false;         ///< contrast is mapped in bands (add_bands), and only what lies above them by the curve
 };
 
 /// Every operator, in the order of the enumeration.

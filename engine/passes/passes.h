@@ -127,6 +127,13 @@ uint32_t foveal_level(const View&, const Pyramid&);
 /// period that is seen, up to 32 px. rgba32f, cd/m^2.
 Resource add_acuity(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, uint32_t foveal_level, const View&);
 
+/// Mean colours of squares of shared::kColourTile px, rgba32f: RGB, cd/m^2, and how many pixels are finite.
+struct Colours {
+    Resource tiles;
+    VkExtent2D extent{};
+};
+Colours add_colours(FrameGraph&, const Kernels&, Resource scene, VkExtent2D extent);
+
 struct HistogramSettings {
     uint32_t bins = 100;         ///< 1 .. 256
     float log10_low = -4;        ///< log10 of the lowest luminance, cd/m^2
@@ -152,6 +159,7 @@ struct ToneSettings {
     bool colour_loss = false;  ///< dim light loses its colour
     bool acuity_loss = false;  ///< dim light is blurred as far as it cannot be resolved
     bool purkinje = false;     ///< dim light is weighted as rods do
+    bool photopic_rods = false; ///< rods take luminance for scotopic luminance, as in pfstools; without: that of the colour, and of white for what the eye adapts to
     Observer observer;         ///< whose eye it is
     glm::vec2 gaze{0.5f};      ///< where it looks, parts of the image from its top left
     std::optional<uint32_t> adapt_to;  ///< shared::kAdapt*; default: as the operator has it
@@ -179,12 +187,19 @@ constexpr const char* kEyeHistory = "eye";
 
 /// Lets the eye adapt to what it looks at (perception/eye.h; exact for any time step, at once in the first frame), smooths
 /// the histogram, and turns both into a tone curve or into the parameters of the operator's form. `remembered`: what the
-/// eye remembers instead of the last frame.
-Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource histogram, const OperatorInfo&, const shared::ToneParameters&,
-                          uint32_t foveal_level, const shared::EyeState* remembered = nullptr);
+/// eye remembers instead of the last frame. `colours`: what it adapts to where the operator is chromatic.
+Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource histogram, const OperatorInfo&, shared::ToneParameters,
+                          uint32_t foveal_level, const shared::EyeState* remembered = nullptr, const Colours& colours = {});
+
+/// The scene as bands of contrast between the levels of the pyramid (log averages), up to the foveal one, each with the visibility
+/// level it has in the scene: contrast over what cones adapted to the level above just see (Ferwerda et al. 1996; Grave and
+/// Bremond 2008, reconstructed). What is above is mapped by `curve`. rgba32f, cd/m^2 on the display, before its limits.
+/// `tone`: kToneCurve and how dim light is perceived. `cone_break`: as ToneParameters has it.
+Resource add_bands(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, uint32_t foveal_level, Resource curve, uint32_t tone, float cone_break,
+                   VkExtent2D extent);
 
 struct LdrGlareSettings {
-    float threshold = 0.9f;      ///< displayed luminance relative to white from which a pixel glares
+    float threshold = 0.9f;      ///< light of its brightest channel, relative to white, from which a pixel glares
     float sigma_degrees = 0.35f; ///< of the Gaussian
     float gain = 1;              ///< 0: no glare, no pass
 };
@@ -201,10 +216,10 @@ struct CompositeInputs {
     Resource ldr_glare;        ///< optional: what add_ldr_glare gave; added after the curve
 };
 
-/// Maps scene luminance to display codes: tone curve, colour at the mapped luminance (desaturated, at constant
-/// luminance, where a channel of the display would exceed white), glare, and the codes of the display. One word per
-/// pixel, r32ui, red in its lowest bits: 8 bits a channel and alpha 255, or 10 bits and alpha 3. A channel's code is
-/// the whole number nearest to what the display would need, exactly. Pixels that are not finite show the darkest.
+/// Maps scene luminance to display codes: tone curve, colour at the mapped luminance (less bright where the display cannot
+/// show that colour as bright; nearer to grey where it lies outside its primaries), glare, and the codes of the display.
+/// One word per pixel, r32ui, red in its lowest bits: 8 bits a channel and alpha 255, or 10 bits and alpha 3. A channel's
+/// code is the whole number nearest to what the display would need, exactly. Pixels that are not finite show the darkest.
 Resource add_composite(FrameGraph&, const Kernels&, const CompositeInputs&, uint32_t tone, const View&, const Display&,
                        float ldr_glare_gain);
 

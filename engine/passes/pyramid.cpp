@@ -31,4 +31,13 @@ uint32_t foveal_level(const View& view, const Pyramid& pyramid) {
     return uint32_t(std::clamp(level, 1.0, double(pyramid.levels.size())));
 }
 
+Colours add_colours(FrameGraph& graph, const Kernels& kernels, Resource scene, VkExtent2D extent) {
+    constexpr uint32_t tile = shared::kColourTile;
+    const VkExtent2D tiles{(extent.width + tile - 1) / tile, (extent.height + tile - 1) / tile};
+    const Resource colours = graph.transient("colours", image_shape(kSceneFormat, tiles));
+    graph.dispatch("colours", kernels.colours, {load(scene), store(colours)}, shared::ColoursPush{{extent.width, extent.height}, {tiles.width, tiles.height}},
+                   cover(tiles.width, tiles.height, kernels.colours.group[0], kernels.colours.group[1]));
+    return {colours, tiles};
+}
+
 }  // namespace vesper

@@ -42,6 +42,7 @@ void check_display(const Display& d) {
     if (d.bits != 8 && d.bits != 10) throw Error("a display has 8 or 10 bits a channel");
     if (d.eotf == Eotf::Pq && d.peak > 10000) throw Error("PQ ends at 10,000 cd/m^2");
     to_rec709(d.primaries);
+    if (!make_white(d.primaries)) throw Error("the white of a display lies inside the triangle of its primaries");
     if (d.eotf != Eotf::Table) return;
     if (d.table.size() < 2 || d.table.size() > 4096) throw Error("the table of a display has 2 to 4096 measurements");
     if (d.table.front().code != 0 || d.table.back().code != 1) throw Error("the table of a display must begin with code 0 and end with the largest");

@@ -33,11 +33,11 @@ double rod_sigma(double a, double rod_constant) {
     return 2.5874 * a / (19000 * j2 * a + 0.2615 * std::pow(1 - j2, 4) * std::pow(a, 1.0 / 6));
 }
 
-State adapted(double goal) { return {goal, goal, 2e6 / (2e6 + goal), 0.04 / (0.04 + goal)}; }
+State adapted(double goal, double scotopic) { return {goal, scotopic, 2e6 / (2e6 + goal), 0.04 / (0.04 + scotopic)}; }
 
-State after(const State& s, double goal, double seconds) {
-    const auto lag = [&](double from, double tau) { return goal + (from - goal) * std::exp(-seconds / tau); };
-    return {lag(s.cones, 0.080), lag(s.rods, 0.150), pigment_after(s.cone_pigment, goal, 110, 2e6, seconds), pigment_after(s.rod_pigment, goal, 400, 0.04, seconds)};
+State after(const State& s, double goal, double scotopic, double seconds) {
+    const auto lag = [&](double from, double to, double tau) { return to + (from - to) * std::exp(-seconds / tau); };
+    return {lag(s.cones, goal, 0.080), lag(s.rods, scotopic, 0.150), pigment_after(s.cone_pigment, goal, 110, 2e6, seconds), pigment_after(s.rod_pigment, scotopic, 400, 0.04, seconds)};
 }
 
 Appearance::Appearance(const State& state, double rod_constant)
@@ -49,19 +49,21 @@ Appearance::Appearance(const State& state, double rod_constant)
     };
     const double white = scene(kWhite), black = scene(kBlack), span = (display_white - display_black) / (white - black);
     if (white > display_white)
-        from_ = white, to_ = display_white, scale_ = std::min(span, 1.0);
+        scale_ = std::min(span, 1.0), offset_ = display_white - white * scale_;
     else if (black < display_black)
-        from_ = black, to_ = display_black, scale_ = std::min(span, 1.0);
+        scale_ = std::min(span, 1.0), offset_ = display_black - black * scale_;
 }
 
-Shown Appearance::operator()(double luminance) const {
+double Appearance::cones(double luminance) const { return scale_ * state_.cone_pigment * response(luminance, cone_sigma_); }
+double Appearance::rods(double scotopic) const { return scale_ * state_.rod_pigment * response(scotopic, rod_sigma_); }
+
+Shown Appearance::operator()(double luminance, double scotopic) const {
     const double display_sigma = pattanaik::cone_sigma(kDisplayAdaptation), n = kExponent;
     const double display_range = response(kWhite * kDisplayAdaptation, display_sigma) - response(kBlack * kDisplayAdaptation, display_sigma);
-    const double x = excitation(luminance, cone_sigma_);
-    const double cones = state_.cone_pigment * x / (1 + x), rods = state_.rod_pigment * response(luminance, rod_sigma_);
-    const double shown = std::clamp((cones + rods - from_) * scale_ + to_, 0.0, 0.9999999);
+    const double x = excitation(luminance, cone_sigma_), from_cones = cones(luminance), from_rods = rods(scotopic);
+    const double shown = std::clamp(from_cones + from_rods + offset_, 0.0, 0.9999999);
     const double colour = state_.cone_pigment * n * x / ((1 + x) * (1 + x)) / (display_range / std::log10(32.0));
-    return {display_sigma / (kWhite * kDisplayAdaptation) * std::pow(shown / (1 - shown), 1 / n), colour, cones + rods > 0 ? cones / (cones + rods) : 1};
+    return {display_sigma / (kWhite * kDisplayAdaptation) * std::pow(shown / (1 - shown), 1 / n), colour, from_cones + from_rods > 0 ? from_cones / (from_cones + from_rods) : 1};
 }
 
 }  // namespace vesper::pattanaik

@@ -19,9 +19,10 @@ constexpr double kExponent = 0.73;
 double cone_sigma(double adaptation);
 double rod_sigma(double adaptation, double rod_constant = kRodConstant);
 
-State adapted(double goal);
+/// `scotopic`: of the goal, scotopic cd/m^2, for rods.
+State adapted(double goal, double scotopic);
 /// After `seconds` of looking at `goal`, exactly.
-State after(const State&, double goal, double seconds);
+State after(const State&, double goal, double scotopic, double seconds);
 
 /// What a luminance becomes for an observer in a state, on a display that another, adapted to 25 cd/m^2, looks at.
 struct Shown {
@@ -32,12 +33,17 @@ struct Shown {
 class Appearance {
 public:
     explicit Appearance(const State&, double rod_constant = kRodConstant);
-    Shown operator()(double luminance) const;
+    Shown operator()(double luminance, double scotopic) const;
+
+    /// Responses to a luminance, and to a scotopic luminance, as the display's observer has them: their sum and offset().
+    double cones(double luminance) const;
+    double rods(double scotopic) const;
+    double offset() const { return offset_; }
 
 private:
     State state_;
     double cone_sigma_, rod_sigma_;
-    double from_ = 0, scale_ = 1, to_ = 0;  // (R - from) scale + to
+    double scale_ = 1, offset_ = 0;
 };
 
 }  // namespace vesper::pattanaik

@@ -45,6 +45,8 @@ double trolands(double luminance, double diameter) { return luminance * std::num
 
 double trolands(double luminance) { return trolands(luminance, pupil_moon_spencer(luminance)); }
 
+double scotopic_luminance(double x, double y, double z) { return x > 0 ? std::max(y * (1.33 * (1 + (y + z) / x) - 1.68), 0.0) : 0; }
+
 double acuity(double luminance) { return 17.25 * std::atan(1.4 * std::log10(luminance) + 0.35) + 25.72; }
 
 double age_factor(double years) {

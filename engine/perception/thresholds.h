@@ -23,6 +23,11 @@ double rod_threshold(double luminance, ThresholdBreaks breaks = ThresholdBreaks:
 /// 10^-0.0184 cd/m^2, cones above; not below 1.38e-3 cd/m^2. With continuous breaks: the lower of the two.
 double human_threshold(double luminance, ThresholdBreaks breaks = ThresholdBreaks::published());
 
+/// Scotopic luminance, scotopic cd/m^2, of light of which only X, Y and Z are known, Y in cd/m^2: Y (1.33 (1 + (Y + Z) / X) -
+/// 1.68), not below 0 (Ward Larson, Rushmeier and Piatko 1997). Good for broad spectra: 2.57 of daylight white (D65), 1.29 of
+/// incandescent light (A; its spectrum has 1.41).
+double scotopic_luminance(double x, double y, double z);
+
 /// Diameter of the pupil, mm (Moon and Spencer 1944), as common programs have it.
 double pupil_moon_spencer(double luminance);
 /// Diameter of the pupil, mm (Watson and Yellott 2012), of a field of `degrees2` square degrees.

@@ -2,9 +2,11 @@
 
 #include "shaders/acuity.comp.inc"
 #include "shaders/adapt.comp.inc"
+#include "shaders/bands.comp.inc"
 #include "shaders/blur.comp.inc"
 #include "shaders/bright.comp.inc"
 #include "shaders/cluster.comp.inc"
+#include "shaders/colours.comp.inc"
 #include "shaders/composite.comp.inc"
 #include "shaders/display_light.comp.inc"
 #include "shaders/gather.comp.inc"
@@ -25,6 +27,7 @@ Kernels::Kernels(const Device& device)
       sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),
+      colours(device, "colours.comp", colours_comp),
       acuity(device, "acuity.comp", acuity_comp),
       histogram_rows(device.is_cpu() ? 8 : 1),
       histogram(device, "histogram.comp", histogram_comp, {histogram_rows}),
@@ -67,6 +70,11 @@ const Kernel& Kernels::adapt(uint32_t model) const {
 const Kernel& Kernels::bright(uint32_t tone) const {
     const auto found = bright_.find(tone);
     return found != bright_.end() ? found->second : bright_.emplace(tone, Kernel(device_, "bright.comp", bright_comp, {tone})).first->second;
+}
+
+const Kernel& Kernels::bands(const BandsVariant& variant) const {
+    const auto found = bands_.find(variant);
+    return found != bands_.end() ? found->second : bands_.emplace(variant, Kernel(device_, "bands.comp", bands_comp, {variant.tone, variant.topmost, variant.finest})).first->second;
 }
 
 const Kernel& Kernels::composite(const CompositeVariant& variant) const {

@@ -26,6 +26,7 @@ struct Kernels {
     Kernel sky;
     Kernel sources;
     Kernel pyramid_first, pyramid;
+    Kernel colours;
     Kernel acuity;
     uint32_t histogram_rows;        ///< texels of a column that one invocation of the histogram does
     Kernel histogram;
@@ -33,6 +34,13 @@ struct Kernels {
     const Kernel& adapt(uint32_t model) const;
     /// By shared::kTone*. Made when first asked for.
     const Kernel& bright(uint32_t tone) const;
+    /// What bands.comp has code for. Made when first asked for.
+    struct BandsVariant {
+        uint32_t tone = 0;  ///< shared::kTone*
+        bool topmost = false, finest = false;
+        auto operator<=>(const BandsVariant&) const = default;
+    };
+    const Kernel& bands(const BandsVariant&) const;
     Kernel blur;
     uint32_t composite_rows;        ///< pixels of a column that one invocation of the composite does
     /// What the composite and display_light.comp have code for. Made when first asked for.
@@ -50,6 +58,7 @@ struct Kernels {
 private:
     const Device& device_;
     mutable std::map<uint32_t, Kernel> shade_, select_, gather_, adapt_, bright_;
+    mutable std::map<BandsVariant, Kernel> bands_;
     mutable std::map<CompositeVariant, Kernel> composite_;
 };
 

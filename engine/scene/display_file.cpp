@@ -40,6 +40,7 @@ Primaries read_primaries(const JsonValue& value) {
     } catch (const Error& error) {
         value.fail(error.what());
     }
+    if (!make_white(read)) value.at("white").fail("lies outside the triangle of red, green and blue");
     return read;
 }
 
@@ -49,6 +50,7 @@ void read_table(Display& display, const JsonValue& value) {
     if (rows.size() < 2 || rows.size() > 4096) value.fail("must have 2 to 4096 measurements");
     for (size_t i = 0; i < rows.size(); ++i) {
         const auto pair = rows[i].elements(2);
+        if (const double code = pair[0].number(0, largest); code != std::floor(code)) pair[0].fail("must be a whole number, as codes are");
         const DisplaySample sample{pair[0].number(0, largest) / largest, pair[1].number(0, 1e5)};
         if (i == 0 && sample.code != 0) pair[0].fail("must be 0, the first code");
         if (i > 0 && !(sample.code > display.table.back().code)) pair[0].fail("must be more than the code before");

@@ -13,7 +13,7 @@ struct BrightPush {
     uvec2 small_size;     // texels: size / kGlareShrink, rounded up
     float display_low;    // cd/m^2
     float display_high;
-    float threshold;      // displayed luminance, relative, from which a pixel glares
+    float threshold;      // light of its brightest channel from which a pixel glares
 };
 SHARED_SIZE(BrightPush, 28)
 

@@ -39,6 +39,14 @@ struct Histogram {
 };
 SHARED_SIZE(Histogram, 1036)
 
+const uint kColourTile = 32u;  // px, of the side of what colours are averaged over
+
+struct ColoursPush {
+    uvec2 size;   // px
+    uvec2 tiles;  // size / kColourTile, rounded up
+};
+SHARED_SIZE(ColoursPush, 16)
+
 const uint kAcuityLevels = 5u;  // of the pyramid that blur
 
 struct AcuityPush {

@@ -15,7 +15,8 @@ const uint kTones = 6u;
 // and, as bits beside that, how dim light is perceived before it is mapped, between 0.00562 and 5.62 cd/m^2 (Ward et al. 1997):
 const uint kToneForm = 0xffu;
 const uint kToneColourLoss = 0x100u;  // colour fades to grey
-const uint kTonePurkinje = 0x200u;    // the weights of red, green and blue in luminance become those of rods
+const uint kTonePurkinje = 0x200u;    // luminance becomes scotopic
+const uint kTonePhotopicRods = 0x400u;  // and without: rods take luminance for scotopic luminance, whatever the colour
 
 // What makes the parameters of a frame (specialization of adapt.comp).
 const uint kModelFixed = 0u;      // the statistics of the frame: Reinhard, linear
@@ -72,12 +73,15 @@ struct ToneParameters {
     float rod_constant;        // of Pattanaik's rods: 5e5
     uint automatic;            // 1: Reinhard's key and white from the frame (Reinhard 2003)
     vec3 rod_tint;             // colour of what rods see, for kModelGains
+    float scotopic;            // scotopic luminance over luminance of what the eye adapts to
+    uvec2 colour_tiles;        // of the colours that the eye adapts to; 0: it does not
     ReceptorParameters cones;
     ReceptorParameters rods;
 };
-SHARED_SIZE(ToneParameters, 164)
+SHARED_SIZE(ToneParameters, 176)
 
 const uint kMaxNodes = 1024u;
+const float kResponsePower = 0.73f;  // Pattanaik et al. 2000, after Hunt
 
 // What a frame's statistics make of the operator. Also read as a texel buffer of rgba32f.
 struct ToneCurve {
@@ -95,15 +99,18 @@ struct ToneCurve {
     float slack;           // part of ln(display_high / display_low) that is left over
     float cone_sigma;      // texel 3; half saturation of the eye, cd/m^2
     float rod_sigma;       // scotopic cd/m^2
-    float unused[2];
-    vec3 rods;             // texel 4; what is added to the pixel, times its scotopic luminance
-    float unused_too;
-    // r: ln of display luminance, cd/m^2; for kToneColour g: exponent of colour, b: share of colour, the rest being grey
+    float response_offset; // kToneColour: what is added to the responses of a node
+    float response_unit;   // display luminance over its white is this times (R / (1 - R))^(1 / kResponsePower)
+    vec3 rods;             // texel 4; what is added to the pixel, times its scotopic luminance over that of white
+    float unused;
+    vec4 red, green, blue; // texels 5 to 7; colour as the eye adapted to it = dot(these, linear Rec. 709), for kToneRods
+    // r: ln of display luminance, cd/m^2; for kToneColour r: response of cones to that luminance, g: exponent of colour,
+    // b: response of rods to white of that luminance
     vec4 node[kMaxNodes + 1u];
 };
-SHARED_SIZE(ToneCurve, 16480)
+SHARED_SIZE(ToneCurve, 16528)
 
-const uint kToneNode0 = 5u;  // texel of node[0]
+const uint kToneNode0 = 8u;  // texel of node[0]
 
 struct ReceptorMemory {
     float pigment;  // unbleached part
@@ -132,9 +139,10 @@ struct EyeState {
     float ln_low;
     float bins_per_ln;
     LaggingEye lagging;
+    vec3 chroma;          // slow part of chromatic adaptation: ln of response over that to white of the same luminance, of each cone
     float share[kMaxBins];  // smoothed shares of the votes
 };
-SHARED_SIZE(EyeState, 1088)
+SHARED_SIZE(EyeState, 1100)
 
 SHARED_END
 #endif

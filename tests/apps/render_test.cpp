@@ -96,7 +96,16 @@ TEST_F(Program, LogsTheEyeAndReplaysItToTheLastBit) {
     std::ofstream(folder / "bad.csv") << text_of(folder / "log.csv").substr(0, 5000);
     expect_refused("--replay bad.csv -o c.png");
     expect_refused("--replay none.csv -o c.png");
-    expect_refused("--replay log.csv --start 9 -o c.png");
+    expect_refused("--operator reinhard --replay log.csv --start 9 -o c.png");
+    // The log is of reinhard with 100 bins.
+    expect_refused("--operator ward --replay log.csv -o c.png");
+    expect_refused("--operator reinhard --bins 50 --replay log.csv -o c.png");
+    expect_refused("--operator reinhard --histogram-high 1e5 --replay log.csv -o c.png");
+    expect_refused("--operator reinhard --dt 0.1 --replay log.csv -o c.png");
+    std::string crlf = text_of(folder / "log.csv");
+    for (size_t at = 0; (at = crlf.find('\n', at)) != crlf.npos; at += 2) crlf.insert(at, 1, '\r');
+    std::ofstream(folder / "crlf.csv", std::ios::binary) << crlf;
+    EXPECT_EQ(render("--operator reinhard --replay crlf.csv -o c.png"), 0) << said;
 }
 
 TEST_F(Program, HasThePresetOfThePaper) {

@@ -1,6 +1,7 @@
 // HDR pictures of every kind, read back; what is not read; damaged files. SPDX-License-Identifier: MIT
 #include "io/hdr_image.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,7 @@
 
 #include "io/atomic_file.h"
 #include "scene/scene_files.h"
+#include "support/exr_files.h"
 
 namespace vesper::test {
 namespace {
@@ -78,9 +80,9 @@ void expect_values(const HdrImage& image, const Values& wanted, double relative 
         ASSERT_NEAR(image.rgb[i], wanted[i], relative * (std::abs(static_cast<double>(wanted[i])) + 1)) << i;
 }
 
-std::string refusal(const fs::path& file, const HdrLimits& limits = {}) {
+std::string refusal(const fs::path& file, const HdrLimits& limits = {}, const std::string& layer = {}) {
     try {
-        read_hdr_image(file, limits);
+        read_hdr_image(file, limits, layer);
     } catch (const Error& error) {
         EXPECT_TRUE(contains(error.what(), file.filename().string())) << error.what();
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
@@ -134,8 +136,8 @@ TEST(HdrExr, ReadsGreyMissingChannelsAndChroma) {
     expect_values(read_exr(folder / "y.exr"), {5, 5, 5, 7, 7, 7});
     write(folder / "gz.exr", Imf::Header(2, 1), {5, 100, 7, 200}, {"G", "Z"});
     expect_values(read_exr(folder / "gz.exr"), {0, 5, 0, 0, 7, 0});
-    write(folder / "layer.exr", Imf::Header(2, 1), {5, 7}, {"left.Y"});
-    EXPECT_TRUE(contains(refusal(folder / "layer.exr"), "it has left.Y"));
+    write(folder / "z.exr", Imf::Header(2, 1), {5, 7}, {"Z\xff\n"});
+    EXPECT_TRUE(contains(refusal(folder / "z.exr"), "it has Z??"));
 
     std::vector<Imf::Rgba> colours;
     Values wanted;
@@ -149,6 +151,97 @@ TEST(HdrExr, ReadsGreyMissingChannelsAndChroma) {
         out.writePixels(64);
     }
     expect_values(read_exr(folder / "yc.exr"), wanted, 0.005);
+}
+
+TEST(HdrExr, ReadsLayersByName) {
+    const TempFolder folder;
+    write(folder / "one.exr", Imf::Header(1, 1), {5, 9, 7, 8}, {"key.Z", "key.light.R", "key.light.G", "key.light.B"});
+    expect_values(read_exr(folder / "one.exr"), {9, 7, 8});
+    expect_values(read_hdr_image(folder / "one.exr", {}, "key.light"), {9, 7, 8});
+    EXPECT_TRUE(contains(refusal(folder / "one.exr", {}, "key"), "no layer key; it has key.light"));
+
+    write(folder / "two.exr", Imf::Header(1, 1), {5, 9}, {"left.Y", "right.Y"});
+    EXPECT_TRUE(contains(refusal(folder / "two.exr"), "choose one of left, right"));
+    expect_values(read_exr(folder / "two.exr", {}, "right"), {9, 9, 9});
+
+    write(folder / "main.exr", Imf::Header(1, 1), {1, 2, 3, 9}, {"R", "G", "B", "left.Y"});
+    expect_values(read_exr(folder / "main.exr"), {1, 2, 3});
+    expect_values(read_exr(folder / "main.exr", {}, "left"), {9, 9, 9});
+    folder.write("x.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd");
+    EXPECT_TRUE(contains(refusal(folder / "x.hdr", {}, "left"), "no layers"));
+
+    const HdrImage image{1, 1, {4, 5, 6}};
+    write_layout(folder / "parts.exr", image, {.multi_part = true});
+    expect_values(read_exr(folder / "parts.exr"), {4, 5, 6});
+    expect_values(read_exr(folder / "parts.exr", {}, "second"), {7, 7, 7});
+}
+
+/// Luminance of every pixel and chroma of every `step`-th, as floats.
+void write_yc(const fs::path& file, Imf::Header header, std::vector<float> y, std::vector<float> ry, std::vector<float> by, int step) {
+    const Imath::Box2i w = header.dataWindow();
+    const int width = w.max.x - w.min.x + 1, height = w.max.y - w.min.y + 1;
+    Imf::FrameBuffer frame;
+    const auto add = [&](const char* name, std::vector<float>& values, int s) {
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT, s, s));
+        const auto row = std::ptrdiff_t(sizeof(float)) * (width / s);
+        frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()) - std::ptrdiff_t(sizeof(float)) * (w.min.x / s) - row * (w.min.y / s), sizeof(float), size_t(row), s, s));
+    };
+    add("Y", y, 1), add("RY", ry, step), add("BY", by, step);
+    Imf::OutputFile out(file.c_str(), header);
+    out.setFrameBuffer(frame);
+    out.writePixels(height);
+}
+
+// Chroma that is the same everywhere has nothing between its pixels: R = (RY + 1) Y, B = (BY + 1) Y, and the luminance is that of
+// the file, to the last bits of a float. Halves would lose 5e-4.
+TEST(HdrExr, ChromaKeepsTheWholeLuminance) {
+    const TempFolder folder;
+    for (const int step : {1, 2}) {
+        const int width = 150, height = 140;
+        std::vector<float> y;
+        for (int i = 0; i < width * height; ++i) y.push_back(1e5f + float(i) * 0.25f);
+        const std::vector<float> ry(y.size() / size_t(step * step), 0.25f), by(ry.size(), -0.5f);
+        Imf::Header header(Imath::Box2i{{0, 0}, {width - 1, height - 1}}, Imath::Box2i{{-2, 4}, {width - 3, height + 3}});
+        write_yc(folder / "yc.exr", header, y, ry, by, step);
+        const HdrImage image = read_exr(folder / "yc.exr");
+        for (int v = 0; v < height; ++v)
+            for (int u = 0; u < width; ++u) {
+                const float* rgb = image.rgb.data() + 3 * (v * width + u);
+                const bool inside = u < width - 2 && v >= 4;
+                const double Y = inside ? double(y[size_t((v - 4) * width + u + 2)]) : 0;
+                ASSERT_NEAR(rgb[0], 1.25 * Y, 3e-6 * Y) << u << ", " << v;  // the filter's weights have six digits
+                ASSERT_NEAR(rgb[2], 0.5 * Y, 3e-6 * Y);
+                ASSERT_NEAR(0.2126 * double(rgb[0]) + 0.7152 * double(rgb[1]) + 0.0722 * double(rgb[2]), Y, 2e-4 * Y);  // weights of the primaries have four digits
+            }
+    }
+    const std::vector<float> y(64, 1.0f), few(4, 0.0f);
+    write_yc(folder / "yc.exr", Imf::Header(8, 8), y, few, few, 4);
+    EXPECT_TRUE(contains(refusal(folder / "yc.exr"), "one in 4 x 4"));
+}
+
+// Between its pixels chroma is what OpenEXR's own reader makes of it, in halves.
+TEST(HdrExr, ChromaIsFilteredAsByOpenExr) {
+    const TempFolder folder;
+    const int width = 96, height = 80;
+    std::vector<float> y, ry, by;
+    for (int v = 0; v < height; ++v)
+        for (int u = 0; u < width; ++u) {
+            y.push_back(float(1 + 0.5 * std::sin(u * 0.7) + 0.3 * std::cos(v * 0.9)));
+            if (u % 2 || v % 2) continue;
+            ry.push_back(float(0.3 * std::sin(u * 0.35 + v * 0.1)));
+            by.push_back(float(0.2 * std::cos(v * 0.4 - u * 0.05)));
+        }
+    write_yc(folder / "yc.exr", Imf::Header(width, height), y, ry, by, 2);
+    const HdrImage image = read_exr(folder / "yc.exr");
+    std::vector<Imf::Rgba> wanted(size_t(width * height));
+    Imf::RgbaInputFile own((folder / "yc.exr").c_str());
+    own.setFrameBuffer(wanted.data(), 1, width);
+    own.readPixels(0, height - 1);
+    for (size_t i = 0; i < wanted.size(); ++i) {
+        ASSERT_NEAR(image.rgb[3 * i], wanted[i].r, 2e-3) << i % width << ", " << i / width;
+        ASSERT_NEAR(image.rgb[3 * i + 1], wanted[i].g, 2e-3);
+        ASSERT_NEAR(image.rgb[3 * i + 2], wanted[i].b, 2e-3);
+    }
 }
 
 TEST(HdrExr, CoversTheDisplayWindow) {
@@ -264,6 +357,15 @@ TEST(HdrExr, SurvivesCutAndChangedFiles) {
     tiles.setTileDescription({16, 16, Imf::MIPMAP_LEVELS});
     write(folder / "x.exr", tiles, ramp(24, 24));
     expect_survives(folder, folder / "x.exr", false);
+    write(folder / "x.exr", Imf::Header(9, 5), ramp(9, 5), {"a.R", "a.G", "a.B"});
+    expect_survives(folder, folder / "x.exr", false);
+    const std::vector<float> y(32 * 40, 3.0f), c(y.size() / 4, 0.5f);
+    for (const auto compression : {Imf::NO_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::B44_COMPRESSION}) {
+        Imf::Header header(32, 40);
+        header.compression() = compression;
+        write_yc(folder / "x.exr", header, y, c, c, 2);
+        expect_survives(folder, folder / "x.exr", false);
+    }
 }
 
 const std::string kRgbe = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
@@ -302,6 +404,22 @@ TEST(HdrRadiance, ReadsPlainPixelsAndBothKindsOfRuns) {
     expect_values(radiance("#?RGBE\n", "\n-Y 1 +X 8\n" + row), wanted);
 }
 
+// The six pixels of a picture 3 wide and 2 high, its rows 1 2 3 and 4 5 6, in the order of every resolution line.
+TEST(HdrRadiance, ReadsEveryOrderOfPixels) {
+    const std::pair<const char*, std::array<int, 6>> orders[]{
+        {"-Y 2 +X 3", {1, 2, 3, 4, 5, 6}}, {"-Y 2 -X 3", {3, 2, 1, 6, 5, 4}}, {"+Y 2 +X 3", {4, 5, 6, 1, 2, 3}}, {"+Y 2 -X 3", {6, 5, 4, 3, 2, 1}},
+        {"+X 3 -Y 2", {1, 4, 2, 5, 3, 6}}, {"+X 3 +Y 2", {4, 1, 5, 2, 6, 3}}, {"-X 3 -Y 2", {3, 6, 2, 5, 1, 4}}, {"-X 3 +Y 2", {6, 3, 5, 2, 4, 1}}};
+    for (const auto& [line, order] : orders) {
+        std::string pixels;
+        for (const int value : order) pixels += std::string(3, char(10 * value)) + char(130);
+        const HdrImage image = radiance(kRgbe, std::string("\n") + line + "\n" + pixels);
+        EXPECT_EQ(image.width, 3u) << line;
+        Values wanted;
+        for (int value = 1; value <= 6; ++value) wanted.insert(wanted.end(), 3, rgbe(10 * value, 130));
+        EXPECT_EQ(image.rgb, wanted) << line;
+    }
+}
+
 TEST(HdrRadiance, UndoesExposureAndPrimaries) {
     const std::string one("\n-Y 1 +X 1\n\x80\x40\x20\x81", 15);
     const HdrImage exposed = radiance(kRgbe + "EXPOSURE=4\nVIEW= -vtv\nEXPOSURE= 0.5 \n", one);
@@ -329,8 +447,8 @@ TEST(HdrRadiance, RefusesWithAReason) {
         folder.write("x.hdr", text);
         return refusal(folder / "x.hdr", {1000, 1000000});
     };
-    EXPECT_TRUE(contains(reason(kRgbe + "\n+Y 1 +X 1\nabcd"), "-Y HEIGHT +X WIDTH"));
-    EXPECT_TRUE(contains(reason(kRgbe + "\n+X 1 -Y 1\nabcd"), "-Y HEIGHT +X WIDTH"));
+    EXPECT_TRUE(contains(reason(kRgbe + "\n+Y 1 +Y 1\nabcd"), "-Y HEIGHT +X WIDTH"));
+    EXPECT_TRUE(contains(reason(kRgbe + "\n*X 1 -Y 1\nabcd"), "-Y HEIGHT +X WIDTH"));
     EXPECT_TRUE(contains(reason(kRgbe + "\n-Y 1 +X 1 x\nabcd"), "-Y HEIGHT +X WIDTH"));
     EXPECT_TRUE(contains(reason(kRgbe + "\n-Y 0 +X 1\nabcd"), "no pixels"));
     EXPECT_TRUE(contains(reason(kRgbe + "\n-Y 999999 +X 999999\nabcd"), "limit for one side"));

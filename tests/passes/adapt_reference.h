@@ -95,7 +95,7 @@ inline Thresholds thresholds_of(const shared::ToneParameters& p, const ReceptorM
     const auto adapted = [=](double l) { return cone_threshold(l, breaks); };
     const auto eye = [=, &cones, &rods](double l) {
         const double t = cones.threshold(l, cone_sigma);
-        return p.use_rods ? std::min(t, rods.threshold(l, rod_sigma)) : t;
+        return p.use_rods ? std::min(t, rods.threshold(p.scotopic * l, rod_sigma) / p.scotopic) : t;
     };
     switch (p.ceiling) {
         case shared::kCeilingLinear: return {linear, linear};
@@ -215,8 +215,35 @@ inline double percentile(const std::vector<double>& share, double part, const sh
 
 /// Node i of Pattanaik's table: from 1e-4 to 1e8 cd/m^2.
 inline dvec3 lagging_node(const pattanaik::Appearance& appearance, uint32_t i, const shared::ToneParameters& p) {
-    const pattanaik::Shown shown = appearance(std::pow(10, -4 + 12.0 * i / shared::kMaxNodes));
-    return {std::log(p.display_low + std::min(shown.luminance, 1000.0) * (double(p.display_high) - double(p.display_low))), shown.colour_exponent, shown.cone_share};
+    const double luminance = std::pow(10, -4 + 12.0 * i / shared::kMaxNodes);
+    return {appearance.cones(luminance), appearance(luminance, luminance).colour_exponent, appearance.rods(p.scotopic * luminance)};
+}
+
+/// Responses of cones to linear Rec. 709: XYZ (IEC 61966-2-1) through Estevez 1979.
+inline dvec3 cone_responses(dvec3 rgb) {
+    const glm::dmat3 xyz = glm::transpose(glm::dmat3(0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505));
+    const glm::dmat3 estevez = glm::transpose(glm::dmat3(0.38971, 0.68898, -0.07868, -0.22981, 1.18340, 0.04641, 0, 0, 1));
+    return estevez * (xyz * rgb);
+}
+inline glm::dmat3 cone_matrix() { return {cone_responses({1, 0, 0}), cone_responses({0, 1, 0}), cone_responses({0, 0, 1})}; }
+
+/// ln of cones' responses, averaged over tiles, over those to white of the luminance they stand for.
+inline dvec3 looked_at_chroma(const PyramidLevel& tiles, dvec3 before) {
+    dvec3 sum(0);
+    double pixels = 0;
+    for (const dvec4& t : tiles.texels) sum += t.w * glm::log(glm::max(cone_responses(glm::max(dvec3(t), dvec3(0))), dvec3(kFloor))), pixels += t.w;
+    if (pixels == 0) return before;
+    const dvec3 cones = glm::exp(sum / pixels);
+    return glm::log(cones / (std::max(luminance(glm::inverse(cone_matrix()) * cones), kFloor) * cone_responses(dvec3(1))));
+}
+
+/// Von Kries's adaptation as far as CIECAM02 has it at a luminance (Moroney et al. 2002), for Rec. 709.
+inline glm::dmat3 chromatic_adaptation(dvec3 chroma, double luminance) {
+    const double degree = 1 - std::exp((-luminance - 42) / 92) / 3.6;
+    const dvec3 gain = degree * glm::exp(-chroma) + dvec3(1 - degree);
+    glm::dmat3 diagonal(0);
+    for (int i = 0; i < 3; ++i) diagonal[i][i] = gain[i];
+    return glm::inverse(cone_matrix()) * diagonal * cone_matrix();
 }
 
 /// Everything the pass reads.
@@ -228,6 +255,7 @@ struct AdaptInputs {
     shared::ToneParameters parameters{};
     Observer observer;
     uint32_t model = shared::kModelHistogram;
+    PyramidLevel colours;        ///< tiles; empty: the eye does not adapt to colour
 };
 
 /// Everything the pass writes, in double where it matters.
@@ -250,10 +278,11 @@ inline Adapted adapt(const AdaptInputs& in) {
 
     const ThresholdBreaks breaks{p.cone_break, p.rod_break};
     const ReceptorModel cones(ReceptorKind::Cones, in.observer.observed_cones(), breaks), rods(ReceptorKind::Rods, in.observer.observed_rods(), breaks);
-    const auto step = [&](const ReceptorModel& model, const shared::ReceptorMemory& m) {
-        return first ? model.adapted(adaptation) : model.after({m.pigment, m.fast, m.slow}, adaptation, p.seconds);
+    const auto step = [&](const ReceptorModel& model, const shared::ReceptorMemory& m, double light) {
+        return first ? model.adapted(light) : model.after({m.pigment, m.fast, m.slow}, light, p.seconds);
     };
-    out.cones = step(cones, in.previous.cones), out.rods = step(rods, in.previous.rods);
+    const double scotopic = p.scotopic * adaptation;
+    out.cones = step(cones, in.previous.cones, adaptation), out.rods = step(rods, in.previous.rods, scotopic);
     const double cone_sigma = cones.sigma(out.cones), rod_sigma = rods.sigma(out.rods);
 
     const bool same_bins = in.previous.bins == float(p.bins) && in.previous.ln_low == p.ln_low && in.previous.bins_per_ln == p.bins_per_ln;
@@ -292,12 +321,22 @@ inline Adapted adapt(const AdaptInputs& in) {
         const bool in_state = p.ceiling == shared::kCeilingEye;
         const double shown = cone_threshold(p.display_high / 2.0, breaks);
         const double cone_gain = shown / (in_state ? cones.threshold(adaptation, cone_sigma) : cones.adapted_threshold(adaptation));
-        const double rod_gain = shown / (in_state ? rods.threshold(adaptation, rod_sigma) : rods.adapted_threshold(adaptation));
+        const double rod_gain = shown / (in_state ? rods.threshold(scotopic, rod_sigma) : rods.adapted_threshold(scotopic));
         const double k = std::pow(std::clamp(1 - (adaptation / 2 - 0.01) / 9.99, 0.0, 1.0), 2);
         t.linear_low = float(p.display_low / cone_gain);
         t.linear_gain = float(cone_gain / (double(p.display_high) - double(p.display_low)));
-        t.rods = glm::vec3(glm::dvec3(p.rod_tint) * (k * rod_gain / cone_gain));
+        t.rods = glm::vec3(glm::dvec3(p.rod_tint) * (k * rod_gain * p.scotopic / cone_gain));
     }
+    dvec3 chroma(in.previous.chroma);
+    glm::dmat3 seen(1);
+    if (in.model == shared::kModelGains && !in.colours.texels.empty()) {
+        const dvec3 goal = looked_at_chroma(in.colours, chroma);  // half at once, half with a half-life of 20 s (Rinner and Gegenfurtner 2000)
+        chroma = first ? goal : goal + (chroma - goal) * std::exp2(-double(p.seconds) / 20);
+        seen = chromatic_adaptation((goal + chroma) / 2.0, adaptation);
+    }
+    const glm::dmat3 rows = glm::transpose(seen);
+    t.red = glm::vec4(glm::vec3(rows[0]), 0), t.green = glm::vec4(glm::vec3(rows[1]), 0), t.blue = glm::vec4(glm::vec3(rows[2]), 0);
+    out.eye.chroma = glm::vec3(chroma);
     t.ln_low = p.ln_low, t.bins_per_ln = p.bins_per_ln, t.bins = float(p.bins);
     t.under_full = out.adjusted.under ? 1.0f : 0.0f;
     t.slack = float(out.adjusted.slack);
@@ -305,9 +344,11 @@ inline Adapted adapt(const AdaptInputs& in) {
     const shared::LaggingEye& lagging = in.previous.lagging;
     out.lagging = {lagging.cones, lagging.rods, lagging.cone_pigment, lagging.rod_pigment};
     if (in.model == shared::kModelLagging) {
-        out.lagging = first || !(lagging.cones > 0) ? pattanaik::adapted(adaptation) : pattanaik::after(out.lagging, adaptation, p.seconds);
+        out.lagging = first || !(lagging.cones > 0) ? pattanaik::adapted(adaptation, scotopic) : pattanaik::after(out.lagging, adaptation, scotopic, p.seconds);
         const pattanaik::Appearance appearance(out.lagging, p.rod_constant);
         t.ln_low = float(std::log(1e-4)), t.bins = float(shared::kMaxNodes), t.bins_per_ln = float(shared::kMaxNodes / std::log(1e12));
+        t.response_offset = float(appearance.offset());
+        t.response_unit = float(pattanaik::cone_sigma(25) / 125);
         for (uint32_t i = 0; i <= shared::kMaxNodes; ++i) t.node[i] = glm::vec4(glm::vec3(lagging_node(appearance, i, p)), 0);
     }
 

@@ -22,6 +22,7 @@ shared::ToneParameters parameters_of(double low = 0.5, double high = 200, uint32
     p.ln_low = float(std::log(1e-4)), p.bins_per_ln = float(10 / std::log(10.0));  // tenths of a decade
     p.display_low = float(low), p.display_high = float(high);
     p.key = 0.18f;
+    p.scotopic = 1;
     return p;
 }
 
@@ -267,6 +268,31 @@ TEST(AdaptReference, FerwerdasGains) {
     EXPECT_NEAR(a.tone.rods.x, std::pow(1 - 0.49 / 9.99, 2) * 0.391302 / 0.402717, 5e-6) << "six digits";
     in.parameters.ceiling = shared::kCeilingEye;
     EXPECT_NEAR(adapt(in).tone.linear_gain, a.tone.linear_gain, 1e-6) << "adapted, an eye in its state is the same";
+}
+
+// A street all in the light of sodium lamps: once adapted, its white is nearer to white by the degree of CIECAM02 at 1 cd/m^2, 0.8259; after a
+// change half of the way is gone at once, and half of the rest after 20 s (Rinner and Gegenfurtner 2000).
+TEST(AdaptReference, TheEyeAdaptsToColours) {
+    AdaptInputs in = frame_of(night(), 1);
+    in.model = shared::kModelGains, in.parameters.ceiling = shared::kCeilingEye, in.parameters.rod_tint = {1, 1, 1};
+    const dvec3 sodium = dvec3(2, 0.7, 0.1) / luminance({2, 0.7, 0.1});
+    const auto seen = [&](const Adapted& a, dvec3 rgb) { return dvec3(glm::dot(dvec3(a.tone.red), rgb), glm::dot(dvec3(a.tone.green), rgb), glm::dot(dvec3(a.tone.blue), rgb)); };
+    in.colours = {2, 1, {dvec4(0.5 * sodium, 800), dvec4(2.0 * sodium, 800)}};
+    const Adapted adapted = adapt(in);
+    const double degree = 1 - std::exp(-43.0 / 92) / 3.6;
+    EXPECT_NEAR(degree, 0.8259, 1e-4);
+    EXPECT_NEAR(glm::length(cone_responses(seen(adapted, sodium)) - (degree * cone_responses(dvec3(1)) + (1 - degree) * cone_responses(sodium))), 0, 1e-5);
+    in.colours = {1, 1, {dvec4(3, 3, 3, 100)}};
+    EXPECT_NEAR(glm::length(seen(adapt(in), {1, 2, 3}) - dvec3(1, 2, 3)), 0, 1e-6) << "white changes nothing";
+
+    in.previous = adapted.eye, in.parameters.seconds = 20;  // from sodium into white light
+    const Adapted later = adapt(in);
+    const dvec3 before(adapted.eye.chroma), after(later.eye.chroma);
+    EXPECT_NEAR(glm::length(after - 0.5 * before), 0, 1e-6);
+    const glm::dmat3 wanted = chromatic_adaptation(0.25 * before, 1);
+    EXPECT_NEAR(glm::length(seen(later, {1, 2, 3}) - wanted * dvec3(1, 2, 3)), 0, 1e-5);
+    in.parameters.seconds = 0;
+    EXPECT_NEAR(glm::length(dvec3(adapt(in).eye.chroma) - before), 0, 1e-7) << "a pause";
 }
 
 TEST(AdaptReference, AnEmptyFrameIsBlack) {

@@ -4,6 +4,7 @@
 
 #include "passes/pyramid_reference.h"
 #include "perception/display.h"
+#include "perception/thresholds.h"
 #include "shared/composite.h"
 
 namespace vesper::reference {
@@ -22,31 +23,44 @@ inline dvec4 node_at(double y, const shared::ToneCurve& c) {
     return glm::mix(dvec4(c.node[i]), dvec4(c.node[i + 1]), t - i);
 }
 
-/// Displayed luminance of a scene luminance, relative, for the operators that map luminance.
-inline double tone_mapped(double y, uint32_t tone, const shared::ToneCurve& c, double display_low,
-                          double display_high) {
-    double d = 0;
-    const uint32_t form = tone & shared::kToneForm;
-    if (form == shared::kToneCurve || form == shared::kToneColour) {
-        d = (std::exp(node_at(y, c).x) - display_low) / (display_high - display_low);
-    } else if (form == shared::kToneReinhard) {  // Reinhard et al. 2002, Eq. 4
-        const double x = c.reinhard_scale * y;
-        d = x * (1 + x * c.reinhard_white) / (1 + x);
-    } else if (form == shared::kToneLinear || form == shared::kToneRods) {
-        d = (y - c.linear_low) * c.linear_gain;
+/// What rods see of a colour over what they see of white (Ward Larson et al. 1997); or its luminance.
+inline double scotopic(dvec3 rgb, uint32_t tone) {
+    if (tone & shared::kTonePhotopicRods) return luminance(rgb);
+    const glm::dmat3 xyz = glm::transpose(glm::dmat3(0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505));  // IEC 61966-2-1
+    const dvec3 c = xyz * glm::max(rgb, dvec3(0));
+    return scotopic_luminance(c.x, c.y, c.z) / scotopic_luminance(0.9505, 1, 1.0890);
+}
+
+/// Displayed luminance of a scene colour, relative, before the display's limits.
+inline double tone_mapped(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high) {
+    const double y = std::max(luminance(rgb), 0.0), x = c.reinhard_scale * y;
+    switch (tone & shared::kToneForm) {
+        case shared::kToneCurve: return (std::exp(node_at(y, c).x) - display_low) / (display_high - display_low);
+        case shared::kToneReinhard: return x * (1 + x * c.reinhard_white) / (1 + x);  // Reinhard et al. 2002, Eq. 4
+        case shared::kToneColour: {  // Pattanaik et al. 2000, Eq. 13
+            const double r = std::clamp(node_at(y, c).x + node_at(scotopic(rgb, tone), c).z + c.response_offset, 0.0, 0.9999999);
+            return std::min(c.response_unit * std::pow(r / (1 - r), 1 / 0.73), 1000.0);
+        }
+        default: return (y - c.linear_low) * c.linear_gain;
     }
-    return std::clamp(d, 0.0, 1.0);
+}
+
+/// Of grey, within the display's limits.
+inline double tone_mapped(double y, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high) {
+    return std::clamp(tone_mapped(dvec3(y), tone, c, display_low, display_high), 0.0, 1.0);
 }
 
 /// What is seen of a pixel, cd/m^2: what rods see added as grey (Ferwerda et al. 1996, Eq. 12); colour lost between 5.62
 /// and 0.00562 cd/m^2 (Ward Larson et al. 1997), and luminance weighted as rods do.
 inline dvec3 perceived(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c) {
-    const auto scotopic = [](dvec3 p) { return 0.062 * p.x + 0.608 * p.y + 0.330 * p.z; };
-    if ((tone & shared::kToneForm) == shared::kToneRods) rgb += scotopic(rgb) * dvec3(c.rods);
+    if ((tone & shared::kToneForm) == shared::kToneRods) {
+        const dvec3 grey = scotopic(rgb, tone) * dvec3(c.rods);
+        rgb = dvec3(glm::dot(dvec3(c.red), rgb), glm::dot(dvec3(c.green), rgb), glm::dot(dvec3(c.blue), rgb)) + grey;
+    }
     const bool loss = tone & shared::kToneColourLoss, purkinje = tone & shared::kTonePurkinje;
     const double y = luminance(rgb);
     if ((tone & shared::kToneForm) == shared::kToneLdr || !(loss || purkinje) || !(y > 0)) return rgb;
-    const double cones = std::clamp((y - 0.00562) / (5.62 - 0.00562), 0.0, 1.0), grey = std::max(purkinje ? scotopic(rgb) : y, 0.0);
+    const double cones = std::clamp((y - 0.00562) / (5.62 - 0.00562), 0.0, 1.0), grey = std::max(purkinje ? scotopic(rgb, tone) : y, 0.0);
     return loss ? cones * rgb + (1 - cones) * dvec3(grey) : rgb * ((cones * y + (1 - cones) * grey) / y);
 }
 
@@ -61,29 +75,33 @@ inline glm::dmat3 from_rec709(const Primaries& to) {
     return glm::inverse(to_xyz(to)) * to_xyz(kRec709);
 }
 
-/// Pattanaik et al. 2000, Eq. 19: ratios, of at least 1e-6, to a power; grey as pfstmo mixes it.
-inline dvec3 faded(dvec3 ratios, dvec4 node) {
-    for (int k = 0; k < 3; ++k) ratios[k] = node.z * std::pow(std::max(ratios[k], 1e-6), node.y) + 1 - node.z;
-    return ratios;
+/// Colour of a pixel at displayed luminance d: ratios are kept; with Pattanaik et al. 2000 (Eq. 19) those of at least 1e-6 are
+/// raised to a power and mixed with grey as pfstmo does.
+inline dvec3 coloured(dvec3 rgb, dvec3 own, double d, uint32_t tone, const shared::ToneCurve& c) {
+    const double y = luminance(rgb);
+    if (!(y > 0)) return dvec3(d);
+    dvec3 ratios = own / y;
+    if ((tone & shared::kToneForm) == shared::kToneColour) {
+        const dvec4 node = node_at(y, c);
+        const double rods = node_at(scotopic(rgb, tone), c).z, share = node.x / std::max(node.x + rods, 1e-30);
+        for (int k = 0; k < 3; ++k) ratios[k] = share * std::pow(std::max(ratios[k], 1e-6), node.y) + 1 - share;
+    }
+    return d * ratios;
 }
 
-/// Displayed light of a scene colour: the colour at the mapped luminance, no channel negative, and where one would
-/// exceed white the colour moved towards the grey of the mapped luminance. Non-finite pixels are black. `to_own` gives
-/// the colour in the display's primaries.
+/// Displayed light of a scene colour: the colour at the mapped luminance. Where a channel is negative the colour goes towards
+/// the grey of that luminance until it is 0; where one exceeds 1 all are divided by it. Non-finite pixels are black. `to_own`
+/// gives the colour in the display's primaries.
 inline dvec3 displayed(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high,
                        const glm::dmat3& to_own = glm::dmat3(1)) {
     if (!finite(rgb)) return dvec3(0);
     rgb = perceived(rgb, tone, c);
     if ((tone & shared::kToneForm) == shared::kToneLdr) return glm::clamp(to_own * rgb, 0.0, 1.0);
-    const double y = luminance(rgb);
-    if (!(y > 0)) return dvec3(0);
-    const double d = tone_mapped(y, tone, c, display_low, display_high);
-    const dvec3 ratios = to_own * rgb / y;
-    const dvec3 colour = d * ((tone & shared::kToneForm) == shared::kToneColour ? faded(ratios, node_at(y, c)) : glm::max(ratios, dvec3(0)));
-    const double most = std::max({colour.x, colour.y, colour.z});
-    if (!(most > 1)) return colour;
-    if (d >= 1) return dvec3(1);
-    return d + (colour - d) * (1 - d) / (most - d);
+    const double d = std::clamp(tone_mapped(rgb, tone, c, display_low, display_high), 0.0, 1.0);
+    dvec3 colour = coloured(rgb, to_own * rgb, d, tone, c);
+    const double least = std::min({colour.x, colour.y, colour.z});
+    if (least < 0) colour = glm::max(glm::mix(dvec3(d), colour, d / (d - least)), dvec3(0));
+    return colour / std::max({colour.x, colour.y, colour.z, 1.0});
 }
 
 /// Bilinear look-up at texel coordinates where 0 is the middle of the first texel, clamped at the border.
@@ -163,13 +181,7 @@ inline dvec3 display_light(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c,
     if (form == shared::kToneLdr) return low + range * displayed(rgb, tone, c, low, low + range);
     if (!finite(rgb)) return dvec3(low);
     rgb = perceived(rgb, tone, c);
-    const double y = luminance(rgb);
-    if (!(y > 0)) return dvec3(low);
-    const double x = c.reinhard_scale * y;
-    const double d = form == shared::kToneReinhard                                    ? x * (1 + x * c.reinhard_white) / (1 + x)
-                     : form == shared::kToneLinear || form == shared::kToneRods ? std::max((y - c.linear_low) * c.linear_gain, 0.0)
-                                                                                      : std::max((std::exp(node_at(y, c).x) - low) / range, 0.0);
-    return low + range * d * (form == shared::kToneColour ? faded(rgb / y, node_at(y, c)) : rgb / y);
+    return low + range * coloured(rgb, rgb, std::max(tone_mapped(rgb, tone, c, low, low + range), 0.0), tone, c);
 }
 
 }  // namespace vesper::reference

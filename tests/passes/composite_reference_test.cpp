@@ -58,7 +58,8 @@ TEST(CompositeReference, LinearRunsFromLowToHigh) {
     EXPECT_EQ(tone_mapped(1e6, shared::kToneLinear, c, 0, 1), 1);
 }
 
-TEST(CompositeReference, LuminanceIsKeptWhateverTheColour) {
+// Whatever the colour, its chromaticity is kept, and its luminance unless the display is not that bright in that colour.
+TEST(CompositeReference, ColoursAreKeptAndAsBrightAsTheDisplayIsInThem) {
     const shared::ToneCurve c = identity();
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -66,24 +67,54 @@ TEST(CompositeReference, LuminanceIsKeptWhateverTheColour) {
         const dvec3 rgb =
             dvec3(uniform(random), uniform(random), uniform(random)) * std::pow(10, 4 * uniform(random) - 1);
         const dvec3 shown = displayed(rgb, shared::kToneCurve, c, 1, 100);
-        EXPECT_NEAR(luminance(shown), tone_mapped(luminance(rgb), shared::kToneCurve, c, 1, 100), 1e-12);
-        for (int k = 0; k < 3; ++k) {
-            EXPECT_GE(shown[k], 0);
-            EXPECT_LE(shown[k], 1 + 1e-12);
-        }
+        const double most = std::max({shown.x, shown.y, shown.z}), want = tone_mapped(luminance(rgb), shared::kToneCurve, c, 1, 100);
+        EXPECT_LE(most, 1 + 1e-12);
+        EXPECT_LE(luminance(shown), want + 1e-12);
+        if (most < 1 - 1e-9) { EXPECT_NEAR(luminance(shown), want, 1e-12); }
+        if (want > 0) { EXPECT_NEAR(glm::length(shown / luminance(shown) - rgb / luminance(rgb)), 0, 1e-9); }
     }
 }
 
-TEST(CompositeReference, BrightColoursGoTowardsGreyNoFartherThanTheyMust) {
+// A tail lamp stays red, however bright. Nothing else could be as bright and red.
+TEST(CompositeReference, BrightRedStaysRed) {
     shared::ToneCurve c{};
     c.linear_gain = 1;
-    const dvec3 red = displayed({1.8, 0.1, 0.1}, shared::kToneLinear, c, 0, 1);
-    EXPECT_NEAR(red.x, 1, 1e-12) << "just in gamut";
-    EXPECT_NEAR(luminance(red), luminance({1.8, 0.1, 0.1}), 1e-7);
-    EXPECT_GT(red.y, 0.1);
-    EXPECT_EQ(displayed({0.9, 0.5, 0.1}, shared::kToneLinear, c, 0, 1), dvec3(0.9, 0.5, 0.1))
-        << "others are left alone";
-    EXPECT_EQ(displayed({30, 1, 1}, shared::kToneLinear, c, 0, 1), dvec3(1)) << "as bright as white: white";
+    EXPECT_EQ(displayed({2, 0, 0}, shared::kToneLinear, c, 0, 1), dvec3(1, 0, 0));
+    EXPECT_EQ(displayed({2000, 0, 0}, shared::kToneLinear, c, 0, 1), dvec3(1, 0, 0));
+    EXPECT_NEAR(glm::length(displayed({2, 1, 0.5}, shared::kToneLinear, c, 0, 1) - dvec3(1, 0.5, 0.25)), 0, 1e-12);
+    EXPECT_EQ(displayed({0.9, 0.5, 0.1}, shared::kToneLinear, c, 0, 1), dvec3(0.9, 0.5, 0.1)) << "others are left alone";
+}
+
+// Outside the primaries: the same luminance and dominant wavelength, on the edge of the triangle.
+TEST(CompositeReference, ColoursOutsideGoTowardsGreyNoFartherThanTheyMust) {
+    shared::ToneCurve c{};
+    c.linear_gain = 1;
+    const dvec3 rgb(0.4, 0.6, -0.2), shown = displayed(rgb, shared::kToneLinear, c, 0, 1), grey(luminance(rgb));
+    EXPECT_NEAR(shown.z, 0, 1e-12);
+    EXPECT_NEAR(luminance(shown), luminance(rgb), 1e-7);
+    EXPECT_NEAR(glm::length(glm::cross(shown - grey, rgb - grey)), 0, 1e-7);
+}
+
+// Radiance between no light and hardly any: no step.
+TEST(CompositeReference, NoLightIsShownAsHardlyAny) {
+    shared::ToneCurve c = identity();
+    for (auto& node : c.node) node.x += 1;  // a curve that begins above the darkest
+    EXPECT_EQ(displayed(dvec3(0), shared::kToneCurve, c, 1, 100), displayed(dvec3(1e-9), shared::kToneCurve, c, 1, 100));
+    EXPECT_GT(displayed(dvec3(0), shared::kToneCurve, c, 1, 100).x, 0.01);
+    c.response_offset = 0.1f, c.response_unit = 5;
+    for (auto& node : c.node) node = {0.01f, 0.2f, 0.02f, 0};
+    EXPECT_EQ(displayed(dvec3(0), shared::kToneColour, c, 1, 100), displayed(dvec3(1e-9), shared::kToneColour, c, 1, 100));
+}
+
+// Rods are blind to red lamps, and see blue ones well; white counts as its luminance.
+TEST(CompositeReference, RodsSeeColours) {
+    EXPECT_NEAR(scotopic(dvec3(3), 0), 3, 1e-12);
+    EXPECT_NEAR(scotopic({1, 0, 0}, 0), 0.0846 / 2.57306, 1e-4);
+    EXPECT_NEAR(scotopic({0, 0, 1}, 0), 0.5188 / 2.57306, 1e-4);
+    EXPECT_NEAR(scotopic({1, 0.5, -1}, 0), scotopic({1, 0.5, 0}, 0), 1e-12);
+    EXPECT_NEAR(scotopic({1, 0, 0}, shared::kTonePhotopicRods), 0.2126, 1e-12);
+    const dvec3 dim = perceived({0, 0, 1e-3}, shared::kTonePurkinje, {});
+    EXPECT_NEAR(dim.z, 1e-3 * 0.5188 / 2.57306 / 0.0722, 1e-6) << "blue grows brighter in the dark";
 }
 
 TEST(CompositeReference, NeitherNanNorInfinityNorNegativeLightIsShown) {
@@ -92,7 +123,7 @@ TEST(CompositeReference, NeitherNanNorInfinityNorNegativeLightIsShown) {
         for (dvec3 rgb : {dvec3(kNan, 1, 1), dvec3(1, kInf, 1), dvec3(-kInf), dvec3(-1), dvec3(0)})
             EXPECT_EQ(displayed(rgb, tone, c, 1, 100), dvec3(0));
     EXPECT_EQ(displayed({0.5, 2, -1}, shared::kToneLdr, c, 1, 100), dvec3(0.5, 1, 0));
-    EXPECT_EQ(displayed({50, 50, -1}, shared::kToneCurve, c, 1, 100).z, 0);
+    EXPECT_NEAR(displayed({50, 50, -1}, shared::kToneCurve, c, 1, 100).z, 0, 1e-12);
 }
 
 TEST(CompositeReference, BilinearHitsTexelsAndTheMeansBetween) {

@@ -15,8 +15,8 @@ struct LightImage {
     dvec3 at(uint32_t x, uint32_t y) const { return pixels[size_t(y) * width + x]; }
 };
 
-/// What glares of displayed light: all of it from `threshold` on, nothing below.
-inline dvec3 glaring(dvec3 shown, double threshold) { return luminance(shown) >= threshold ? shown : dvec3(0); }
+/// What glares of displayed light: all of it from where a channel reaches `threshold`, nothing below.
+inline dvec3 glaring(dvec3 shown, double threshold) { return std::max({shown.x, shown.y, shown.z}) >= threshold ? shown : dvec3(0); }
 
 /// Means of what glares over blocks of kGlareShrink^2 pixels, those that exist.
 inline LightImage bright(const LightImage& shown, double threshold) {

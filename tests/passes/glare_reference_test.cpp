@@ -34,7 +34,8 @@ TEST(GlareReference, GaussianSumsToOneAndIsCutAtThreeSigma) {
 TEST(GlareReference, OnlyWhatReachesTheThresholdGlares) {
     EXPECT_EQ(glaring(dvec3(0.89), 0.9), dvec3(0));
     EXPECT_EQ(glaring(dvec3(0.9 + 1e-12), 0.9), dvec3(0.9 + 1e-12));
-    EXPECT_EQ(glaring({1, 0, 0}, 0.9), dvec3(0)) << "by luminance: a red lamp is not that bright";
+    EXPECT_EQ(glaring({1, 0, 0}, 0.9), dvec3(1, 0, 0)) << "a red lamp as bright as the display can show it";
+    EXPECT_EQ(glaring({0.8, 0.89, 0.3}, 0.9), dvec3(0));
 }
 
 TEST(GlareReference, BlocksAreMeansOfThePixelsThatExist) {

@@ -85,5 +85,14 @@ TEST(Thresholds, OlderEyesNeedMore) {
     EXPECT_EQ(age_factor(90), age_factor(75)) << "no data";
 }
 
+// By hand from the formula: light of equal energy, incandescent light (A), daylight (D65). Measured spectra have 2.26, 1.41, 2.47.
+TEST(Thresholds, ScotopicLuminanceOfAColour) {
+    EXPECT_NEAR(scotopic_luminance(1, 1, 1), 2.31, 1e-12);
+    EXPECT_NEAR(scotopic_luminance(2 * 1.0985, 2, 2 * 0.3558), 2 * 1.29156, 1e-4);
+    EXPECT_NEAR(scotopic_luminance(0.9505, 1, 1.0890), 2.57306, 1e-5);
+    EXPECT_EQ(scotopic_luminance(0.73, 0.1, 0), 0) << "deep red";
+    EXPECT_EQ(scotopic_luminance(0, 0, 0), 0);
+}
+
 }  // namespace
 }  // namespace vesper::test

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "passes/adapt_reference.h"
+#include "passes/bands_reference.h"
 #include "passes/composite_reference.h"
 #include "passes/histogram_reference.h"
 #include "tone_chain.h"
@@ -27,8 +28,18 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
     shared::Histogram histogram = votes.counted;
     for (size_t i = 0; i < votes.count.size(); ++i) histogram.count[i] = uint32_t(std::lround(votes.count[i]));
     const shared::ToneParameters parameters = tone_parameters(op, bins, settings.tone, display, {foveal_level, {level.width, level.height}, extent}, seconds);
-    const auto adapted = reference::adapt({histogram, levels.back().texels.at(0), level, previous, parameters, settings.tone.observer, op.model});
-    const reference::CompositeFrame<glm::vec4> frame{scene, {}, {}, {extent.width, extent.height}};
+    const auto adapted = reference::adapt({histogram, levels.back().texels.at(0), level, previous, parameters, settings.tone.observer, op.model,
+                                           op.chromatic ? reference::colour_tiles(scene, extent.width, extent.height) : reference::PyramidLevel{}});
+    std::vector<glm::vec4> banded(scene.begin(), scene.end());
+    if (op.bands) {
+        std::vector<double> luminance;
+        for (const glm::vec4& p : scene) luminance.push_back(reference::luminance(glm::dvec3(p)));
+        const auto bands = reference::bands(luminance, extent.width, extent.height, levels, foveal_level, adapted.tone, {parameters.cone_break, parameters.rod_break});
+        for (size_t i = 0; i < banded.size(); ++i)
+            if (reference::finite(glm::dvec3(scene[i]))) banded[i] = glm::vec4(glm::vec3(reference::banded(glm::dvec3(scene[i]), std::exp(bands.shown[i]), tone, adapted.tone)), 1);
+        tone = shared::kToneLinear;
+    }
+    const reference::CompositeFrame<glm::vec4> frame{banded, {}, {}, {extent.width, extent.height}};
     std::vector<glm::dvec3> codes;
     for (uint32_t y = 0; y < extent.height; ++y)
         for (uint32_t x = 0; x < extent.width; ++x) codes.push_back(reference::composite(frame, {x, y}, tone, adapted.tone, display));

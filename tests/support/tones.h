@@ -13,7 +13,8 @@ namespace vesper::test {
 
 constexpr uint32_t kEveryTone[]{shared::kToneCurve, shared::kToneReinhard, shared::kToneLinear, shared::kToneLdr, shared::kToneColour, shared::kToneRods,
                                 shared::kToneCurve | shared::kToneColourLoss, shared::kToneLinear | shared::kTonePurkinje,
-                                shared::kToneReinhard | shared::kToneColourLoss | shared::kTonePurkinje};
+                                shared::kToneReinhard | shared::kToneColourLoss | shared::kTonePurkinje,
+                                shared::kToneColour | shared::kTonePhotopicRods, shared::kToneRods | shared::kTonePhotopicRods};
 
 /// A tone curve with parameters for every operator: a crooked table from 0.01 to 1e4 cd/m^2, Reinhard with white at
 /// 3000, linear from 0.05 to 80.
@@ -23,6 +24,7 @@ inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 1
     c.reinhard_scale = 0.18f / 0.7f, c.reinhard_white = 1 / (c.reinhard_scale * 3000 * c.reinhard_scale * 3000);
     c.linear_low = 0.05f, c.linear_gain = 1 / 79.95f;
     c.rods = {0.2f, 0.1f, 0.4f};
+    c.red = {0.8f, 0.15f, 0, 0}, c.green = {0.02f, 1.1f, -0.03f, 0}, c.blue = {0, -0.1f, 1.7f, 0};
     c.ln_low = std::log(0.01f), c.bins_per_ln = float(bins) / std::log(1e6f), c.bins = float(bins);
     const double low = std::log(double(display.low())), range = std::log(double(display.high())) - low;
     double sum = 0;
@@ -34,6 +36,21 @@ inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 1
         if (i < bins) at += steps[i];
     }
     return c;
+}
+
+/// The same for kToneColour: responses of cones and rods, as crooked.
+inline shared::ToneCurve crooked_responses(const Display& display, uint32_t bins = 100) {
+    shared::ToneCurve c = crooked_curve(display, bins);
+    c.response_offset = -0.01f, c.response_unit = 5.17f;
+    for (uint32_t i = 0; i <= bins; ++i) {
+        const float along = (c.node[i].x - std::log(display.low())) / (std::log(display.high()) - std::log(display.low()));
+        c.node[i] = {0.7f * along, c.node[i].y, 0.3f * float(i) / float(bins), 0};
+    }
+    return c;
+}
+
+inline shared::ToneCurve crooked_curve_of(uint32_t tone, const Display& display) {
+    return (tone & shared::kToneForm) == shared::kToneColour ? crooked_responses(display) : crooked_curve(display);
 }
 
 /// Pixels from 1e-4 to 1e8 cd/m^2, saturated and grey, some black.

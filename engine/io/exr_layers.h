@@ -1,0 +1,23 @@
+// What pictures an OpenEXR file holds. Not for others. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <ImfMultiPartInputFile.h>
+
+namespace vesper::hdr {
+
+/// Channels that make a picture.
+struct ExrLayer {
+    int part = 0;
+    std::string prefix;   ///< of its channels' names: "" or "layer."
+    std::string name;     ///< of the part where there are several, and of the layer
+    bool colour = false;  ///< any of R, G, B
+    bool chroma = false;  ///< RY or BY; else Y alone
+};
+
+/// The layer or part of that name; without a name channels R, G, B, Y of the first part, or the only picture there is.
+/// Throws Error, with the names there are.
+ExrLayer choose_layer(const Imf::MultiPartInputFile&, const std::string& wanted);
+
+}  // namespace vesper::hdr

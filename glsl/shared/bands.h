@@ -1,0 +1,15 @@
+// Bands of contrast between levels of the luminance pyramid. SPDX-License-Identifier: MIT
+#ifndef VESPER_SHARED_BANDS_H
+#define VESPER_SHARED_BANDS_H
+#include "types.h"
+SHARED_BEGIN
+
+struct BandsPush {
+    uvec2 size;         // texels of the finer level, or px
+    uvec2 coarse_size;  // texels of the level above
+    float cone_break;   // log10 L from which Weber's law holds
+};
+SHARED_SIZE(BandsPush, 20)
+
+SHARED_END
+#endif

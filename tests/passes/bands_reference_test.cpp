@@ -1,0 +1,87 @@
+// Bands of contrast: what can be said of them by hand. SPDX-License-Identifier: MIT
+#include "passes/bands_reference.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace vesper::reference {
+namespace {
+
+constexpr ThresholdBreaks kBreaks = ThresholdBreaks::continuous();
+
+/// ln Ld = ln of `factor` + power ln L, from 1e-4 to 1e8 cd/m^2.
+shared::ToneCurve power_curve(double factor, double power) {
+    shared::ToneCurve c{};
+    c.bins = 256, c.ln_low = float(std::log(1e-4)), c.bins_per_ln = float(256 / std::log(1e12));
+    for (int i = 0; i <= 256; ++i) c.node[i].x = float(std::log(factor) + power * (std::log(1e-4) + i / 256.0 * std::log(1e12)));
+    return c;
+}
+
+std::vector<double> shown(const std::vector<double>& l, uint32_t width, uint32_t height, uint32_t top, const shared::ToneCurve& curve) {
+    std::vector<dvec3> rgb;
+    for (const double y : l) rgb.emplace_back(y);
+    std::vector<double> made = bands(l, width, height, pyramid(std::span<const dvec3>(rgb), width, height), top, curve, kBreaks).shown;
+    for (double& m : made) m = std::exp(m);
+    return made;
+}
+
+TEST(BandsReference, WhatIsEvenFollowsTheCurve) {
+    for (const double l : {1e-3, 0.5, 40.0, 3e4})
+        for (const uint32_t top : {1u, 3u, 5u})
+            for (const double s : shown(std::vector<double>(40 * 30, l), 40, 30, top, power_curve(3, 0.6))) ASSERT_NEAR(s / (3 * std::pow(l, 0.6)), 1, 1e-6) << l;
+}
+
+// Where Weber's law holds on both sides, ratios are kept whatever the picture: thresholds are 0.0556 of scene and display.
+TEST(BandsReference, InDaylightALinearCurveIsLinear) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> decades(2.1, 5);
+    std::vector<double> l;
+    for (int i = 0; i < 37 * 23; ++i) l.push_back(std::pow(10, decades(random)));
+    const std::vector<double> s = shown(l, 37, 23, 5, power_curve(4, 1));
+    for (size_t i = 0; i < l.size(); ++i) EXPECT_NEAR(s[i] / (4 * l[i]), 1, 1e-5);  // nodes are floats
+}
+
+// A target smaller than the finest band: its difference is as many thresholds on the display as in the scene, as far as a contrast
+// of 0.01 is its logarithm. What of it is left in the mean of the topmost texels, 1 / 4^top, is mapped by the curve instead.
+TEST(BandsReference, SmallTargetsKeepTheirVisibilityLevel) {
+    for (const double background : {0.02, 0.5, 5.0, 300.0})
+        for (const double contrast : {-0.01, 0.01}) {
+            std::vector<double> l(64 * 64, background);
+            l[64 * 31 + 33] *= 1 + contrast;
+            const double field = std::exp(node_at(background, power_curve(6, 0.5)).x);
+            const double difference = shown(l, 64, 64, 5, power_curve(6, 0.5))[64 * 31 + 33] - field;
+            const double in_scene = contrast * background / cone_threshold(background, kBreaks), on_display = difference / cone_threshold(field, kBreaks);
+            EXPECT_NEAR(on_display / in_scene, 1, 0.02) << background;
+        }
+}
+
+// Two fields far larger than the topmost texels: each is shown as the curve has it, away from the edge.
+TEST(BandsReference, LargeFieldsFollowTheCurve) {
+    std::vector<double> l;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 64; ++x) l.push_back(x < 32 ? 0.1 : 100);
+    const auto curve = power_curve(6, 0.5);
+    const std::vector<double> s = shown(l, 64, 16, 2, curve);
+    for (int y = 0; y < 16; ++y) {
+        EXPECT_NEAR(s[64 * y + 10], 6 * std::sqrt(0.1), 1e-4);
+        EXPECT_NEAR(s[64 * y + 50], 6 * std::sqrt(100), 1e-2);
+    }
+}
+
+// A lamp that covers a thousandth of a degree hardly moves the log average there, and so neither the ground beside it: no halo.
+TEST(BandsReference, ALampLeavesTheGroundBesideIt) {
+    std::vector<double> l(64 * 64, 1.0);
+    l[64 * 31 + 33] = 1e5;
+    const std::vector<double> s = shown(l, 64, 64, 5, power_curve(6, 0.5));
+    EXPECT_NEAR(s[64 * 10 + 8] / 6, 1, 0.03);
+    EXPECT_GT(s[64 * 31 + 33], 1000);
+}
+
+TEST(BandsReference, NoLightIsGrey) {
+    EXPECT_EQ(banded({0, 0, 0}, 3, shared::kToneCurve, {}), dvec3(3));
+    EXPECT_NEAR(glm::length(banded({1, 2, 4}, luminance({2, 4, 8}), shared::kToneCurve, {}) - dvec3(2, 4, 8)), 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace vesper::reference

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-// Adaptation and tone curve, one workgroup, one invocation per bin. The eye adapts to what it looks at; the histogram is
-// smoothed over time; the model of the operator makes its curve or its parameters of both.
+// Adaptation and tone curve, one workgroup, one invocation per bin and per step of the curve. The eye adapts to what it looks
+// at; the model of the operator makes its curve or its parameters of that and of the histogram; the curve is smoothed over time.
 
 #include "shared/photometry.h"
 #include "shared/tone.h"
@@ -31,6 +31,7 @@ layout(binding = 7, rgba32f) readonly uniform image2D colours;  // mean colours 
 shared float percentile[2];
 
 const float kBrightest = 1e6;  // cd/m^2 to which an eye adapts
+const float kLeash = 0.1;      // ln of display luminance by which a curve that is smoothed over time lags behind at most
 
 // ln of the luminances below which 1 and 99 % of the votes are. `share` of all `voters` is this invocation's bin's.
 void find_percentiles(float share, float voters) {
@@ -42,6 +43,28 @@ void find_percentiles(float share, float voters) {
         if (below < part && above >= part) percentile[i] = parameters.ln_low + (float(bin) + (part - below) * voters / share) / parameters.bins_per_ln;
     }
     barrier();
+}
+
+// This invocation's step of the shares of all bins, seen through a window, a cubic B-spline; whole votes: its bin.
+float per_step(float share) {
+    const uint mine = gl_LocalInvocationIndex;
+    if (parameters.window == 0.0) return share;
+    share_of[mine] = share;
+    barrier();
+    const float at = (float(mine) + 0.5) / float(parameters.steps_per_bin) - 0.5, reach = 2.0 * parameters.window;  // in bins
+    const uint from = uint(max(ceil(at - reach), 0.0)), until = mine < steps() ? uint(clamp(floor(at + reach) + 1.0, 0.0, float(parameters.bins))) : 0u;
+    float sum = 0.0;
+    for (uint i = from; i < until; ++i) {
+        const float u = abs(at - float(i)) / parameters.window, edge = max(2.0 - u, 0.0);
+        sum += share_of[i] * (u < 1.0 ? 2.0 / 3.0 - u * u * (1.0 - 0.5 * u) : edge * edge * edge / 6.0);
+    }
+    const float all = sum_of(sum);
+    return all > 0.0 ? sum * sum_of(share) / all : 0.0;
+}
+
+// A node of the curve: what flickers is smoothed, what is another scene is not.
+float follow(float from, float to, float kept) {
+    return kept < 1.0 ? clamp(blend(from, to, kept), to - kLeash, to + kLeash) : from;
 }
 
 // Mean or log average of the finite pixels of 3 x 3 texels about the gaze, linear in its position; of none: 0.
@@ -90,36 +113,35 @@ void main() {
     const float cone_sigma = sigma_of(parameters.cones, cones), rod_sigma = sigma_of(parameters.rods, rods);
     const Thresholds eye = Thresholds(cone_sigma, rod_sigma / parameters.scotopic);  // of rods in luminance, as the histogram is
 
-    // The smoothed histogram.
-    const bool same_bins = previous.bins == float(parameters.bins) && previous.ln_low == parameters.ln_low && previous.bins_per_ln == parameters.bins_per_ln;
-    const bool remembers = !first && same_bins;
-    const float kept = parameters.smoothing_seconds > 0.0 ? exp(-parameters.seconds / parameters.smoothing_seconds) : 0.0;
-    const float remembered = remembers ? previous.share[bin] : 0.0;
-    const float now = bin < parameters.bins && !empty ? float(histogram.count[bin]) / float(histogram.votes) : 0.0;
-    const float share = empty ? remembered : remembers ? blend(remembered, now, kept) : now;
-    const float ln_adaptation = log(adaptation);
-    const float placed = first ? ln_adaptation : blend(previous.ln_placed, ln_adaptation, kept);
-    const float voters = sum_of(share);
+    const float share = bin < parameters.bins && !empty ? float(histogram.count[bin]) / float(histogram.votes) : 0.0;
+    const float h = per_step(share);
 
-    // Its nodes lie at the edges of the bins.
+    // Its nodes lie at the edges of the steps.
+    const bool has_curve = kModel == kModelHistogram || kModel == kModelTrimmed;
     bool under_full = false;
     float left_over = 0.0;
-    const float ln_display_low = log(parameters.display_low);
+    const float ln_display_low = log(parameters.display_low), steps_per_ln = parameters.bins_per_ln * float(parameters.steps_per_bin);
     float lowest = ln_display_low, here = ln_display_low;
-    if (kModel == kModelHistogram && voters > 0.0) {
-        const float spread = bin < parameters.bins ? kSpread / float(parameters.bins) : 0.0;
-        here = adjust((share + spread) / (1.0 + kSpread), eye, placed, lowest, under_full, left_over);
+    if (kModel == kModelHistogram && !empty) here = adjust(h, eye, adaptation, lowest, under_full, left_over);
+    if (kModel == kModelTrimmed && !empty) here = trim(share, h, eye, adaptation, lowest, under_full);
+    // Over time every node follows, in ln Ld; what is empty, and a pause, leave it as it was.
+    const float kept = empty ? 1.0 : parameters.smoothing_seconds > 0.0 ? exp(-parameters.seconds / parameters.smoothing_seconds) : 0.0;
+    const bool same_steps = previous.steps == float(steps()) && previous.ln_low == parameters.ln_low && previous.steps_per_ln == steps_per_ln;
+    if (has_curve && !first && same_steps) {
+        here = follow(previous.node[bin + 1u], here, kept);
+        lowest = follow(previous.node[0], lowest, kept);
     }
-    if (kModel == kModelTrimmed && voters > 0.0) here = trim(share, eye, placed, lowest, under_full);
-    if (kModel != kModelLagging && bin < parameters.bins) curve.node[bin + 1u] = vec4(here, 0.0, 0.0, 0.0);
+    if (kModel != kModelLagging && bin < steps()) curve.node[bin + 1u] = vec4(here, 0.0, 0.0, 0.0);
     if (kModel != kModelLagging && bin == 0u) curve.node[0] = vec4(lowest, 0.0, 0.0, 0.0);
-    for (uint i = parameters.bins + 1u + bin; kModel != kModelLagging && i <= kMaxNodes; i += kMaxBins) curve.node[i] = vec4(0.0);
+    for (uint i = steps() + 1u + bin; kModel != kModelLagging && i <= kMaxNodes; i += kMaxBins) curve.node[i] = vec4(0.0);
+    current.node[bin + 1u] = has_curve && bin < steps() ? here : 0.0;
+    if (bin == 0u) current.node[0] = has_curve ? lowest : 0.0;
     LaggingEye lagging = previous.lagging;
     if (kModel == kModelLagging) {
         lagging = lagging_after(lagging, adaptation, scotopic, parameters.seconds, first);
         for (uint i = bin; i <= kMaxNodes; i += kMaxBins) curve.node[i] = lagging_node(lagging, i);
     }
-    if (kModel == kModelFixed && parameters.automatic != 0u) find_percentiles(share, max(voters, 1e-30));
+    if (kModel == kModelFixed && parameters.automatic != 0u) find_percentiles(share, max(sum_of(share), 1e-30));
     vec3 chroma = previous.chroma;
     mat3 seen = mat3(1.0);
     if (kModel == kModelGains && parameters.colour_tiles.x > 0u) {
@@ -127,7 +149,6 @@ void main() {
         chroma = first ? goal_chroma : blend(previous.chroma, goal_chroma, exp(-parameters.seconds / kSlowSeconds));
         seen = transpose(chromatic_adaptation(kAtOnce * goal_chroma + (1.0 - kAtOnce) * chroma, adaptation));
     }
-    current.share[bin] = share;
     if (bin != 0u) return;
 
     float key = parameters.key;
@@ -159,8 +180,8 @@ void main() {
     curve.red = vec4(seen[0], 0.0), curve.green = vec4(seen[1], 0.0), curve.blue = vec4(seen[2], 0.0);
     const bool own_table = kModel == kModelLagging;
     curve.ln_low = own_table ? kTableLow : parameters.ln_low;
-    curve.bins_per_ln = own_table ? float(kMaxNodes) / (kTableHigh - kTableLow) : parameters.bins_per_ln;
-    curve.bins = own_table ? float(kMaxNodes) : float(parameters.bins);
+    curve.bins_per_ln = own_table ? float(kMaxNodes) / (kTableHigh - kTableLow) : steps_per_ln;
+    curve.bins = own_table ? float(kMaxNodes) : float(steps());
     curve.under_full = under_full ? 1.0 : 0.0;
     curve.adaptation = adaptation;
     curve.log_average = log_average;
@@ -177,10 +198,9 @@ void main() {
     current.seconds = previous.seconds + parameters.seconds;
     current.cones = cones;
     current.rods = rods;
-    current.ln_placed = placed;
     current.lagging = lagging;
     current.chroma = chroma;
-    current.bins = float(parameters.bins);
-    current.ln_low = parameters.ln_low;
-    current.bins_per_ln = parameters.bins_per_ln;
+    current.steps = has_curve ? float(steps()) : 0.0;
+    current.ln_low = has_curve ? parameters.ln_low : 0.0;
+    current.steps_per_ln = has_curve ? steps_per_ln : 0.0;
 }

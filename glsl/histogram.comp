@@ -37,7 +37,7 @@ void main() {
         const float position = statistics.r > 0.0 ? (log(statistics.r) - push.ln_low) * push.bins_per_ln : 0.0;
         const float middle = clamp(position - 0.5, 0.0, last);  // 0: in the middle of bin 0
         const uint bin = push.split != 0u ? uint(middle) : uint(clamp(position, 0.0, last));
-        const uint mine = pixels * push.votes;
+        const uint mine = (pixels * push.votes + ((1u << push.overlap) >> 1u)) >> push.overlap;
         const uint shared_ = push.split != 0u ? uint(fract(middle) * float(mine) + 0.5) : 0u;
         if (bin != held) {
             vote_for(held, lower, upper);

@@ -3,7 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 
 // Luminance pyramid, one level: exact statistics of the finite pixels under each texel. Means are weighted by the number
-// of pixels, so odd sizes, borders and pixels that are not finite leave them exact. Level 1 reads the scene image itself.
+// of pixels, so odd sizes, borders and pixels that are not finite leave them exact. Level 1 reads the scene image itself. Texels
+// that overlap are made the same way, of four that lie apart.
 
 #include "shared/luminance.h"
 #include "shared/photometry.h"
@@ -30,7 +31,8 @@ void main() {
     float pixels = 0.0, sum = 0.0, log_sum = 0.0, largest = 0.0;
     bool any_yet = false;
     for (uint i = 0u; i < 4u; ++i) {
-        const uvec2 child = 2u * at + uvec2(i & 1u, i >> 1u);
+        const uvec2 corner = uvec2(i & 1u, i >> 1u);
+        const uvec2 child = push.apart == 0u ? 2u * at + corner : at - push.apart * corner;  // before the first: far beyond the last
         if (any(greaterThanEqual(child, push.from_size))) continue;
         const vec4 s = statistics(child);
         if (s.g == 0.0) continue;

@@ -41,7 +41,7 @@ void add_eye_options(CLI::App& command, EyeArguments& arguments, HistogramSettin
     command.add_option("--bins", histogram.bins, "Bins of the histogram")->check(CLI::Range(1u, shared::kMaxBins))->capture_default_str();
     command.add_option("--foveal-level", arguments.foveal_level, "Pyramid level of the histogram (default: 1 degree per texel; the paper: 5)")->check(CLI::Range(1, 14));
     command.add_flag("--whole-votes", arguments.whole_votes, "Histogram: whole votes of the foveal level alone");
-    command.add_option("--smoothing", tone.smoothing_seconds, "Histogram: time constant against flicker, s; no model of the eye; 0: none")->check(between(0.0, 60.0))->capture_default_str();
+    command.add_option("--smoothing", tone.smoothing_seconds, "Curve: time constant against flicker, s; no model of the eye; 0: none")->check(between(0.0, 60.0))->capture_default_str();
     command.add_option("--ceiling", arguments.ceiling, "irawan, ward: thresholds that bound contrast: of the eye in its state, adapted human, adapted cones, or none (linear)")->check(CLI::IsMember(names_of(kCeilings)))->capture_default_str();
     command.add_option("--adapt-to", arguments.adapt_to, "What the eye adapts to: log average or mean about the gaze, one texel, or the log average of the frame")->check(CLI::IsMember(names_of(kAdaptTo)))->capture_default_str();
     command.add_option("--gaze", arguments.gaze, "Where the eye looks: X,Y, parts of the image from its top left")->delimiter(',')->expected(2)->check(between(0.0, 1.0));
@@ -69,7 +69,7 @@ void apply(const EyeArguments& arguments, ToneChainSettings& settings) {
     if (const auto found = kCeilings.find(arguments.ceiling); found != kCeilings.end()) tone.ceiling = found->second;
     tone.gaze = {arguments.gaze.at(0), arguments.gaze.at(1)};
     if (arguments.foveal_level > 0) settings.foveal_level = uint32_t(arguments.foveal_level);
-    settings.histogram.split = settings.histogram.fine = !arguments.whole_votes && !paper;
+    settings.histogram.split = settings.histogram.fine = settings.histogram.overlap = !arguments.whole_votes && !paper;
     if (paper && !given(arguments, "--bins")) settings.histogram.bins = 100;
     if (paper && !given(arguments, "--foveal-level")) settings.foveal_level = 5;
     if (paper && !given(arguments, "--smoothing")) tone.smoothing_seconds = 0;

@@ -85,7 +85,7 @@ Header describe_tone(const ToneChainSettings& settings, const ToneMapped& shown)
         return text;
     };
     const std::vector<double> curve = curve_samples(shown.curve, operator_info(settings.tone_operator).form, settings.display);
-    header.emplace_back("vesper:eye:shares", list(shown.eye.share, size_t(shown.eye.bins)));
+    header.emplace_back("vesper:eye:nodes", list(shown.eye.node, shown.eye.steps > 0 ? size_t(shown.eye.steps) + 1 : 0));
     header.emplace_back("vesper:toneCurve", "display cd/m^2 at 1e-4 to 1e6 cd/m^2 in tenths of a decade: " + list(curve, curve.size()));
     return header;
 }

@@ -14,14 +14,14 @@
 namespace vesper {
 namespace {
 
-// The floats of EyeState before the shares, in order.
+// The floats of EyeState before the nodes of the curve, in order.
 constexpr const char* kStateNames[]{"adaptation", "eye_seconds", "cone_pigment", "cone_fast", "cone_slow", "rod_pigment",
-                                    "rod_fast",   "rod_slow",    "ln_placed",    "bins",      "ln_low",    "bins_per_ln",
+                                    "rod_fast",   "rod_slow",    "steps",        "ln_low",    "steps_per_ln",
                                     "lagging_cones", "lagging_rods", "lagging_cone_pigment", "lagging_rod_pigment",
                                     "chroma_long", "chroma_middle", "chroma_short"};
 constexpr size_t kNamed = std::size(kStateNames);
 constexpr size_t kFloats = sizeof(shared::EyeState) / sizeof(float);
-static_assert(kFloats == kNamed + shared::kMaxBins);
+static_assert(kFloats == kNamed + shared::kMaxBins + 1);
 
 constexpr int kSamples = 101;
 double sample_log10(int i) { return -4 + i / 10.0; }
@@ -50,7 +50,7 @@ std::vector<std::pair<std::string, double>> named_state(const shared::EyeState& 
 std::string log_heading() {
     std::string line = "frame,seconds,step,operator";
     for (const char* name : kStateNames) line += std::string(",") + name;
-    for (uint32_t i = 0; i < shared::kMaxBins; ++i) line += format(",share%u", i);
+    for (uint32_t i = 0; i <= shared::kMaxBins; ++i) line += format(",node%u", i);
     line += ",cone_sigma,rod_sigma,log_average,maximum,under_full,slack";
     for (int i = 0; i < kSamples; ++i) line += format(",Ld(1e%.1f)", sample_log10(i));
     return line + "\n";

@@ -26,6 +26,8 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
     const ThresholdBreaks breaks = ceiling == shared::kCeilingEye || op.bands ? ThresholdBreaks::continuous() : ThresholdBreaks::published();
     const float texel = float(1u << fovea.level);
     return {.bins = bins.bins,
+            .steps_per_bin = bins.steps_per_bin(),
+            .window = bins.window(),
             .ln_low = bins.ln_low(),
             .bins_per_ln = bins.bins_per_ln(),
             .display_low = display.low(),

@@ -2,6 +2,8 @@
 // Pixels count from the top left. RGB is linear Rec. 709; luminance is 0.2126 R + 0.7152 G + 0.0722 B.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -140,7 +142,16 @@ struct HistogramSettings {
     float log10_high = 6;        ///< and of the highest
     bool split = true;           ///< a vote is shared by the two nearest bins, so that none jumps from one to the next
     bool fine = true;            ///< half of all votes are those of level 1, so that small lamps have bins of their own
+    bool overlap = true;         ///< beside fine votes: those of the level itself are of texels that overlap, so that it does not matter where their grid lies
+    float spread = 0.1f;         ///< split votes: standard deviation of what the curve sees of a vote, log10, however many bins there are
 
+    /// Of the curve: whole ones per bin, up to kMaxBins.
+    uint32_t steps_per_bin() const { return split ? shared::kMaxBins / std::clamp(bins, 1u, shared::kMaxBins) : 1; }
+    /// Bins between the knots of the B-spline (of variance window^2 / 3) that makes the spread of a vote, together with its share in two bins (1/6).
+    float window() const {
+        const float spread_in_bins = spread * float(bins) / (log10_high - log10_low);
+        return split ? std::sqrt(std::max(3 * (spread_in_bins * spread_in_bins - 1.0f / 6), 1.0f)) : 0;
+    }
     float ln_low() const { return log10_low * std::numbers::ln10_v<float>; }
     float bins_per_ln() const { return float(bins) / ((log10_high - log10_low) * std::numbers::ln10_v<float>); }
 };
@@ -164,7 +175,7 @@ struct ToneSettings {
     glm::vec2 gaze{0.5f};      ///< where it looks, parts of the image from its top left
     std::optional<uint32_t> adapt_to;  ///< shared::kAdapt*; default: as the operator has it
     std::optional<uint32_t> ceiling;   ///< shared::kCeiling*; default: as the operator has it
-    float smoothing_seconds = 0.15f;   ///< of the histogram, against flicker; not a model of the eye; 0: none
+    float smoothing_seconds = 0.15f;   ///< of the curve, against flicker; not a model of the eye; 0: none
 };
 
 /// Where on the pyramid one degree is.
@@ -185,8 +196,8 @@ struct Adaptation {
 /// What add_adaptation keeps from frame to frame; Executor::reset of it forgets what the eye was adapted to.
 constexpr const char* kEyeHistory = "eye";
 
-/// Lets the eye adapt to what it looks at (perception/eye.h; exact for any time step, at once in the first frame), smooths
-/// the histogram, and turns both into a tone curve or into the parameters of the operator's form. `remembered`: what the
+/// Lets the eye adapt to what it looks at (perception/eye.h; exact for any time step, at once in the first frame), and turns that
+/// and the histogram into a tone curve, smoothed over time, or into the parameters of the operator's form. `remembered`: what the
 /// eye remembers instead of the last frame. `colours`: what it adapts to where the operator is chromatic.
 Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource histogram, const OperatorInfo&, shared::ToneParameters,
                           uint32_t foveal_level, const shared::EyeState* remembered = nullptr, const Colours& colours = {});

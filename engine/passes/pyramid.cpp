@@ -16,7 +16,7 @@ Pyramid add_pyramid(FrameGraph& graph, const Kernels& kernels, Resource scene, V
         const Resource to = graph.transient(name, image_shape(kSceneFormat, half));
         const Kernel& kernel = pyramid.levels.empty() ? kernels.pyramid_first : kernels.pyramid;
         graph.dispatch(name, kernel, {load(from), store(to)},
-                       shared::PyramidPush{{extent.width, extent.height}, {half.width, half.height}, log_epsilon > 0 ? 0 : shared::kLuminanceFloor, log_epsilon},
+                       shared::PyramidPush{{extent.width, extent.height}, {half.width, half.height}, log_epsilon > 0 ? 0 : shared::kLuminanceFloor, log_epsilon, 0},
                        cover(half.width, half.height, kernel.group[0], kernel.group[1]));
         pyramid.levels.push_back(to);
         pyramid.extents.push_back(half);

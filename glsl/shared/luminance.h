@@ -12,8 +12,9 @@ struct PyramidPush {
     uvec2 to_size;      // texels of this level: half, rounded up
     float log_floor;    // cd/m^2; used where the scene itself is read
     float log_epsilon;  // cd/m^2
+    uint apart;         // 0; else, for texels that overlap: a texel is that of the level below and those so many before it, to_size is from_size + apart
 };
-SHARED_SIZE(PyramidPush, 24)
+SHARED_SIZE(PyramidPush, 28)
 
 const uint kMaxBins = 256u;
 
@@ -27,8 +28,9 @@ struct HistogramPush {
     uint votes;         // of one pixel
     uint split;         // 1: votes are shared by the two bins whose middles are nearest, linearly; 0: one bin has them
     uint census;        // 1: this level also counts pixels
+    uint overlap;       // a pixel is in 2^overlap texels, which share its votes
 };
-SHARED_SIZE(HistogramPush, 44)
+SHARED_SIZE(HistogramPush, 48)
 
 // Zeroed every frame. Integers, so that the order of the votes does not matter. A texel stands for its finite pixels.
 struct Histogram {

@@ -53,6 +53,8 @@ SHARED_SIZE(ReceptorParameters, 32)
 
 struct ToneParameters {
     uint bins;                 // of the histogram
+    uint steps_per_bin;        // of the curve; bins * steps_per_bin is at most kMaxBins
+    float window;              // bins between the knots of the cubic B-spline that the curve sees votes through; 0: none, a bin is a step
     float ln_low;              // as in HistogramPush
     float bins_per_ln;
     float display_low;         // darkest and brightest luminance the display shows, ambient included, cd/m^2
@@ -62,7 +64,7 @@ struct ToneParameters {
     float linear_low;          // linear: scene luminance shown as black, cd/m^2
     float linear_high;         // linear: scene luminance shown as white, cd/m^2; 0: the largest of the frame
     float seconds;             // since the last frame
-    float smoothing_seconds;   // time constant of histogram and placement, against flicker; 0: none
+    float smoothing_seconds;   // time constant of the curve, against flicker; 0: none
     uint adapt_to;
     vec2 gaze;                 // texels of the foveal level from its top left, (0.5, 0.5) is the middle of the first
     uvec2 foveal_size;         // texels
@@ -78,7 +80,7 @@ struct ToneParameters {
     ReceptorParameters cones;
     ReceptorParameters rods;
 };
-SHARED_SIZE(ToneParameters, 176)
+SHARED_SIZE(ToneParameters, 184)
 
 const uint kMaxNodes = 1024u;
 const float kResponsePower = 0.73f;  // Pattanaik et al. 2000, after Hunt
@@ -91,7 +93,7 @@ struct ToneCurve {
     float linear_gain;     // 1 / (high - low), m^2/cd
     float ln_low;          // texel 1; ln L of node 0
     float bins_per_ln;     // nodes per unit of ln L
-    float bins;            // the curve has bins + 1 nodes
+    float bins;            // steps of the curve, which has one node more
     float under_full;      // 1 if the display range is not filled: slopes are as steep as they may be, or linear; else 0
     float adaptation;      // texel 2; luminance the eye looks at, cd/m^2
     float log_average;     // exp(mean ln L), cd/m^2
@@ -134,13 +136,12 @@ struct EyeState {
     float seconds;        // time since the first frame
     ReceptorMemory cones;
     ReceptorMemory rods;
-    float ln_placed;      // smoothed ln of the adaptation luminance, for placing a curve that does not fill the display
-    float bins;           // of the histogram below
+    float steps;          // of the curve below; 0: there is none
     float ln_low;
-    float bins_per_ln;
+    float steps_per_ln;
     LaggingEye lagging;
     vec3 chroma;          // slow part of chromatic adaptation: ln of response over that to white of the same luminance, of each cone
-    float share[kMaxBins];  // smoothed shares of the votes
+    float node[kMaxBins + 1u];  // of the smoothed curve, ln of display luminance
 };
 SHARED_SIZE(EyeState, 1100)
 

@@ -88,7 +88,7 @@ TEST_F(Program, LogsTheEyeAndReplaysItToTheLastBit) {
         EXPECT_EQ(text_of(folder / "again.csv"), log) << op;
     }
     const std::string header = text_of(folder / "a5.exr").substr(0, 20000);
-    for (const char* name : {"vesper:eye:cone_pigment", "vesper:eye:shares", "vesper:toneCurve"}) EXPECT_NE(header.find(name), std::string::npos) << name;
+    for (const char* name : {"vesper:eye:cone_pigment", "vesper:eye:nodes", "vesper:toneCurve"}) EXPECT_NE(header.find(name), std::string::npos) << name;
     for (const char* bad : {"", "frame\n1\n"}) {
         std::ofstream(folder / "bad.csv") << bad;
         expect_refused("--replay bad.csv -o c.png");

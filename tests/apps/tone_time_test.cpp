@@ -75,6 +75,34 @@ TEST_F(ToneTime, NothingJumpsAsPixelsCrossTheEdgesOfBins) {
     }
 }
 
+// An edge of 1 : 3,000 to 300,000 moves by a pixel at a time, over a texel of the foveal level: the rest is shown as before. A pixel is
+// half a percent of the picture, and of its light.
+TEST_F(ToneTime, AnEdgeThatMovesByAPixelMovesNothingElse) {
+    constexpr VkExtent2D extent{224, 96};
+    for (Operator op : {Operator::Irawan, Operator::Ward}) {
+        ToneMapper mapper(device);
+        std::vector<double> before;
+        for (uint32_t edge = 130; edge < 164; ++edge) {
+            std::vector<glm::vec4> pixels;
+            for (uint32_t y = 0; y < extent.height; ++y)
+                for (uint32_t x = 0; x < extent.width; ++x) {
+                    const float road = 0.02f * std::pow(100.0f, float((7 * x + 13 * y) % 96) / 96);
+                    pixels.emplace_back(glm::vec3(x < edge ? road : 6000.0f), 1.0f);
+                }
+            mapper.reset_adaptation();
+            ToneChainSettings settings;
+            settings.tone_operator = op;
+            settings.foveal_level = 5;
+            settings.tone.gaze = {0.2f, 0.5f};
+            const ToneMapped got = mapper.map(settings, {.extent = extent, .values = {&pixels.front().x, pixels.size() * 4}, .channels = 4, .vertical_fov = 0.7}, 0, {});
+            std::vector<double> shown;
+            for (float luminance : {0.03f, 0.1f, 0.3f, 1.0f}) shown.push_back(std::exp(got.curve.node[size_t((std::log(luminance) - got.curve.ln_low) * got.curve.bins_per_ln)].x));
+            for (size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(shown[i] / before[i], 1, 0.05) << operator_info(op).name << ", edge at " << edge << ", " << i;
+            before = shown;
+        }
+    }
+}
+
 TEST_F(ToneTime, FrameRatesDoNotMatter) {
     const auto run = [&](int steps) {
         ToneMapper mapper(device);

@@ -1,4 +1,4 @@
-// What the eye adapts to, its state, the smoothed histogram and the tone curve. SPDX-License-Identifier: MIT
+// What the eye adapts to, its state and the tone curve, smoothed over time. SPDX-License-Identifier: MIT
 // Histogram adjustment: Ward Larson, Rushmeier and Piatko 1997, solved exactly for given ceilings; thresholds of
 // Ferwerda, Pattanaik, Shirley and Greenberg 1996; the eye of perception/eye.h; Reinhard, Stark, Shirley and Ferwerda 2002.
 #pragma once
@@ -26,6 +26,24 @@ inline std::vector<double> shares(const shared::Histogram& histogram, uint32_t b
     std::vector<double> h(bins, 0.0);
     for (uint32_t i = 0; i < bins && histogram.votes; ++i) h[i] = histogram.count[i] / double(histogram.votes);
     return h;
+}
+
+/// Shares per step of the curve: bins seen through a window, a cubic B-spline whose knots are `window` bins apart, of which the
+/// steps take the values in their middles. Whole votes (0): a bin is a step.
+inline std::vector<double> per_step(const std::vector<double>& share, const shared::ToneParameters& p) {
+    if (p.window == 0) return share;
+    std::vector<double> out(share.size() * p.steps_per_bin, 0.0);
+    double sum = 0;
+    for (size_t i = 0; i < out.size(); ++i) {
+        for (size_t bin = 0; bin < share.size(); ++bin) {
+            const double u = std::abs((double(i) + 0.5) / p.steps_per_bin - (double(bin) + 0.5)) / double(p.window);
+            out[i] += share[bin] * (u < 1 ? 2.0 / 3 - u * u + u * u * u / 2 : u < 2 ? std::pow(2 - u, 3) / 6 : 0);
+        }
+        sum += out[i];
+    }
+    const double all = std::accumulate(share.begin(), share.end(), 0.0);
+    for (double& x : out) x *= sum > 0 ? all / sum : 0;
+    return out;
 }
 
 /// Slopes d ln Ld / d ln L per bin.
@@ -105,61 +123,99 @@ inline Thresholds thresholds_of(const shared::ToneParameters& p, const ReceptorM
     }
 }
 
-/// Histogram adjustment, Ward et al. 1997: slopes min(lambda h, c), so that dLd / dL <= T_display(Ld) / T_scene(L) in the
-/// middle of every bin. The curve is climbed from below, and lambda found by bisection, so that it fills the display; up to a
-/// limit. `placed`: luminance whose visibility is kept where the range is not filled.
-inline Adjusted adjust(const std::vector<double>& h, double placed, const Thresholds& threshold, const shared::ToneParameters& p) {
+/// Histogram adjustment, Ward et al. 1997: slopes min(lambda h, c), so that dLd / dL <= T_display(Ld) / T_scene(L). In just
+/// noticeable differences, dJ = dL / T, that is no more of them on the display than in the scene. The curve is climbed step
+/// by step, from the display's darkest luminance, and lambda found by bisection, so that it fills the display; up to a limit. What is then left over
+/// first places the curve: `adaptation` is as visible as on a display half as bright as white (Ferwerda et al. 1996), if what
+/// there is fits; and then opens what has few votes or none between there and the farthest votes, above and below, up to the ceilings.
+inline Adjusted adjust(const std::vector<double>& share, double adaptation, const Thresholds& threshold, const shared::ToneParameters& p) {
     constexpr double kSteepest = 64;  // times plain equalization
-    const double delta = 1 / double(p.bins_per_ln), low = std::log(double(p.display_low)), high = std::log(double(p.display_high));
-    const size_t bins = h.size();
-    Adjusted out{{p.ln_low, p.bins_per_ln, std::vector<double>(bins + 1, low)}, 0, false};
-    if (std::accumulate(h.begin(), h.end(), 0.0) == 0) return out;
+    constexpr double kCounts = 1e-4;  // share of the votes that opens a gap as far as may be
+    const double delta = 1 / (double(p.bins_per_ln) * p.steps_per_bin), low = p.display_low, high = p.display_high;
+    const size_t steps = share.size();
+    Adjusted out{{p.ln_low, 1 / delta, std::vector<double>(steps + 1, std::log(low))}, 0, false};
+    if (std::accumulate(share.begin(), share.end(), 0.0) == 0) return out;
 
-    const auto climb = [&](double lambda, double start) {
-        Curve curve{p.ln_low, p.bins_per_ln, {start}};
-        for (size_t i = 0; i < bins; ++i) {
-            const double y = curve.node.back(), scene = std::exp(p.ln_low + (double(i) + 0.5) * delta), contrast = threshold.scene(scene) / scene;
-            double slope = 0;
-            for (int k = 0; k < 4; ++k) {  // three corrections of the middle's luminance: its fixed point within 1e-3
-                const double shown = std::exp(y + slope * delta / 2);
-                slope = std::min(lambda * h[i], threshold.display(shown) / shown / contrast);
-            }
-            curve.node.push_back(y + slope * delta);
-        }
-        return curve;
+    const std::vector<double> h = with_spread(share);
+    std::vector<double> differences, gap_below, gap_above(steps);
+    double sum = 0;
+    for (size_t i = 0; i < steps; ++i) {
+        const double scene = std::exp(p.ln_low + (double(i) + 0.5) * delta);
+        differences.push_back(delta * scene / threshold.scene(scene));
+        gap_below.push_back(std::min((sum += share[i]) / kCounts, 1.0));
+    }
+    sum = 0;
+    for (size_t i = steps; i-- > 0;) gap_above[i] = std::min((sum += share[i]) / kCounts, 1.0);
+
+    // A part of step i, negative on the way down; `open` of what the votes leave of the ceiling. That is the midpoint rule for dL
+    // and, twice, for d ln L: exact where T is constant, and of fourth order where it is proportional to L.
+    const auto advance = [&](double from, size_t i, double part, double lambda, double open) {
+        const double seen = part * differences[i], half = std::max(from + seen / 2 * threshold.display(from), low / 2), rise = seen * threshold.display(half);
+        const double most = std::max(from + rise / 3 * (1 + 2 * from / std::max(half - rise / 2, from / 4)), low / 2), wanted = from * std::exp(lambda * h[i] * delta * part);
+        const double base = part > 0 ? std::min(wanted, most) : std::max(wanted, most);
+        return base + open * (most - base);
     };
+    // From one position to another one, in steps. Where the luminances at the edges are not kept, gaps that nobody is on the other side of stay closed.
+    const auto up = [&](double at, double from, double until, double lambda, double open, std::vector<double>* node = nullptr) {
+        for (size_t i = size_t(at); i < steps && double(i) < until; ++i) {
+            from = advance(from, i, std::min(until, double(i) + 1) - std::max(at, double(i)), lambda, node ? open : open * gap_above[i]);
+            if (node) (*node)[i + 1] = from;
+        }
+        return from;
+    };
+    const auto down = [&](double at, double from, double lambda, double open, std::vector<double>* node = nullptr) {
+        for (size_t i = size_t(std::ceil(at)); i-- > 0;) {
+            from = advance(from, i, double(i) - std::min(at, double(i) + 1), lambda, node ? open : open * gap_below[i]);
+            if (node) (*node)[i] = from;
+        }
+        return from;
+    };
+    // The last x from a to b from which on is_beyond.
     const auto bisect = [](double a, double b, const auto& is_beyond) {
+        if (!is_beyond(b)) return b;
         for (int k = 0; k < 60; ++k) (is_beyond((a + b) / 2) ? b : a) = (a + b) / 2;
         return a;
     };
-    const double plain = (high - low) / delta, limit = kSteepest * plain;
-    out.curve = climb(limit, low);
-    out.under = out.curve.node.back() <= high;
+    const double last = double(steps), plain = std::log(high / low) / delta, limit = kSteepest * plain;
+    std::vector<double> node(steps + 1, low);
+    const double highest = up(0, low, last, limit, 0);
+    out.under = highest <= high;
     if (!out.under) {
-        out.curve = climb(std::exp(bisect(std::log(plain), std::log(limit), [&](double x) { return climb(std::exp(x), low).node.back() > high; })), low);
-        return out;
+        const double lambda = std::exp(bisect(std::log(plain), std::log(limit), [&](double x) { return up(0, low, last, std::exp(x), 0) > high; }));
+        up(0, low, last, lambda, 0, &node);
+    } else {
+        out.slack = std::log(high / highest);
+        const double at = std::clamp((std::log(adaptation) - p.ln_low) / delta, 0.0, last);
+        const double want = adaptation * threshold.display(high / 2) / threshold.scene(adaptation);
+        const double start = std::exp(bisect(std::log(low), std::log(high), [&](double x) {
+            const double there = up(0, std::exp(x), at, limit, 0);
+            return there > want || up(at, there, last, limit, 0) > high;
+        }));
+        const double there = up(0, start, at, limit, 0);
+        const double above = bisect(0, 1, [&](double open) { return up(at, there, last, limit, open) > high; });
+        const double below = bisect(0, 1, [&](double open) { return down(at, there, limit, open) < low; });
+        up(at, there, last, limit, above, &node);
+        down(at, there, limit, below, &node);
+        if (at == std::floor(at)) node[size_t(at)] = there;
     }
-    out.slack = high - out.curve.node.back();
-    // The curve starts higher, so that the luminance is as visible as on a display half as bright as white (Ferwerda et al.
-    // 1996), but by no more than is left over.
-    const double want = std::log(placed * threshold.display(p.display_high / 2.0) / threshold.scene(placed));
-    out.curve = climb(limit, low + bisect(0, out.slack, [&](double o) { return climb(limit, low + o).at(std::log(placed)) > want; }));
+    for (size_t i = 0; i <= steps; ++i) out.curve.node[i] = std::log(std::clamp(node[i], low, high));
     return out;
 }
 
 /// Ward's own way, as pcond of Radiance has it (tone-mapping.md, section 3): clip counts to their ceilings, again with the new
 /// total, until what is clipped is within 2.5 % of it; the curve is that before the last clip. Linear where the range of the scene
 /// is no more than the display's, or hardly any counts are left; `average` is then shown at the geometric middle.
-inline Adjusted trim(std::vector<double> f, double average, const Thresholds& threshold, const shared::ToneParameters& p) {
+inline Adjusted trim(const std::vector<double>& share, double average, const Thresholds& threshold, const shared::ToneParameters& p) {
     constexpr double kTolerance = 0.025;
-    const double low = std::log(double(p.display_low)), high = std::log(double(p.display_high)), range = high - low, delta = 1 / double(p.bins_per_ln);
-    Adjusted out{{p.ln_low, p.bins_per_ln, std::vector<double>(f.size() + 1, low)}, 0, false};
+    const double low = std::log(double(p.display_low)), high = std::log(double(p.display_high)), range = high - low, delta = 1 / (double(p.bins_per_ln) * p.steps_per_bin);
+    std::vector<double> f = per_step(share, p);
+    Adjusted out{{p.ln_low, 1 / delta, std::vector<double>(f.size() + 1, low)}, 0, false};
     const double original = std::accumulate(f.begin(), f.end(), 0.0);
     if (original == 0) return out;
     const auto occupied = [](double n) { return n > 0; };
-    const auto first = std::find_if(f.begin(), f.end(), occupied);
-    const auto last = std::find_if(f.rbegin(), f.rend(), occupied).base();
-    out.under = double(last - first) * delta <= range;
+    const auto first = std::find_if(share.begin(), share.end(), occupied);
+    const auto last = std::find_if(share.rbegin(), share.rend(), occupied).base();
+    out.under = double(last - first) / double(p.bins_per_ln) <= range;
     while (!out.under) {
         const double total = std::accumulate(f.begin(), f.end(), 0.0);
         if (total <= kTolerance * original) {
@@ -285,23 +341,26 @@ inline Adapted adapt(const AdaptInputs& in) {
     out.cones = step(cones, in.previous.cones, adaptation), out.rods = step(rods, in.previous.rods, scotopic);
     const double cone_sigma = cones.sigma(out.cones), rod_sigma = rods.sigma(out.rods);
 
-    const bool same_bins = in.previous.bins == float(p.bins) && in.previous.ln_low == p.ln_low && in.previous.bins_per_ln == p.bins_per_ln;
-    const double kept = p.smoothing_seconds > 0 ? std::exp(-double(p.seconds) / p.smoothing_seconds) : 0;
     out.share = shares(in.histogram, p.bins);
-    for (uint32_t i = 0; i < p.bins; ++i) {
-        const double before = !first && same_bins ? in.previous.share[i] : 0;
-        if (empty)
-            out.share[i] = before;
-        else if (!first && same_bins)
-            out.share[i] += (before - out.share[i]) * kept;
-    }
-    const double ln = std::log(adaptation), placed = first ? ln : ln + (in.previous.ln_placed - ln) * kept;
     if (in.model == shared::kModelHistogram)
-        out.adjusted = adjust(with_spread(out.share), std::exp(placed), thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
+        out.adjusted = adjust(per_step(out.share, p), adaptation, thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
     else if (in.model == shared::kModelTrimmed)
-        out.adjusted = trim(out.share, std::exp(placed), thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
+        out.adjusted = trim(out.share, adaptation, thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
     else
-        out.adjusted = {{p.ln_low, p.bins_per_ln, std::vector<double>(p.bins + 1, std::log(double(p.display_low)))}, 0, false};
+        out.adjusted = {{p.ln_low, double(p.bins_per_ln) * p.steps_per_bin, std::vector<double>(size_t(p.bins) * p.steps_per_bin + 1, std::log(double(p.display_low)))}, 0, false};
+
+    // Over time every node of the curve follows, in ln Ld, never more than a tenth away; what is empty, and a pause, leave it as it was.
+    constexpr double kLeash = 0.1;
+    const bool has_curve = in.model == shared::kModelHistogram || in.model == shared::kModelTrimmed;
+    const Curve& curve = out.adjusted.curve;
+    const size_t steps = curve.node.size() - 1;
+    const bool same_steps = in.previous.steps == float(steps) && in.previous.ln_low == p.ln_low && in.previous.steps_per_ln == float(curve.bins_per_ln);
+    const double kept = empty ? 1 : p.smoothing_seconds > 0 ? std::exp(-double(p.seconds) / p.smoothing_seconds) : 0;
+    for (size_t i = 0; i <= steps && has_curve && !first && same_steps; ++i) {
+        double& node = out.adjusted.curve.node[i];
+        const double lag = (in.previous.node[i] - node) * kept;
+        node += kept < 1 ? std::clamp(lag, -kLeash, kLeash) : lag;
+    }
 
     shared::ToneCurve& t = out.tone;
     t.adaptation = float(adaptation), t.log_average = float(log_average), t.maximum = float(maximum);
@@ -337,10 +396,10 @@ inline Adapted adapt(const AdaptInputs& in) {
     const glm::dmat3 rows = glm::transpose(seen);
     t.red = glm::vec4(glm::vec3(rows[0]), 0), t.green = glm::vec4(glm::vec3(rows[1]), 0), t.blue = glm::vec4(glm::vec3(rows[2]), 0);
     out.eye.chroma = glm::vec3(chroma);
-    t.ln_low = p.ln_low, t.bins_per_ln = p.bins_per_ln, t.bins = float(p.bins);
+    t.ln_low = p.ln_low, t.bins_per_ln = p.bins_per_ln * float(p.steps_per_bin), t.bins = float(p.bins * p.steps_per_bin);
     t.under_full = out.adjusted.under ? 1.0f : 0.0f;
     t.slack = float(out.adjusted.slack);
-    for (size_t i = 0; i <= p.bins; ++i) t.node[i].x = float(out.adjusted.curve.node[i]);
+    for (size_t i = 0; i < out.adjusted.curve.node.size(); ++i) t.node[i].x = float(out.adjusted.curve.node[i]);
     const shared::LaggingEye& lagging = in.previous.lagging;
     out.lagging = {lagging.cones, lagging.rods, lagging.cone_pigment, lagging.rod_pigment};
     if (in.model == shared::kModelLagging) {
@@ -355,10 +414,9 @@ inline Adapted adapt(const AdaptInputs& in) {
     const auto memory = [](const ReceptorState& s) { return shared::ReceptorMemory{float(s.pigment), float(s.fast), float(s.slow)}; };
     out.eye.adaptation = float(adaptation), out.eye.seconds = in.previous.seconds + p.seconds;
     out.eye.cones = memory(out.cones), out.eye.rods = memory(out.rods);
-    out.eye.ln_placed = float(placed);
     out.eye.lagging = {float(out.lagging.cones), float(out.lagging.rods), float(out.lagging.cone_pigment), float(out.lagging.rod_pigment)};
-    out.eye.bins = float(p.bins), out.eye.ln_low = p.ln_low, out.eye.bins_per_ln = p.bins_per_ln;
-    for (uint32_t i = 0; i < p.bins; ++i) out.eye.share[i] = float(out.share[i]);
+    if (has_curve) out.eye.steps = float(steps), out.eye.ln_low = p.ln_low, out.eye.steps_per_ln = float(curve.bins_per_ln);
+    for (size_t i = 0; i <= steps && has_curve; ++i) out.eye.node[i] = float(out.adjusted.curve.node[i]);
     return out;
 }
 

@@ -83,12 +83,12 @@ Frame frame_of(const std::vector<Hill>& hills, uint32_t bins = 100, uint32_t see
 bool near(double a, double b, double relative, double floor = 0) { return std::abs(a - b) <= relative * std::max(std::abs(b), floor) + 1e-30; }
 
 void expect_same(const Got& got, const reference::Adapted& want, const Frame& frame) {
-    const uint32_t bins = frame.bins.bins;
-    Picture got_nodes(bins + 1, 1, 1), want_nodes = got_nodes;
-    for (uint32_t i = 0; i <= bins; ++i) got_nodes.values[i] = got.curve.node[i].x, want_nodes.values[i] = want.adjusted.curve.node[i];
+    const uint32_t steps = frame.bins.bins * frame.bins.steps_per_bin();
+    Picture got_nodes(steps + 1, 1, 1), want_nodes = got_nodes;
+    for (uint32_t i = 0; i <= steps; ++i) got_nodes.values[i] = got.curve.node[i].x, want_nodes.values[i] = want.adjusted.curve.node[i];
     if (frame.op().model != shared::kModelLagging) {
         EXPECT_TRUE(same_light("nodes", got_nodes, want_nodes, {0, 0}, [&] {
-        Picture allowed(bins + 1, 1, 1);
+        Picture allowed(steps + 1, 1, 1);
         for (double& a : allowed.values) a = kNodeError;
         return allowed;
     }()));
@@ -98,16 +98,17 @@ void expect_same(const Got& got, const reference::Adapted& want, const Frame& fr
         for (uint32_t i = 0; i <= shared::kMaxNodes; ++i)
             for (int k = 0; k < 3; ++k) EXPECT_NEAR(got.curve.node[i][k], want.tone.node[i][k], 2e-5 + 1e-4 * std::abs(want.tone.node[i][k])) << i << " " << k;
     }
-    for (uint32_t i = bins + 1; i <= shared::kMaxNodes && frame.op().model != shared::kModelLagging; ++i) EXPECT_EQ(got.curve.node[i], glm::vec4(0)) << "nodes beyond the last";
+    for (uint32_t i = steps + 1; i <= shared::kMaxNodes && frame.op().model != shared::kModelLagging; ++i) EXPECT_EQ(got.curve.node[i], glm::vec4(0)) << "nodes beyond the last";
     const shared::ToneCurve& w = want.tone;
-    // 1e-5: one exponential and a few products in float. 5e-5: two logarithms to base 10 and back.
+    // 1e-5: one exponential and a few products in float. 5e-5: two logarithms to base 10 and back. 1e-3: a percentile in a bin that has
+    // 1e-4 of the votes, of sums of which floats have 1e-7.
     EXPECT_TRUE(near(got.curve.adaptation, w.adaptation, 1e-5)) << got.curve.adaptation << " want " << w.adaptation;
     EXPECT_TRUE(near(got.curve.log_average, w.log_average, 1e-5)) << got.curve.log_average << " want " << w.log_average;
     EXPECT_TRUE(near(got.curve.maximum, w.maximum, 0)) << got.curve.maximum << " want " << w.maximum;
     EXPECT_TRUE(near(got.curve.cone_sigma, w.cone_sigma, 5e-5)) << got.curve.cone_sigma << " want " << w.cone_sigma;
     EXPECT_TRUE(near(got.curve.rod_sigma, w.rod_sigma, 5e-5)) << got.curve.rod_sigma << " want " << w.rod_sigma;
-    EXPECT_TRUE(near(got.curve.reinhard_scale, w.reinhard_scale, frame.tone.automatic ? 1e-4 : 1e-5)) << got.curve.reinhard_scale << " want " << w.reinhard_scale;
-    EXPECT_TRUE(near(got.curve.reinhard_white, w.reinhard_white, frame.tone.automatic ? 1e-4 : 3e-5)) << got.curve.reinhard_white << " want " << w.reinhard_white;
+    EXPECT_TRUE(near(got.curve.reinhard_scale, w.reinhard_scale, frame.tone.automatic ? 1e-3 : 1e-5)) << got.curve.reinhard_scale << " want " << w.reinhard_scale;
+    EXPECT_TRUE(near(got.curve.reinhard_white, w.reinhard_white, frame.tone.automatic ? 1e-3 : 3e-5)) << got.curve.reinhard_white << " want " << w.reinhard_white;
     EXPECT_TRUE(near(got.curve.linear_low, w.linear_low, 5e-5)) << got.curve.linear_low << " want " << w.linear_low;
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(near(got.curve.rods[k], w.rods[k], 1e-4)) << got.curve.rods[k] << " want " << w.rods[k];
     EXPECT_TRUE(near(got.curve.linear_gain, w.linear_gain, 5e-5)) << got.curve.linear_gain << " want " << w.linear_gain;
@@ -130,8 +131,8 @@ void expect_same(const Got& got, const reference::Adapted& want, const Frame& fr
     };
     EXPECT_TRUE(same_memory(got.eye.cones, want.eye.cones)) << got.eye.cones.pigment << " " << got.eye.cones.fast << " " << got.eye.cones.slow;
     EXPECT_TRUE(same_memory(got.eye.rods, want.eye.rods)) << got.eye.rods.pigment << " " << got.eye.rods.fast << " " << got.eye.rods.slow;
-    EXPECT_NEAR(got.eye.ln_placed, want.eye.ln_placed, 1e-5);
-    for (uint32_t i = 0; i < bins; ++i) EXPECT_NEAR(got.eye.share[i], want.share[i], 1e-6) << "share " << i;
+    EXPECT_EQ(got.eye.steps, want.eye.steps);
+    for (uint32_t i = 0; i <= shared::kMaxBins; ++i) EXPECT_NEAR(got.eye.node[i], want.eye.node[i], kNodeError) << "node " << i;
     if (frame.histogram.finite == 0) return;  // what is left over of an empty frame means nothing
     EXPECT_EQ(got.curve.under_full, w.under_full);
     EXPECT_NEAR(got.curve.slack, w.slack, kNodeError);
@@ -314,10 +315,11 @@ TEST(Adapt, TimeCountsAndNotFrames) {
     };
     const Got many = run(60, false), few = run(30, false), paused = run(60, true);
     EXPECT_NEAR(many.curve.cone_sigma / few.curve.cone_sigma, 1, 1e-4);
-    for (uint32_t i = 0; i <= 100; ++i) EXPECT_NEAR(many.curve.node[i].x, few.curve.node[i].x, 1e-3) << i;
+    // 2e-3: nodes follow what moves itself, by steps.
+    for (uint32_t i = 0; i <= 200; ++i) EXPECT_NEAR(many.curve.node[i].x, few.curve.node[i].x, 2e-3) << i;
     EXPECT_EQ(paused.eye.cones.fast, many.eye.cones.fast);
     EXPECT_EQ(paused.eye.cones.pigment, many.eye.cones.pigment);
-    EXPECT_TRUE(std::ranges::equal(paused.eye.share, many.eye.share));
+    EXPECT_TRUE(std::ranges::equal(paused.eye.node, many.eye.node));
 }
 
 // The state of one run, given to another, continues it to the last bit.

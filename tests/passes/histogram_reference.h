@@ -32,6 +32,22 @@ struct Votes {
     }
 };
 
+/// Texels of side x side ones of a level, at every place where at least one of them is.
+inline PyramidLevel overlapping(const PyramidLevel& level, uint32_t side) {
+    PyramidLevel out{level.width + side - 1, level.height + side - 1, {}};
+    for (uint32_t y = 0; y < out.height; ++y)
+        for (uint32_t x = 0; x < out.width; ++x) {
+            dvec4 sum(0);
+            for (uint32_t v = y >= side ? y - side + 1 : 0; v <= std::min(y, level.height - 1); ++v)
+                for (uint32_t u = x >= side ? x - side + 1 : 0; u <= std::min(x, level.width - 1); ++u) {
+                    const dvec4 t = level.at(u, v);
+                    sum.x += t.x * t.y, sum.y += t.y;
+                }
+            out.texels.push_back({sum.y > 0 ? sum.x / sum.y : 0, sum.y, 0, 0});
+        }
+    return out;
+}
+
 /// Every texel has `votes` for each of its finite pixels: one bin, or the two whose middles are nearest, linearly.
 template <class Texel>
 void vote(Votes& out, std::span<const Texel> level, const shared::HistogramPush& p) {
@@ -42,8 +58,8 @@ void vote(Votes& out, std::span<const Texel> level, const shared::HistogramPush&
             const uint32_t pixels = uint32_t(texel.y);
             if (p.census) out.counted.finite += pixels, out.counted.non_finite += covered(p.image_size.x, p.image_size.y, p.level, x, y) - pixels;
             if (pixels == 0) continue;
-            const double votes = double(pixels) * p.votes, at = bin_position(texel.x, p);
-            out.counted.votes += pixels * p.votes;
+            const double votes = std::floor(double(pixels) * p.votes / double(1u << p.overlap) + 0.5), at = bin_position(texel.x, p);
+            out.counted.votes += uint32_t(votes);
             if (p.split) {
                 const double middle = std::clamp(at - 0.5, 0.0, p.bins - 1.0);
                 const uint32_t bin = bin_at(middle, p.bins);

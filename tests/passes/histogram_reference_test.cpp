@@ -77,6 +77,30 @@ TEST(HistogramReference, VotesAreSharedByTheNearestTwo) {
     for (double outside : {0.99e6, 1e30}) EXPECT_EQ(histogram({{outside, 4, 0, 0}}, tenths({2, 2}, 1, true)).count[99], 4) << outside;
 }
 
+// A pixel counts in as many overlapping texels wherever it is; an edge gives the same votes, within the width of a finer texel, wherever it is.
+TEST(HistogramReference, OverlappingTexelsHaveNoGrid) {
+    const auto level_of = [](uint32_t edge) {
+        std::vector<dvec3> image;
+        for (uint32_t i = 0; i < 256 * 3; ++i) image.emplace_back(dvec3(i % 256 < edge ? 0.01 : 300));
+        return pyramid_level(std::span<const dvec3>(image), 256, 3, 2);
+    };
+    const auto between = [](const PyramidLevel& level) {  // pixels of texels across the edge, over all
+        double some = 0, all = 0;
+        for (const dvec4& t : level.texels) some += t.x > 0.0101 && t.x < 299 ? t.y : 0, all += t.y;
+        return some / all;
+    };
+    double least = 1, most = 0;
+    for (uint32_t edge = 100; edge < 132; ++edge) {
+        const PyramidLevel texels = overlapping(level_of(edge), 8);
+        double pixels = 0;
+        for (const dvec4& t : texels.texels) pixels += t.y;
+        EXPECT_EQ(pixels, 64.0 * 256 * 3);
+        least = std::min(least, between(texels)), most = std::max(most, between(texels));
+    }
+    EXPECT_NEAR(least, 7.5 / 64, 0.6 / 64) << "texels of 32 pixels, of 256";
+    EXPECT_NEAR(most, 7.5 / 64, 0.6 / 64);
+}
+
 TEST(HistogramReference, AdmitsRoundingAndNothingElse) {
     const Votes votes = histogram({{1.05, 4, 0, 0}, {30, 4, 0, 0}}, tenths({4, 2}, 1));
     shared::Histogram got = votes.counted;

@@ -18,13 +18,16 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
     const HistogramSettings& bins = settings.histogram;
     const Display& display = settings.display;
     const OperatorInfo& op = operator_info(settings.tone_operator);
-    const auto push_of = [&](uint32_t k, bool census) {
-        return shared::HistogramPush{{extent.width, extent.height}, {levels[k - 1].width, levels[k - 1].height}, k, bins.bins, bins.ln_low(), bins.bins_per_ln(),
-                                     uint32_t(std::clamp<uint64_t>(0xffffffffu / (uint64_t(2) * extent.width * extent.height), 1, 4096)), bins.split ? 1u : 0u, census ? 1u : 0u};
+    const bool fine = bins.fine && foveal_level > 1, overlaps = fine && bins.overlap;
+    const uint32_t halvings = overlaps ? std::min(foveal_level - 1, 3u) : 0;
+    const reference::PyramidLevel texels = reference::overlapping(levels.at(foveal_level - halvings - 1), 1u << halvings);
+    const auto push_of = [&](const reference::PyramidLevel& l, uint32_t k, bool census, uint32_t overlap) {
+        return shared::HistogramPush{{extent.width, extent.height}, {l.width, l.height}, k, bins.bins, bins.ln_low(), bins.bins_per_ln(),
+                                     uint32_t(std::clamp<uint64_t>(0xf0000000u / (uint64_t(2) * extent.width * extent.height), 1, 4096)), bins.split ? 1u : 0u, census ? 1u : 0u, overlap};
     };
     reference::Votes votes;
-    reference::vote(votes, std::span<const glm::dvec4>(level.texels), push_of(foveal_level, true));
-    if (bins.fine && foveal_level > 1) reference::vote(votes, std::span<const glm::dvec4>(levels[0].texels), push_of(1, false));
+    reference::vote(votes, std::span<const glm::dvec4>(texels.texels), push_of(texels, foveal_level, !overlaps, 2 * halvings));
+    if (fine) reference::vote(votes, std::span<const glm::dvec4>(levels[0].texels), push_of(levels[0], 1, overlaps, 0));
     shared::Histogram histogram = votes.counted;
     for (size_t i = 0; i < votes.count.size(); ++i) histogram.count[i] = uint32_t(std::lround(votes.count[i]));
     const shared::ToneParameters parameters = tone_parameters(op, bins, settings.tone, display, {foveal_level, {level.width, level.height}, extent}, seconds);

@@ -117,6 +117,7 @@ void run(BenchArguments& a) {
         starts = time_starts(scenes.folder("shaders"), [&](const auto& shown) { first_frame(planned[0].plan, load(0), shown); });
 
     BenchResult result = machine_of(a);
+    const auto title = [&](const RunResult& measured) { return headline(result, measured) + (planned.size() > 1 ? measured.settings.details() : ""); };
     Frame last;
     for (size_t i = 0; i < planned.size(); ++i) {
         const RunSettings& s = planned[i].plan.settings;
@@ -127,10 +128,10 @@ void run(BenchArguments& a) {
         }
         measured.starts = starts;
         result.runs.push_back(std::move(measured));
-        std::fputs(headline(result, result.runs.back()).c_str(), stdout);
+        std::printf("%s\n", title(result.runs.back()).c_str());
         std::fflush(stdout);
     }
-    for (const RunResult& measured : result.runs) std::printf("\n%s%s", result.runs.size() > 1 ? headline(result, measured).c_str() : "", text_of(result, measured).c_str());
+    for (const RunResult& measured : result.runs) std::printf("\n%s%s", planned.size() > 1 ? (title(measured) + "\n").c_str() : "", text_of(result, measured).c_str());
     if (!a.json.empty()) write_text(a.json, json_of(result));
     if (!a.picture.empty()) write_codes(a.picture, last, planned.back().plan.render.display);
     if (!a.growth.empty())

@@ -8,25 +8,21 @@
 namespace vesper {
 namespace {
 
-constexpr size_t kLines = 8;  // as many as can be told apart
+constexpr size_t kColours = 8;  // of a plot
 
 double megapixels(const RunSettings& s) { return double(s.width) * s.height * s.channels * 1e-6; }
 
 /// One line for runs that differ in nothing but what goes along x.
 template <class Name, class Along>
 std::vector<PlotLine> lines_of(const BenchResult& result, Name name, Along along) {
-    std::map<std::string, PlotLine> lines;
+    std::vector<PlotLine> lines;
     for (const RunResult& run : result.runs) {
-        PlotLine& line = lines[name(run.settings)];
-        line.name = name(run.settings), line.marks = true;
-        line.points.push_back({along(run.settings), run.frame.median});
+        auto line = std::find_if(lines.begin(), lines.end(), [&](const PlotLine& l) { return l.name == name(run.settings); });
+        if (line == lines.end()) line = lines.insert(line, PlotLine{.name = name(run.settings), .points = {}, .dashed = lines.size() >= kColours, .marks = true});
+        line->points.push_back({along(run.settings), run.frame.median});
     }
-    std::vector<PlotLine> shown;
-    for (auto& [key, line] : lines) {
-        std::sort(line.points.begin(), line.points.end(), [](const glm::dvec2& p, const glm::dvec2& q) { return p.x < q.x; });
-        if (shown.size() < kLines) shown.push_back(std::move(line));
-    }
-    return shown;
+    for (PlotLine& line : lines) std::sort(line.points.begin(), line.points.end(), [](const glm::dvec2& p, const glm::dvec2& q) { return p.x < q.x; });
+    return lines;
 }
 
 template <class Value>
@@ -51,7 +47,7 @@ std::vector<PlotLine> pass_lines(const BenchResult& result) {
         shown.push_back(std::move(line));
     }
     std::sort(shown.begin(), shown.end(), [](const PlotLine& a, const PlotLine& b) { return a.points.back().y > b.points.back().y; });
-    shown.resize(std::min(shown.size(), kLines));
+    shown.resize(std::min(shown.size(), kColours));
     return shown;
 }
 

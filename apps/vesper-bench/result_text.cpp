@@ -40,12 +40,12 @@ double BenchResult::copy_fraction(const PassResult& pass) const {
 }
 
 std::string headline(const BenchResult& result, const RunResult& run) {
-    return run.settings.title() + format(": %.1f fps (%.1f ms) on ", run.fps, run.frame.median) + result.device + "\n";
+    return run.settings.title() + format(": %.1f fps (%.1f ms) on ", run.fps, run.frame.median) + result.device;
 }
 
 std::string text_of(const BenchResult& result, const RunResult& run) {
     const RunSettings& s = run.settings;
-    std::string text = format("%u lamps that give more than %g lx, %llu triangles, glare %s, %u channel%s; %u lap%s of %u frames, after %u\n", s.lamps, s.threshold,
+    std::string text = format("%u lamps, counted where they give %g lx, %llu triangles, glare %s, %u channel%s; %u lap%s of %u frames, after %u\n", s.lamps, s.threshold,
                               static_cast<unsigned long long>(s.triangles), s.glare.c_str(), s.channels, s.channels == 1 ? "" : "s", s.laps, s.laps == 1 ? "" : "s", s.frames, s.warm_up);
     text += "vesper " + result.version + ", " + result.driver + ", " + std::to_string(result.threads) + " threads of " + result.host + "\n\n";
     text += "frame     median " + with_spread(run.frame, " ms") + format(" as laps differ; 5 %% %.1f, 95 %% %.1f, 99 %% %.1f ms; 1 %% low %.1f fps\n", run.p5, run.p95, run.p99, run.low_fps);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "base/stopwatch.h"
+#include "resident/retro.h"
 #include "resident/sky.h"
 
 namespace vesper {

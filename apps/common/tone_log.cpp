@@ -8,7 +8,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "passes/shown.h"
+#include "shown.h"
 
 namespace vesper {
 namespace {

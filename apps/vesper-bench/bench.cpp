@@ -82,7 +82,7 @@ void check_files(const BenchArguments& a) {
     }
     files.writes("--json", a.json);
     files.writes("--picture", a.picture);
-    if (!a.picture.empty() && !ends_with(a.picture, ".png")) throw Error("--picture " + one_line(a.picture) + ": a .png file is expected");
+    if (!a.picture.empty() && !a.picture.ends_with(".png")) throw Error("--picture " + one_line(a.picture) + ": a .png file is expected");
 }
 
 std::string command_line(const BenchArguments& a) {

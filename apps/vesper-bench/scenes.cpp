@@ -43,7 +43,7 @@ void Scenes::prepare(const std::string& name) {
         const fs::path data = fs::path(VESPER_DATA_DIR) / "rivoli";
         files_[name] = folder_ + "/" + name + ".glb";
         convert(data / "rivoli.gltf", data / (name == "rivoli" ? "rivoli.photometry.json" : "rivoli.measured.photometry.json"), files_[name]);
-    } else if (ends_with(name, ".gltf") || ends_with(name, ".glb")) {
+    } else if (name.ends_with(".gltf") || name.ends_with(".glb")) {
         files_[name] = name;
     } else {
         throw Error("--scene " + one_line(name) + ": rivoli, rivoli-measured, street or a .gltf or .glb file is expected");

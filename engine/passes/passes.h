@@ -195,11 +195,4 @@ Resource add_composite(FrameGraph&, const Kernels&, const CompositeInputs&, uint
 Resource add_display_light(FrameGraph&, const Kernels&, const CompositeInputs&, uint32_t tone, const View&,
                            const Display&, float ldr_glare_gain);
 
-/// Displayed light to codes: cells of light, see shared/encode.h.
-struct Encoding {
-    std::vector<glm::vec4> cells;
-    shared::EncodePush push;
-};
-Encoding make_encoding(const Display&);
-
 }  // namespace vesper

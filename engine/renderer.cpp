@@ -1,8 +1,8 @@
 #include "renderer.h"
 
-#include <chrono>
 #include <optional>
 
+#include "base/stopwatch.h"
 #include "resident/retro.h"
 #include "resident/sky.h"
 
@@ -66,7 +66,7 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
 }
 
 Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, Outputs outputs) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const bool ldr = settings.tone_operator == Operator::Ldr;
     LightList lights = light_list(lights_, maps_, frame, view);
     if (ldr) set_to_one(lights, settings.ldr_reference_distance);
@@ -74,9 +74,10 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
 
     FrameGraph graph;
     const Declared declared = declare(graph, settings, view, frame, lights, sources, seconds, outputs);
+    const double declared_after = watch.milliseconds();
     executor_.run(graph);
     eye_.reset();
-    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    const double milliseconds = watch.milliseconds();
     plan_ = graph.describe(executor_.plan());
 
     Frame result;
@@ -85,7 +86,8 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     result.lights = uint32_t(lights.lights.size());
     result.sources = uint32_t(sources.sources.size());
     result.far = declared.far;
-    result.milliseconds = elapsed.count();
+    result.host_times.declare = declared_after;
+    result.milliseconds = milliseconds;
     return result;
 }
 

@@ -69,6 +69,7 @@ void read_tone_chain(const Executor& executor, const ToneChain& chain, VkExtent2
     to.eye = read_one<shared::EyeState>(executor, chain.eye);
     to.foveal_level = chain.foveal_level;
     to.timings = executor.timings();
+    to.host_times = executor.host_times();
 }
 
 }  // namespace vesper

@@ -55,6 +55,7 @@ struct ToneMapped {
     shared::EyeState eye{};
     uint32_t foveal_level = 0;
     std::vector<Timing> timings;
+    HostTimes host_times;
     double milliseconds = 0;        ///< from declaring the frame to the device being done, on the host's clock
 };
 

@@ -1,14 +1,15 @@
 #include "tone_mapper.h"
 
-#include <chrono>
 #include <numbers>
+
+#include "base/stopwatch.h"
 
 namespace vesper {
 
 ToneMapper::ToneMapper(Device& device) : device_(device), kernels_(device), executor_(device) {}
 
 ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture& picture, float seconds, Outputs outputs) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const auto [width, height] = picture.extent;
     const uint64_t pixels = uint64_t{width} * height, bytes = pixels * 4 * sizeof(float);
     if (pixels == 0 || (picture.channels != 3 && picture.channels != 4) || picture.values.size() != pixels * picture.channels)
@@ -31,13 +32,15 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
     graph.copy("picture", graph.external("picture", pixels_.buffer(), bytes), scene);
     const View view = View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1));
     const ToneChain chain = add_tone_chain(graph, kernels_, scene, view, settings, seconds, outputs, eye_ ? &*eye_ : nullptr);
+    const double declared_after = watch.milliseconds();
     executor_.run(graph);
     eye_.reset();
     plan_ = graph.describe(executor_.plan());
 
     ToneMapped result;
     read_tone_chain(executor_, chain, picture.extent, result);
-    result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    result.host_times.declare = declared_after;
+    result.milliseconds = watch.milliseconds();
     return result;
 }
 

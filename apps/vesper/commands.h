@@ -7,8 +7,6 @@ class App;
 
 namespace vesper {
 
-constexpr int kBadInput = 2;  ///< exit code for a file, device or argument that cannot be used
-
 void add_render(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_road(CLI::App& program);

@@ -46,6 +46,13 @@ struct DeviceOptions {
     std::function<void(const std::string&)> on_message;  ///< called for every validation message
 };
 
+/// What a device has been asked for since it was opened.
+struct DeviceUse {
+    uint64_t bytes = 0, peak_bytes = 0;  ///< of its memory: allocated now, and at most at any time
+    uint32_t pipelines = 0;              ///< made
+    double pipeline_ms = 0;              ///< in the driver's calls that make them; some drivers compile later, at first use
+};
+
 /// One line per Vulkan device of the machine, for `--device`.
 std::vector<std::string> list_devices();
 
@@ -73,6 +80,9 @@ public:
     uint32_t memory_type(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred = 0) const;
     bool is_coherent(uint32_t memory_type) const;
 
+    /// Kept by what is made on the device.
+    DeviceUse& use() const { return use_; }
+
     /// Records and runs commands, and waits for them.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
 
@@ -88,6 +98,7 @@ private:
     bool has_timestamps_ = false, has_anisotropy_ = false;
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceMemoryProperties memory_{};
+    mutable DeviceUse use_;
     std::string driver_;
     std::function<void(const std::string&)> on_message_;
 

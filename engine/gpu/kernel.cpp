@@ -59,6 +59,7 @@ Kernel::Kernel(const Device& device, const std::string& shader, std::span<const 
                                                      .pSpecializationInfo = &specialization},
                                            .layout = layout_.get()};
     VkPipeline pipeline = VK_NULL_HANDLE;
+    const PipelineTimer timer(device);
     check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "compiling " + name);
     pipeline_ = {device.handle(), pipeline};
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "base/stopwatch.h"
 #include "gpu/device.h"
 #include "gpu/kernel_interface.h"
 
@@ -14,6 +15,19 @@ using OwnedSetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout
 using OwnedPipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
 using OwnedPipeline = Owned<VkPipeline, vkDestroyPipeline>;
 using OwnedShaderModule = Owned<VkShaderModule, vkDestroyShaderModule>;
+
+/// Lives while a pipeline is made, and adds it to the device's account.
+class PipelineTimer {
+public:
+    explicit PipelineTimer(const Device& device) : use_(device.use()) {}
+    PipelineTimer(const PipelineTimer&) = delete;
+    PipelineTimer& operator=(const PipelineTimer&) = delete;
+    ~PipelineTimer() { ++use_.pipelines, use_.pipeline_ms += watch_.milliseconds(); }
+
+private:
+    DeviceUse& use_;
+    Stopwatch watch_;
+};
 
 OwnedShaderModule make_shader(const Device& device, std::span<const uint32_t> spirv);
 /// A layout of push descriptors, binding i of kind types[i].

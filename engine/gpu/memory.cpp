@@ -11,13 +11,19 @@ uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignmen
 
 }  // namespace
 
+OwnedMemory::OwnedMemory(const Device& device, VkDeviceMemory memory, uint64_t bytes)
+    : memory_(device.handle(), memory), use_(&device.use()), bytes_(bytes) {
+    use_->bytes += bytes;
+    use_->peak_bytes = std::max(use_->peak_bytes, use_->bytes);
+}
+
 OwnedMemory allocate(const Device& device, uint64_t bytes, uint32_t memory_type) {
     const VkMemoryAllocateInfo info{
         .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = bytes, .memoryTypeIndex = memory_type};
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check(vkAllocateMemory(device.handle(), &info, nullptr, &memory),
           "allocating " + std::to_string(bytes >> 20) + " MiB on " + device.name());
-    return {device.handle(), memory};
+    return {device, memory, bytes};
 }
 
 OwnedBuffer make_buffer(const Device& device, uint64_t bytes, VkBufferUsageFlags usage) {

@@ -9,12 +9,32 @@
 
 namespace vesper {
 
-using OwnedMemory = Owned<VkDeviceMemory, vkFreeMemory>;
 using OwnedBuffer = Owned<VkBuffer, vkDestroyBuffer>;
 using OwnedImage = Owned<VkImage, vkDestroyImage>;
 using OwnedImageView = Owned<VkImageView, vkDestroyImageView>;
 using OwnedBufferView = Owned<VkBufferView, vkDestroyBufferView>;
 using OwnedSampler = Owned<VkSampler, vkDestroySampler>;
+
+/// Sole owner of a piece of device memory, of which the device keeps account.
+class OwnedMemory {
+public:
+    OwnedMemory() = default;
+    OwnedMemory(const Device& device, VkDeviceMemory memory, uint64_t bytes);
+    OwnedMemory(OwnedMemory&& other) noexcept { *this = std::move(other); }
+    OwnedMemory& operator=(OwnedMemory&& other) noexcept {
+        std::swap(memory_, other.memory_), std::swap(use_, other.use_), std::swap(bytes_, other.bytes_);
+        return *this;
+    }
+    ~OwnedMemory() {
+        if (use_) use_->bytes -= bytes_;
+    }
+    VkDeviceMemory get() const { return memory_.get(); }
+
+private:
+    Owned<VkDeviceMemory, vkFreeMemory> memory_;
+    DeviceUse* use_ = nullptr;
+    uint64_t bytes_ = 0;
+};
 
 OwnedMemory allocate(const Device& device, uint64_t bytes, uint32_t memory_type);
 OwnedBuffer make_buffer(const Device& device, uint64_t bytes, VkBufferUsageFlags usage);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -46,6 +47,20 @@ bool replaces(PassKind kind, Access access) {
 /// True if earlier contents matter to this use.
 bool needs_contents(PassKind kind, Access access) {
     return access != Access::Store ? !replaces(kind, access) : kind == PassKind::Raster;
+}
+
+/// Adds up what the uses of a pass move.
+void count_bytes(const FrameGraph& graph, Plan::Step& step) {
+    const PassInfo& pass = graph.passes()[step.pass];
+    std::set<uint32_t> read, written;
+    for (size_t i = 0; i < pass.uses.size(); ++i) {
+        const auto& [resource, access, clear] = pass.uses[i];
+        const uint64_t bytes = packed_bytes(graph.resources()[resource.index].shape);
+        const bool target = access == Access::ColorTarget || access == Access::DepthTarget;
+        const bool reads = target ? !step.first_use[i] : access != Access::Store && access != Access::CopyTarget;
+        if (reads && read.insert(resource.index).second) step.bytes_read += bytes;
+        if (writes(access) && written.insert(resource.index).second) step.bytes_written += bytes;
+    }
 }
 
 void check_written(const FrameGraph& graph) {
@@ -115,6 +130,7 @@ std::vector<Life> lay_out_steps(const FrameGraph& graph, Plan& plan) {
             }
         }
     }
+    for (Plan::Step& step : plan.steps) count_bytes(graph, step);
     for (size_t i = 0; i < resources.size(); ++i) {
         // Whoever keeps a transient looks at it after the frame.
         if (resources[i].kept && lives[i].used()) lives[i].last = static_cast<uint32_t>(plan.steps.size()) - 1;

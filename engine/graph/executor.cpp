@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include "base/stopwatch.h"
+
 namespace vesper {
 namespace {
 
@@ -157,13 +159,16 @@ Measure Executor::measure() const {
 }
 
 void Executor::run(const FrameGraph& graph) {
+    Stopwatch watch;
     plan_ = graph.compile(measure());
     place(graph);
     realize_histories(graph);
     realize_uploads(graph);
     realize_externals(graph);
     realize_readbacks(graph);
+    host_times_.plan = watch.lap();
     record(graph);
+    host_times_.record = watch.lap();
     finish(graph);
 }
 
@@ -404,9 +409,12 @@ void Executor::finish(const FrameGraph& graph) {
     const VkSubmitInfo2 submit{
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted};
     const VkFence fence = fence_.get();
+    Stopwatch watch;
     check(vkQueueSubmit2(device_.queue(), 1, &submit, fence), "submitting a frame");
+    host_times_.submit = watch.lap();
     check(vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "waiting for a frame");
     check(vkResetFences(device_.handle(), 1, &fence), "waiting for a frame");
+    host_times_.wait = watch.lap();
     if (readbacks_.bytes()) readbacks_.invalidate();
 
     timings_.clear();
@@ -415,9 +423,12 @@ void Executor::finish(const FrameGraph& graph) {
     check(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, uint32_t(ticks.size()), ticks.size() * sizeof(uint64_t),
                                 ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading timestamps");
-    for (size_t i = 0; i < plan_.steps.size(); ++i)
-        timings_.push_back({graph.passes()[plan_.steps[i].pass].name,
-                            double(ticks[2 * i + 1] - ticks[2 * i]) * double(device_.limits().timestampPeriod) * 1e-6});
+    for (size_t i = 0; i < plan_.steps.size(); ++i) {
+        const Plan::Step& step = plan_.steps[i];
+        timings_.push_back({graph.passes()[step.pass].name,
+                            double(ticks[2 * i + 1] - ticks[2 * i]) * double(device_.limits().timestampPeriod) * 1e-6,
+                            step.bytes_read, step.bytes_written});
+    }
 }
 
 std::span<const std::byte> Executor::read(Resource readback) const {

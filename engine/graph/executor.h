@@ -13,10 +13,20 @@
 
 namespace vesper {
 
-/// Device time of one pass of the last frame.
+/// Device time of one pass of the last frame, and what it had to move (Plan::Step).
 struct Timing {
     std::string pass;
     double milliseconds = 0;
+    uint64_t bytes_read = 0, bytes_written = 0;
+};
+
+/// Where the host's time went in the last frame, ms.
+struct HostTimes {
+    double declare = 0;  ///< lists of lamps, the frame's declaration; of whoever runs the executor
+    double plan = 0;     ///< compiling the plan, placing resources, writing uploads
+    double record = 0;
+    double submit = 0;
+    double wait = 0;     ///< for the device
 };
 
 /// Owns the memory behind a frame graph's resources and what survives from frame to frame.
@@ -41,6 +51,7 @@ public:
 
     const Plan& plan() const { return plan_; }                     ///< of the last frame
     const std::vector<Timing>& timings() const { return timings_; } ///< of the last frame; empty without timestamps
+    const HostTimes& host_times() const { return host_times_; }    ///< of the last frame
     /// Makes a history zero again, as after a camera cut. Unknown names are ignored.
     void reset(const std::string& history);
     uint64_t heap_bytes() const;  ///< device memory behind transients, bytes
@@ -64,6 +75,7 @@ private:
     Device& device_;
     Plan plan_;
     std::vector<Timing> timings_;
+    HostTimes host_times_;
     std::vector<Realized> resources_;
     std::map<std::string, std::unique_ptr<Past>> histories_;
     std::vector<OwnedMemory> heaps_;

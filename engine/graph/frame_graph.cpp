@@ -37,12 +37,6 @@ uint64_t texel_bytes(VkFormat format) {
     return found == std::end(kTexelBytes) ? 0 : found->bytes;
 }
 
-/// Bytes of a buffer, or of an image when tightly packed; 0 if unknown.
-uint64_t packed_bytes(const Shape& shape) {
-    if (!shape.is_image()) return shape.bytes;
-    return texel_bytes(shape.format) * shape.extent.width * shape.extent.height;
-}
-
 std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 [[noreturn]] void fail(const PassInfo& pass, const std::string& reason) {
@@ -183,6 +177,11 @@ VkBufferImageCopy whole_image(const Shape& shape, uint64_t offset) {
 }
 
 }  // namespace
+
+uint64_t packed_bytes(const Shape& shape) {
+    if (!shape.is_image()) return shape.bytes;
+    return texel_bytes(shape.format) * shape.extent.width * shape.extent.height;
+}
 
 Resource FrameGraph::add(std::string_view name, const Shape& shape, Origin origin) {
     if (name.empty()) throw Error("a resource has no name");

@@ -39,6 +39,9 @@ struct Shape {
     }
 };
 
+/// Bytes of a buffer, or of an image when tightly packed; 0 for formats the engine does not copy.
+uint64_t packed_bytes(const Shape& shape);
+
 inline Shape image_shape(VkFormat format, VkExtent2D extent) { return {format, extent, 0}; }
 inline Shape buffer_shape(uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED) { return {texel, {0, 0}, bytes}; }
 

@@ -80,6 +80,8 @@ struct Plan {
         uint32_t pass = 0;
         std::vector<Barrier> barriers;  ///< before the pass
         std::vector<bool> first_use;    ///< per use of the pass: contents are new, targets are cleared
+        /// What the pass must move: sizes of the resources it reads, and of those it writes, each once. Bytes.
+        uint64_t bytes_read = 0, bytes_written = 0;
     };
     struct Placement {
         uint32_t resource = 0;

@@ -216,6 +216,7 @@ void ResidentScene::make_pipelines(const Device& device) {
                                                 .pDynamicState = &dynamic,
                                                 .layout = layout_.get()};
         VkPipeline pipeline = VK_NULL_HANDLE;
+        const PipelineTimer timer(device);
         check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "compiling the G-buffer");
         pipelines_[variant] = {device.handle(), pipeline};
     }

@@ -1,0 +1,50 @@
+#include "program.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <string>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "base/error.h"
+
+namespace vesper {
+namespace {
+
+// A CPU device builds tens of MiB of its own lists in every frame. glibc would give them back to the system after each, and
+// have every page cleared again in the next: a twentieth of the frame.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_TOP_PAD, 64 << 20);
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // setting the first fixes this at 128 KiB
+#endif
+}
+
+}  // namespace
+
+int run_program(CLI::App& program, int argc, char** argv) {
+    keep_freed_memory();
+    const std::string name = program.get_name();
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+        std::string message = error.what();
+        std::replace(message.begin(), message.end(), '\n', ' ');
+        std::fprintf(stderr, "%s: %s (--help shows what is possible)\n", name.c_str(), message.c_str());
+        return kBadInput;
+    } catch (const Error& error) {
+        std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
+        return kBadInput;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "%s: out of memory\n", name.c_str());
+        return kBadInput;
+    }
+    return 0;
+}
+
+}  // namespace vesper

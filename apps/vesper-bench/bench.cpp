@@ -1,0 +1,189 @@
+#include "bench.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "machine.h"
+#include "measure.h"
+#include "picture_arguments.h"
+#include "progress.h"
+#include "scenes.h"
+#include "start.h"
+#include "tone_arguments.h"
+
+namespace vesper {
+namespace {
+
+struct BenchArguments {
+    std::vector<std::string> scenes{"rivoli"}, sizes{"1680x1050"}, operators, glares;
+    std::vector<uint32_t> lamps{0}, channels{1};
+    uint32_t triangles = 10000;
+    RunPlan run{.settings = {.frames = 48, .laps = 3, .warm_up = 4}, .render = {}, .camera = {}, .device = {}};
+    ToneArguments tone;
+    std::string json, picture, growth, tables;
+    std::vector<std::string> compared;
+    bool no_start = false;
+    const CLI::App* command = nullptr;
+};
+
+/// One run of those that the arguments ask for.
+struct Planned {
+    RunPlan plan;
+    uint32_t lamps;
+};
+
+void take_defaults_of_matrix(BenchArguments& a) {
+    const auto unless_given = [&](const char* option, auto& values, auto defaults) {
+        if (!a.command->count(option)) values = std::move(defaults);
+    };
+    unless_given("--scene", a.scenes, std::vector<std::string>{"street"});
+    unless_given("--lamps", a.lamps, std::vector<uint32_t>{64, 256, 1024, 4096});
+    unless_given("--size", a.sizes, std::vector<std::string>{"640x400", "1120x700", "1680x1050"});
+    unless_given("--operator", a.operators, std::vector<std::string>{"ward", "reinhard"});
+}
+
+/// Every combination of what was listed.
+std::vector<Planned> planned_runs(const BenchArguments& a) {
+    std::vector<Planned> runs;
+    ToneArguments tone = a.tone;
+    const std::vector<std::string> operators = a.operators.empty() ? std::vector{tone.eye.tone_operator} : a.operators;
+    const std::vector<std::string> glares = a.glares.empty() ? std::vector{tone.glare} : a.glares;
+    for (const std::string& scene : a.scenes)
+        for (const uint32_t lamps : a.lamps)
+            for (const std::string& size : a.sizes)
+                for (const uint32_t channels : a.channels)
+                    for (const std::string& glare : glares)
+                        for (const std::string& op : operators) {
+                            Planned& run = runs.emplace_back(Planned{a.run, lamps});
+                            tone.eye.tone_operator = op, tone.glare = glare;
+                            static_cast<ToneChainSettings&>(run.plan.render) = tone_settings(tone);
+                            RunSettings& s = run.plan.settings;
+                            s.scene = scene.find('/') == scene.npos ? scene : std::filesystem::path(scene).filename().string();
+                            s.tone_operator = name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
+                            s.width = parse_size(size).width, s.height = parse_size(size).height;
+                            s.threshold = double(run.plan.render.clusters.threshold);
+                        }
+    return runs;
+}
+
+void check_files(const BenchArguments& a) {
+    Files files;
+    for (const std::string& scene : a.scenes)
+        if (scene != "street") files.reads(scene);
+    if (!a.growth.empty() && !std::filesystem::is_directory(a.growth)) {
+        files.writes("--matrix", a.growth);
+        std::error_code failed;
+        if (!std::filesystem::create_directory(a.growth, failed)) throw Error("--matrix " + one_line(a.growth) + ": cannot be made a folder");
+    }
+    files.writes("--json", a.json);
+    files.writes("--picture", a.picture);
+    if (!a.picture.empty() && !a.picture.ends_with(".png")) throw Error("--picture " + one_line(a.picture) + ": a .png file is expected");
+}
+
+std::string command_line(const BenchArguments& a) {
+    std::string text;
+    for (const CLI::Option* option : a.command->get_options())
+        if (option->count())
+            for (const std::string& value : option->results()) text += (text.empty() ? "" : " ") + option->get_name() + "=" + value;
+    return text;
+}
+
+BenchResult machine_of(const BenchArguments& a) {
+    const Device device({.select = a.run.device});
+    return {.version = VESPER_VERSION, .command = command_line(a), .device = device.name(), .driver = device.driver(), .host = processor_name(),
+            .threads = std::thread::hardware_concurrency(), .cpu = device.is_cpu(), .copy_bandwidth = copy_bandwidth(device), .runs = {}};
+}
+
+void run(BenchArguments& a) {
+    if (!a.growth.empty()) {
+        take_defaults_of_matrix(a);
+        while (a.growth.size() > 1 && a.growth.ends_with('/')) a.growth.pop_back();
+    }
+    check_files(a);
+    const std::vector<Planned> planned = planned_runs(a);
+    Scenes scenes;
+    for (const std::string& scene : a.scenes) scenes.prepare(scene);
+    const auto name_of_run = [&](size_t i) { return a.scenes[i * a.scenes.size() / planned.size()]; };
+    const auto load = [&](size_t i) { return scenes.load(name_of_run(i), planned[i].lamps, a.triangles, a.run.camera); };
+
+    // Starts come before this process opens a device.
+    std::vector<Start> starts;
+    if (planned.size() == 1 && !a.no_start)
+        starts = time_starts(scenes.folder("shaders"), [&](const auto& shown) { first_frame(planned[0].plan, load(0), shown); });
+
+    BenchResult result = machine_of(a);
+    const auto title = [&](const RunResult& measured) { return headline(result, measured) + (planned.size() > 1 ? measured.settings.details() : ""); };
+    Frame last;
+    for (size_t i = 0; i < planned.size(); ++i) {
+        const RunSettings& s = planned[i].plan.settings;
+        RunResult measured;
+        {
+            Progress progress(s.title(), s.frames * s.laps);
+            measured = measure(planned[i].plan, load(i), [&] { progress.step(); }, &last);
+        }
+        measured.starts = starts;
+        result.runs.push_back(std::move(measured));
+        std::printf("%s\n", title(result.runs.back()).c_str());
+        std::fflush(stdout);
+    }
+    for (const RunResult& measured : result.runs) std::printf("\n%s%s", planned.size() > 1 ? (title(measured) + "\n").c_str() : "", text_of(result, measured).c_str());
+    if (!a.json.empty()) write_text(a.json, json_of(result));
+    if (!a.picture.empty()) write_codes(a.picture, last, planned.back().plan.render.display);
+    if (!a.growth.empty())
+        for (const std::string& file : save_growth(a.growth, result)) std::printf("%s\n", file.c_str());
+}
+
+void work(BenchArguments& a) {
+    if (!a.compared.empty())
+        std::fputs(comparison(read_result(a.compared.at(0)), read_result(a.compared.at(1))).c_str(), stdout);
+    else if (!a.tables.empty())
+        std::fputs(markdown_of(read_result(a.tables)).c_str(), stdout);
+    else
+        run(a);
+}
+
+/// An option of one value takes a list of them; what belongs to it checks each.
+void take_list(CLI::App& program, const char* option, std::vector<std::string>& values) {
+    program.get_option(option)->delimiter(',')->take_last()->each([&values](const std::string& value) { values.push_back(value); });
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program) {
+    const auto a = std::make_shared<BenchArguments>();
+    RunSettings& s = a->run.settings;
+    a->command = &program;
+    program.add_option("--scene", a->scenes, "rivoli: the night street; rivoli-measured: with measured lamps and road; street: generated; or a .gltf or .glb")->delimiter(',')->capture_default_str();
+    program.add_option("--camera,-c", a->run.camera, "Name of a camera of the scene (default: the first)");
+    program.add_option("--size,-s", a->sizes, "WIDTHxHEIGHT of a channel, px")->delimiter(',')->capture_default_str();
+    program.add_option("--lamps", a->lamps, "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")->delimiter(',')->check(CLI::Range(0u, 32000u));
+    program.add_option("--triangles", a->triangles, "Of the street: at least so many")->check(CLI::Range(0u, 100'000'000u))->capture_default_str();
+    program.add_option("--channels", a->channels, "Views in every frame, side by side")->delimiter(',')->check(CLI::Range(1u, 16u))->capture_default_str();
+    program.add_option("--frames", s.frames, "Of a lap: the path of the scene's camera in equal steps")->check(CLI::Range(1u, 100000u))->capture_default_str();
+    program.add_option("--laps", s.laps, "How often the path is driven")->check(CLI::Range(1u, 1000u))->capture_default_str();
+    program.add_option("--warm-up", s.warm_up, "Frames from all along the path before the first lap, not counted")->check(CLI::Range(0u, 10000u))->capture_default_str();
+    program.add_option("--threshold", a->run.render.clusters.threshold, "Illuminance below which a lamp counts as dark, lx")->check(between(1e-9, 1e3))->capture_default_str();
+    program.add_option("--device", a->run.device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    program.add_option("--json", a->json, "Write everything that was measured to a file");
+    program.add_option("--picture", a->picture, "Write the last frame to a .png file");
+    program.add_flag("--no-start", a->no_start, "Do not time starts with a cold and a warm cache of shaders");
+    CLI::Option* matrix = program.add_option("--matrix", a->growth, "Drive the street with 64 to 4096 lamps at several sizes with several operators, and draw how time grows into a folder");
+    CLI::Option* compare = program.add_option("--compare", a->compared, "A.json B.json: print what B takes relative to A")->expected(2)->excludes(matrix);
+    program.add_option("--tables", a->tables, "FILE.json: print what was measured as tables of Markdown")->excludes(matrix)->excludes(compare);
+    add_tone_options(program, a->tone);
+    take_list(program, "--operator", a->operators);
+    take_list(program, "--glare", a->glares);
+    program.footer("Lists (scenes, sizes, lamps, channels, operators, glare) are separated by commas; every combination is a run.\n"
+                   "Examples:\n  vesper-bench --json now.json\n"
+                   "  vesper-bench --compare before.json now.json\n"
+                   "  vesper-bench --scene street --lamps 1024 --operator ward,reinhard --size 1680x1050,2560x1600\n"
+                   "  vesper-bench --matrix out/growth --json out/growth/growth.json\n");
+    program.callback([a] { work(*a); });
+}
+
+}  // namespace vesper

@@ -1,0 +1,97 @@
+#include "machine.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "base/stopwatch.h"
+#include "gpu/memory.h"
+
+namespace vesper {
+namespace {
+
+constexpr int kTries = 5;
+
+/// The rest of the first line of a file that begins with a key, without blanks and the colon.
+std::string value_in(const char* file, const std::string& key) {
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        if (!line.starts_with(key)) continue;
+        const size_t at = line.find_first_not_of(" \t:", key.size());
+        return at == line.npos ? std::string() : line.substr(at);
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string processor_name() {
+    const std::string name = value_in("/proc/cpuinfo", "model name");
+    return name.empty() ? "an unknown processor" : name;
+}
+
+double host_copy_bandwidth(uint64_t bytes) {
+    std::vector<std::byte> from(bytes, std::byte{1}), to(bytes, std::byte{2});
+    const size_t threads = std::max(1u, std::thread::hardware_concurrency());
+    double best = 0;
+    for (int i = 0; i < kTries; ++i) {
+        const Stopwatch watch;
+        std::vector<std::thread> copying;
+        for (size_t t = 0; t < threads; ++t) {
+            const size_t begin = bytes * t / threads, end = bytes * (t + 1) / threads;
+            copying.emplace_back([&, begin, end] { std::memcpy(to.data() + begin, from.data() + begin, end - begin); });
+        }
+        for (std::thread& thread : copying) thread.join();
+        best = std::max(best, 2 * double(bytes) / (watch.milliseconds() * 1e-3));
+    }
+    return best;
+}
+
+double device_copy_bandwidth(const Device& device, uint64_t bytes) {
+    Arena arena(device);
+    OwnedBuffer buffers[2];
+    for (OwnedBuffer& buffer : buffers) {
+        buffer = make_buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        arena.bind(buffer.get());
+    }
+    const auto copy = [&](uint32_t times) {
+        const Stopwatch watch;
+        device.run_once([&](VkCommandBuffer commands) {
+            for (uint32_t i = 0; i < times; ++i) {
+                const VkBufferCopy whole{0, 0, bytes};
+                vkCmdCopyBuffer(commands, buffers[i % 2].get(), buffers[1 - i % 2].get(), 1, &whole);
+                const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                               .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                               .srcAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                               .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                               .dstAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+                const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
+                vkCmdPipelineBarrier2(commands, &dependency);
+            }
+        });
+        return watch.milliseconds();
+    };
+    copy(1);  // the memory is touched, the clocks are up
+    constexpr uint32_t kTimes = 40;  // the way to the device and back is shared by so many
+    double best = 0;
+    for (int i = 0; i < kTries; ++i) best = std::max(best, 2 * double(bytes) * kTimes / (copy(kTimes) * 1e-3));
+    return best;
+}
+
+double copy_bandwidth(const Device& device) { return device.is_cpu() ? host_copy_bandwidth() : device_copy_bandwidth(device); }
+
+uint64_t peak_host_bytes() {
+    if (const std::string peak = value_in("/proc/self/status", "VmHWM"); !peak.empty()) return std::strtoull(peak.c_str(), nullptr, 10) << 10;  // kB
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    return uint64_t(use.ru_maxrss) << 10;
+}
+
+void forget_peak_host_bytes() { std::ofstream("/proc/self/clear_refs") << "5"; }
+
+}  // namespace vesper

@@ -1,0 +1,153 @@
+#include "measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/stopwatch.h"
+#include "machine.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kStanding = 10;  // s
+
+struct PassSamples {
+    std::string name;
+    Samples ms, bytes_read, bytes_written;
+};
+
+/// What is known of every frame.
+struct RunSamples {
+    Samples frame;
+    std::array<Samples, kHostParts.size()> host;
+    std::vector<PassSamples> passes;
+    double total_ms = 0;
+
+    void next_lap() {
+        frame.next_lap();
+        for (Samples& part : host) part.next_lap();
+        for (PassSamples& pass : passes) pass.ms.next_lap(), pass.bytes_read.next_lap(), pass.bytes_written.next_lap();
+    }
+    void add(double ms, const std::array<double, kHostParts.size()>& parts, const std::vector<Timing>& timings) {
+        frame.add(ms);
+        total_ms += ms;
+        for (size_t i = 0; i < parts.size(); ++i) host[i].add(parts[i]);
+        for (const Timing& timing : timings) {
+            auto found = std::find_if(passes.begin(), passes.end(), [&](const PassSamples& pass) { return pass.name == timing.pass; });
+            if (found == passes.end()) found = passes.insert(passes.end(), {timing.pass, {}, {}, {}});
+            found->ms.add(timing.milliseconds);
+            found->bytes_read.add(double(timing.bytes_read)), found->bytes_written.add(double(timing.bytes_written));
+        }
+    }
+};
+
+/// The renderer on its way.
+class Drive {
+public:
+    Drive(const RunPlan& plan, const Scene& scene, Device& device)
+        : plan_(plan), scene_(scene), seconds_(animation_length(scene) > 0 ? animation_length(scene) : kStanding), renderer_(device, scene) {}
+
+    /// Renders every channel at a part [0, 1) of the path, `step` s after the frame before.
+    void frame(double part, double step, RunSamples* samples) {
+        Stopwatch whole, watch;
+        const SceneFrame moment{world_transforms(scene_, part * seconds_)};
+        const std::vector<View> views = channel_views(camera_view(scene_, moment, plan_.camera, plan_.extent()), plan_.settings.channels);
+        std::array<double, kHostParts.size()> host{watch.lap()};
+        std::vector<Timing> timings;
+        for (const View& view : views) {
+            last_ = renderer_.render(plan_.render, view, moment, float(step / double(views.size())), {});
+            const HostTimes& times = last_.host_times;
+            const double parts[]{times.declare, times.plan, times.record, times.submit, times.wait};
+            for (size_t i = 0; i < std::size(parts); ++i) host[1 + i] += parts[i];
+            host.back() += watch.lap() - (times.declare + times.plan + times.record + times.submit + times.wait);
+            for (const Timing& timing : last_.timings) add(timings, timing);
+        }
+        if (samples) samples->add(whole.milliseconds(), host, timings);
+    }
+    double seconds() const { return seconds_; }
+    Renderer& renderer() { return renderer_; }
+    Frame& last() { return last_; }
+
+private:
+    // Channels are counted together.
+    static void add(std::vector<Timing>& all, const Timing& timing) {
+        for (Timing& known : all)
+            if (known.pass == timing.pass) {
+                known.milliseconds += timing.milliseconds, known.bytes_read += timing.bytes_read, known.bytes_written += timing.bytes_written;
+                return;
+            }
+        all.push_back(timing);
+    }
+
+    const RunPlan& plan_;
+    const Scene& scene_;
+    double seconds_;
+    Renderer renderer_;
+    Frame last_;
+};
+
+void summarize(const RunSamples& samples, RunResult& result) {
+    const std::vector<double> frames = samples.frame.ascending();
+    result.fps = 1000 * double(frames.size()) / samples.total_ms;
+    result.frame = samples.frame.spread();
+    result.p5 = percentile(frames, 5), result.p95 = percentile(frames, 95), result.p99 = percentile(frames, 99);
+    result.low_fps = one_percent_low(frames);
+    for (size_t i = 0; i < result.host.size(); ++i) result.host[i] = samples.host[i].spread();
+    for (const PassSamples& pass : samples.passes)
+        result.passes.push_back({pass.name, pass.ms.spread(), pass.bytes_read.spread().median, pass.bytes_written.spread().median});
+}
+
+}  // namespace
+
+std::vector<View> channel_views(const View& camera, uint32_t channels) {
+    const float width = std::atan(camera.tangent_high.x) - std::atan(camera.tangent_low.x);  // rad
+    std::vector<View> views(channels, camera);
+    for (uint32_t i = 0; i < channels; ++i) {
+        const float turn = (float(i) - 0.5f * float(channels - 1)) * width;  // to the right
+        views[i].world_to_view = glm::rotate(glm::mat4(1), turn, glm::vec3(0, 1, 0)) * camera.world_to_view;
+    }
+    return views;
+}
+
+RunResult measure(const RunPlan& plan, const Scene& scene, const std::function<void()>& frame_done, Frame* last) {
+    forget_peak_host_bytes();
+    RunResult result;
+    result.settings = plan.settings;
+    RunSettings& settings = result.settings;
+    Device device({.select = plan.device});
+    Drive drive(plan, scene, device);
+
+    const Stopwatch watch;
+    drive.frame(0, 0, nullptr);
+    result.first_frame_ms = watch.milliseconds();
+    const double step = drive.seconds() / settings.frames;
+    for (uint32_t i = 0; i < settings.warm_up; ++i) drive.frame(double(i) / settings.warm_up, step, nullptr);
+
+    RunSamples samples;
+    for (uint32_t lap = 0; lap < settings.laps; ++lap) {
+        drive.renderer().reset_adaptation();
+        if (lap) samples.next_lap();
+        for (uint32_t i = 0; i < settings.frames; ++i) {
+            drive.frame(double(i) / settings.frames, i ? step : 0, &samples);
+            frame_done();
+        }
+    }
+    summarize(samples, result);
+    settings.lamps = drive.last().lights;
+    settings.triangles = drive.renderer().scene().triangles();
+    result.host_bytes = double(peak_host_bytes()), result.device_bytes = double(device.use().peak_bytes);
+    result.pipelines = device.use().pipelines, result.pipelines_ms = device.use().pipeline_ms;
+    if (last) *last = std::move(drive.last());
+    return result;
+}
+
+void first_frame(const RunPlan& plan, const Scene& scene, const std::function<void()>& frame_done) {
+    Device device({.select = plan.device});
+    Drive drive(plan, scene, device);
+    drive.frame(0, 0, nullptr);
+    frame_done();
+}
+
+}  // namespace vesper

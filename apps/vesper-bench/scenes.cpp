@@ -1,0 +1,73 @@
+#include "scenes.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "resident/cameras.h"
+#include "scene/convert.h"
+#include "street.h"
+
+namespace vesper {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint32_t kStreetLamps = 256;
+
+}  // namespace
+
+Scenes::Scenes() {
+    std::error_code failed;
+    std::string pattern = (fs::temp_directory_path(failed) / "vesper-bench-XXXXXX").string();
+    if (failed || !mkdtemp(pattern.data())) throw Error("no temporary folder: " + one_line(pattern));
+    folder_ = pattern;
+}
+
+Scenes::~Scenes() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+}
+
+std::string Scenes::folder(const std::string& name) const {
+    fs::create_directories(folder_ + "/" + name);
+    return folder_ + "/" + name;
+}
+
+void Scenes::prepare(const std::string& name) {
+    if (name == "street" || files_.contains(name)) return;
+    if (name == "rivoli" || name == "rivoli-measured") {
+        const fs::path data = fs::path(VESPER_DATA_DIR) / "rivoli";
+        files_[name] = folder_ + "/" + name + ".glb";
+        convert(data / "rivoli.gltf", data / (name == "rivoli" ? "rivoli.photometry.json" : "rivoli.measured.photometry.json"), files_[name]);
+    } else if (name.ends_with(".gltf") || name.ends_with(".glb")) {
+        files_[name] = name;
+    } else {
+        throw Error("--scene " + one_line(name) + ": rivoli, rivoli-measured, street or a .gltf or .glb file is expected");
+    }
+}
+
+Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& camera) const {
+    if (name == "street") return lamp_street(lamps ? lamps : kStreetLamps, triangles);
+    Scene scene = read_gltf(files_.at(name)).scene;
+    const View view = camera_view(scene, {world_transforms(scene, 0)}, camera, {1, 1});
+    if (lamps) keep_nearest_lamps(scene, glm::vec3(glm::inverse(view.world_to_view)[3]), lamps);
+    return scene;
+}
+
+void keep_nearest_lamps(Scene& scene, glm::vec3 eye, uint32_t count) {
+    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    std::vector<uint32_t> lamps;
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].light != kNone) lamps.push_back(i);
+    if (lamps.size() < count) throw Error("--lamps " + std::to_string(count) + ": the scene has " + std::to_string(lamps.size()));
+    std::stable_sort(lamps.begin(), lamps.end(), [&](uint32_t a, uint32_t b) {
+        return glm::distance(glm::vec3(world[a][3]), eye) < glm::distance(glm::vec3(world[b][3]), eye);
+    });
+    for (const uint32_t node : std::span(lamps).subspan(count)) scene.nodes[node].light = kNone;
+}
+
+}  // namespace vesper

@@ -1,0 +1,147 @@
+// Scenes, views and the machine of the benchmark. SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "machine.h"
+#include "measure.h"
+#include "scenes.h"
+#include "street.h"
+#include "support/pass_rig.h"
+
+namespace vesper {
+namespace {
+
+uint64_t triangles_of(const Scene& scene) {
+    uint64_t total = 0;
+    for (const Node& node : scene.nodes)
+        if (node.mesh != kNone)
+            for (const Primitive& p : scene.meshes[node.mesh].primitives) total += p.indices.size() / 3;
+    return total;
+}
+
+uint32_t lamps_of(const Scene& scene) {
+    uint32_t total = 0;
+    for (const Node& node : scene.nodes) total += node.light != kNone;
+    return total;
+}
+
+TEST(BenchStreet, HasAsManyLampsAndTrianglesAsAskedFor) {
+    for (const uint32_t lamps : {1u, 2u, 65u, 256u, 4096u})
+        for (const uint64_t triangles : {0ull, 1000ull, 100000ull, 1000000ull}) {
+            const Scene scene = lamp_street(lamps, triangles);
+            EXPECT_EQ(lamps_of(scene), lamps);
+            EXPECT_GE(triangles_of(scene), triangles);
+            // A patch has at most one row of cells more than it needs.
+            const double pieces = double(scene.nodes.size() - lamps - 1);
+            EXPECT_LE(double(triangles_of(scene)), double(triangles) + 2 * pieces * (1 + std::sqrt(double(triangles) / (2 * pieces) + 1))) << lamps << " " << triangles;
+        }
+}
+
+// Each patch is as large as the street's wall or road, whatever it is cut into, and its front is where its normals point.
+TEST(BenchStreet, PatchesCoverTheStreetAndFaceIt) {
+    const Scene scene = lamp_street(10, 12345);
+    ASSERT_EQ(scene.meshes.size(), 3u);
+    const double areas[]{14 * 12, 15 * 12, 15 * 12};  // m^2
+    const glm::vec3 normals[]{{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}};
+    for (size_t i = 0; i < 3; ++i) {
+        const Primitive& p = scene.meshes[i].primitives[0];
+        double area = 0;
+        for (size_t t = 0; t < p.indices.size(); t += 3) {
+            const glm::vec3 a = p.vertices[p.indices[t]].position, b = p.vertices[p.indices[t + 1]].position, c = p.vertices[p.indices[t + 2]].position;
+            const glm::vec3 twice = glm::cross(b - a, c - a);
+            EXPECT_NEAR(glm::dot(twice, normals[i]), glm::length(twice), 1e-5);
+            area += 0.5 * double(glm::length(twice));
+        }
+        EXPECT_NEAR(area / areas[i], 1, 1e-5) << i;
+        for (const Vertex& v : p.vertices) EXPECT_NEAR(glm::distance(v.normal, normals[i]), 0, 1e-6);
+    }
+}
+
+TEST(BenchStreet, LampsStandAlongItAndShineDown) {
+    const Scene scene = lamp_street(64, 0);
+    const auto world = world_transforms(scene, 0);
+    float first = -1, last = 0;
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].light == kNone) continue;
+        const glm::vec3 at(world[i][3]), axis = glm::vec3(world[i] * glm::vec4(0, 0, -1, 0));
+        EXPECT_NEAR(glm::distance(axis, glm::vec3(0, -1, 0)), 0, 1e-6);
+        EXPECT_EQ(at.y, 6.5f);
+        EXPECT_EQ(std::abs(at.x), 6);
+        first = std::max(first, at.z), last = std::min(last, at.z);
+    }
+    EXPECT_EQ(first, 0);
+    EXPECT_EQ(last, -31 * 12);
+    // The eye drives 10 s at 50 km/h.
+    EXPECT_EQ(animation_length(scene), 10);
+    EXPECT_NEAR(world_transforms(scene, 10).back()[3].z, -500 / 3.6, 1e-3);
+}
+
+TEST(BenchScenes, TheNearestLampsStay) {
+    Scene scene = lamp_street(64, 0);
+    keep_nearest_lamps(scene, {0, 6.5f, -120}, 6);
+    const auto world = world_transforms(scene, 0);
+    EXPECT_EQ(lamps_of(scene), 6u);
+    for (size_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].light != kNone) {
+            EXPECT_LE(std::abs(world[i][3].z + 120), 12);
+        }
+    EXPECT_THROW(keep_nearest_lamps(scene, {}, 7), Error);
+}
+
+// Where one channel's image ends the next begins: the direction of the right edge of one is that of the left edge of the other.
+TEST(BenchChannels, StandSideBySide) {
+    const View camera = View::symmetric({1600, 1000}, 0.6f, glm::mat4(1));
+    ASSERT_EQ(channel_views(camera, 1).at(0).world_to_view, camera.world_to_view);
+    const std::vector<View> views = channel_views(camera, 3);
+    const auto edge = [](const View& view, float tangent) { return glm::normalize(glm::vec3(glm::inverse(view.world_to_view) * glm::vec4(tangent, 0, -1, 0))); };
+    EXPECT_NEAR(glm::distance(edge(views[0], camera.tangent_high.x), edge(views[1], camera.tangent_low.x)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(edge(views[1], camera.tangent_high.x), edge(views[2], camera.tangent_low.x)), 0, 1e-6);
+    EXPECT_LT(edge(views[0], 0).x, 0) << "the first is on the left";
+    EXPECT_NEAR(glm::distance(edge(views[1], 0), glm::vec3(0, 0, -1)), 0, 1e-6);
+}
+
+TEST(BenchMachine, CopiesInOrder) {
+    PassRig rig;
+    EXPECT_GT(device_copy_bandwidth(rig.device(), 1 << 16), 0);
+    EXPECT_GT(host_copy_bandwidth(1 << 16), 0);
+    EXPECT_EQ(rig.complaints(), "") << "validation";
+}
+
+TEST(BenchMachine, ThePeakOfMemoryIsForgotten) {
+    if (access("/proc/self/clear_refs", W_OK) != 0) GTEST_SKIP() << "this system does not forget";
+    forget_peak_host_bytes();
+    const uint64_t before = peak_host_bytes();
+    { const std::vector<char> large(200 << 20, 'x'); }
+    EXPECT_GE(peak_host_bytes(), before + (190 << 20));
+    forget_peak_host_bytes();
+    EXPECT_LT(peak_host_bytes(), before + (100 << 20));
+}
+
+// What is given back counts no more, but was there.
+TEST(BenchMachine, TheDeviceKeepsAccount) {
+    const Device device;
+    const DeviceUse& use = device.use();
+    const uint64_t start = use.bytes;
+    {
+        const uint32_t type = device.memory_type(~0u, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+        OwnedMemory a = allocate(device, 3 << 20, type), b = allocate(device, 1 << 20, type);
+        EXPECT_EQ(use.bytes, start + (4 << 20));
+        a = {};
+        EXPECT_EQ(use.bytes, start + (1 << 20));
+        const OwnedMemory c = std::move(b);
+        EXPECT_EQ(use.bytes, start + (1 << 20));
+    }
+    EXPECT_EQ(use.bytes, start);
+    EXPECT_EQ(use.peak_bytes, start + (4 << 20));
+    const uint32_t pipelines = use.pipelines;
+    const Kernels kernels(device);
+    EXPECT_GT(use.pipelines, pipelines + 5);
+    EXPECT_GT(use.pipeline_ms, 0);
+}
+
+}  // namespace
+}  // namespace vesper

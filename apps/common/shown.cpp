@@ -17,7 +17,10 @@ double shown_luminance(const shared::ToneCurve& curve, uint32_t form, double lum
         const double x = curve.reinhard_scale * luminance;
         relative = x * (1 + x * curve.reinhard_white) / (1 + x);
     } else if (form == shared::kToneLinear || form == shared::kToneRods) {
-        const double grey = form == shared::kToneRods ? luminance * (1 + double(kRed * curve.rods.x + kGreen * curve.rods.y + kBlue * curve.rods.z)) : luminance;
+        // Of a grey pixel: its luminance as the eye adapted to colours sees it, and what rods add.
+        const auto sum = [](glm::vec4 row) { return row.x + row.y + row.z; };
+        const double seen = kRed * (sum(curve.red) + curve.rods.x) + kGreen * (sum(curve.green) + curve.rods.y) + kBlue * (sum(curve.blue) + curve.rods.z);
+        const double grey = form == shared::kToneRods ? luminance * seen : luminance;
         relative = (grey - curve.linear_low) * curve.linear_gain;
     } else if (form == shared::kToneCurve || form == shared::kToneColour) {
         const double ln = std::log(std::max(luminance, double(shared::kLuminanceFloor)));

@@ -99,8 +99,9 @@ TEST_F(Program, LogsTheEyeAndReplaysItToTheLastBit) {
     expect_refused("--operator reinhard --replay log.csv --start 9 -o c.png");
     // The log is of reinhard with 100 bins.
     expect_refused("--operator ward --replay log.csv -o c.png");
-    expect_refused("--operator reinhard --bins 50 --replay log.csv -o c.png");
-    expect_refused("--operator reinhard --histogram-high 1e5 --replay log.csv -o c.png");
+    ASSERT_EQ(render("--operator irawan --frames 2 --log curve.csv"), 0) << said;
+    expect_refused("--operator irawan --bins 50 --replay curve.csv -o c.png");
+    expect_refused("--operator irawan --histogram-high 1e5 --replay curve.csv -o c.png");
     expect_refused("--operator reinhard --dt 0.1 --replay log.csv -o c.png");
     std::string crlf = text_of(folder / "log.csv");
     for (size_t at = 0; (at = crlf.find('\n', at)) != crlf.npos; at += 2) crlf.insert(at, 1, '\r');

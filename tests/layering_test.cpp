@@ -28,7 +28,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"scene", {"base", "io", "photometry", "perception"}},
     {"gpu", {"base"}},
     {"graph", {"base", "gpu"}},
-    {"resident", {"base", "photometry", "scene", "gpu", "glsl"}},
+    {"resident", {"base", "photometry", "perception", "scene", "gpu", "glsl"}},
     {"passes", {"base", "photometry", "perception", "scene", "gpu", "graph", "resident", "glsl"}},
     {"", {"base", "io", "photometry", "perception", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
 };

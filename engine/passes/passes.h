@@ -13,6 +13,7 @@
 #include "passes/operators.h"
 #include "perception/display.h"
 #include "perception/eye.h"
+#include "resident/eye_scatter.h"
 #include "resident/formats.h"
 #include "resident/kernels.h"
 #include "resident/lights.h"
@@ -164,6 +165,11 @@ constexpr const char* kEyeHistory = "eye";
 /// eye remembers instead of the last frame.
 Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource histogram, const OperatorInfo&, const shared::ToneParameters&,
                           uint32_t foveal_level, const shared::EyeState* remembered = nullptr);
+
+/// The scene as it falls on the retina: every pixel keeps a part of its light and scatters the rest, as `fit` has it, and lamps
+/// outside of the picture scatter theirs into it. rgba32f, cd/m^2. What a picture loses is what falls beside it. A pixel that
+/// is not finite stays and scatters nothing. `fit` is of the same size as the scene.
+Resource add_scatter(FrameGraph&, const Kernels&, Resource scene, const ResidentScatter& fit, const std::vector<OutsideLamp>&);
 
 struct LdrGlareSettings {
     float threshold = 0.9f;      ///< displayed luminance relative to white from which a pixel glares

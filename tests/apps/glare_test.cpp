@@ -81,7 +81,8 @@ TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {
         EXPECT_EQ(cell("lamps.csv", "inside", 1), aside < 1 ? "1.000" : "0.000");
         // Seen or not, the veil is that of the lamp.
         const double theta = std::atan(aside / 10) * kDegrees, want = 20 / square * std::cos(theta / kDegrees) * cie_general_glare(theta, {23, 0.5});
-        EXPECT_NEAR(std::stod(cell("log.csv", "veil", 1)) / want, 1, 0.02) << aside;
+        // 5 %: a pixel is 0.57 degrees, and the light is taken to come from its middle.
+        EXPECT_NEAR(std::stod(cell("log.csv", "veil", 1)) / want, 1, 0.05) << aside;
         EXPECT_EQ(header("a.exr", "vesper:glare:veil").substr(0, 6), cell("log.csv", "veil", 1).substr(0, 6));
         EXPECT_NE(cell("log.csv", "visibility", 1), "none");
     }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 
+#include "resident/retro.h"
 #include "resident/sky.h"
 
 namespace vesper {

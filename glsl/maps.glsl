@@ -1,5 +1,7 @@
 // Reads measured intensities and road surfaces (shared/maps.h). Needs `samplerBuffer maps`.
 
+#ifndef VESPER_MAPS_GLSL
+#define VESPER_MAPS_GLSL
 #include "shared/maps.h"
 #include "shared/photometry.h"
 
@@ -29,3 +31,5 @@ float map_intensity(vec3 d, float inverse, vec4 grid, float first, vec2 last) {
     const vec4 corners = texelFetch(maps, int(first + cell.x * (last.y + 1.0) + cell.y));
     return interpolate(corners, at.x - cell.x, at.y - cell.y);
 }
+
+#endif

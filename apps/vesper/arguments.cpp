@@ -10,10 +10,6 @@
 
 namespace vesper {
 
-bool ends_with(const std::string& text, const std::string& end) {
-    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 // One name for each file, whatever links and dots lead to it.
 static std::string true_name(const std::string& file) {
     std::error_code failed;
@@ -52,10 +48,12 @@ void write_text(const std::string& file, const std::string& text) {
 }
 
 std::string format(const char* pattern, ...) {
-    char text[512];
-    va_list arguments;
+    va_list arguments, again;
     va_start(arguments, pattern);
-    std::vsnprintf(text, sizeof text, pattern, arguments);
+    va_copy(again, arguments);
+    std::string text(static_cast<size_t>(std::vsnprintf(nullptr, 0, pattern, arguments)), '\0');
+    std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+    va_end(again);
     va_end(arguments);
     return text;
 }

@@ -8,7 +8,6 @@
 
 namespace vesper {
 
-bool ends_with(const std::string& text, const std::string& end);
 /// The files of a command: no output may replace an input or another output.
 class Files {
 public:

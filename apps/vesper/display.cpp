@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "io/atomic_file.h"
 #include "perception/display_fit.h"
+#include "picture_arguments.h"
 #include "scene/display_file.h"
 #include "test_patterns.h"
 
@@ -29,27 +30,33 @@ struct FitArguments {
     float ambient = 0, reflection = 0.01f;
 };
 
-const std::map<std::string, Eotf> kKinds{{"gamma", Eotf::Gamma}, {"srgb", Eotf::Srgb}, {"pq", Eotf::Pq}, {"table", Eotf::Table}};
-const std::map<std::string, Primaries> kPrimaries{{"rec709", kRec709}, {"p3", kDisplayP3}, {"rec2020", kRec2020}};
+const std::map<std::string, Eotf> kKinds(kEotfNames.begin(), kEotfNames.end());
+const std::map<std::string, Primaries> kPrimaries(kPrimariesNames.begin(), kPrimariesNames.end());
 
 const char* name_of(Eotf eotf) {
-    for (const auto& [name, value] : kKinds)
-        if (value == eotf) return name.c_str();
+    for (const auto& [name, value] : kEotfNames)
+        if (value == eotf) return name;
     return "";
 }
 
+/// In the order of the table.
+template <class Table>
+std::vector<std::string> names_of(const Table& table) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : table) names.emplace_back(name);
+    return names;
+}
+
 void run_patterns(PatternArguments& a) {
-    char rest = 0;
-    if (std::sscanf(a.size.c_str(), "%5ux%5u%c", &a.settings.width, &a.settings.height, &rest) != 2 || a.settings.width < 64 || a.settings.height < 64 ||
-        a.settings.width > 8192 || a.settings.height > 8192)
-        throw Error("--size " + one_line(a.size) + ": expected WIDTHxHEIGHT, 64x64 to 8192x8192");
+    const VkExtent2D size = parse_size(a.size, 64, 8192);
+    a.settings.width = size.width, a.settings.height = size.height;
     if (!std::filesystem::is_directory(a.folder)) throw Error("-o " + one_line(a.folder) + ": there is no such folder");
     const auto names = write_test_patterns(a.folder, a.settings);
     std::printf("wrote %zu test patterns and %s\n", names.size() - 1, names.back().c_str());
 }
 
 void run_fit(const FitArguments& a) {
-    if (!ends_with(a.output, ".json")) throw Error("-o " + one_line(a.output) + ": a .json file is expected");
+    if (!a.output.ends_with(".json")) throw Error("-o " + one_line(a.output) + ": a .json file is expected");
     Files files;
     files.reads(a.measurements);
     files.writes("-o", a.output);
@@ -99,12 +106,14 @@ void add_display(CLI::App& program) {
     patterns->callback([p] { run_patterns(*p); });
 
     const auto f = std::make_shared<FitArguments>();
+    std::vector<std::string> kinds = names_of(kEotfNames);
+    kinds.insert(kinds.begin(), "auto");
     CLI::App* fit = command->add_subcommand("fit", "Make a profile from measured luminances");
     fit->add_option("measurements", f->measurements, "Lines of code,cd/m^2, measured in the dark")->required();
     fit->add_option("--output,-o", f->output, "PROFILE.json")->required();
-    fit->add_option("--kind", f->kind, "Transfer function; auto: the simplest within 1 %, or the table")->check(CLI::IsMember({"auto", "gamma", "srgb", "pq", "table"}))->capture_default_str();
+    fit->add_option("--kind", f->kind, "Transfer function; auto: the simplest within 1 %, or the table")->check(CLI::IsMember(kinds))->capture_default_str();
     fit->add_option("--bits", f->bits, "Of a channel's code")->check(CLI::IsMember({8, 10}))->capture_default_str();
-    fit->add_option("--primaries", f->primaries, "Of the display; others can be written into the profile")->check(CLI::IsMember({"rec709", "p3", "rec2020"}))->capture_default_str();
+    fit->add_option("--primaries", f->primaries, "Of the display; others can be written into the profile")->check(CLI::IsMember(names_of(kPrimariesNames)))->capture_default_str();
     fit->add_option("--ambient", f->ambient, "Illuminance on the screen when in use, lx")->check(between(0.0, 1e5))->capture_default_str();
     fit->add_option("--reflection", f->reflection, "Diffuse reflectance of the screen")->check(between(0.0, 1.0))->capture_default_str();
     fit->add_option("--name", f->name, "What the profile calls the display");

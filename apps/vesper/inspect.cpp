@@ -51,7 +51,7 @@ void run(const InspectArguments& a) {
     Files files;
     files.reads(a.file);
     files.writes("--json", a.json);
-    if (!a.picture.empty() && !ends_with(a.picture, ".png")) throw Error("-o " + a.picture + ": a .png file is expected");
+    if (!a.picture.empty() && !a.picture.ends_with(".png")) throw Error("-o " + a.picture + ": a .png file is expected");
     files.writes("-o", a.picture);
     const Kind kind = kind_of(a.file);
     const auto only = [&](bool given, Kind wanted, const char* what) {

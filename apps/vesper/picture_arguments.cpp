@@ -4,15 +4,18 @@
 #include <cstdio>
 #include <numbers>
 
+#include "arguments.h"
 #include "base/error.h"
+#include "io/atomic_file.h"
 
 namespace vesper {
 
-VkExtent2D parse_size(const std::string& text) {
+VkExtent2D parse_size(const std::string& text, unsigned least, unsigned most) {
     unsigned width = 0, height = 0;
     char rest = 0;
-    if (std::sscanf(text.c_str(), "%5ux%5u%c", &width, &height, &rest) != 2 || width < 1 || height < 1 || width > 16384 || height > 16384)
-        throw Error("--size " + text + ": expected WIDTHxHEIGHT, 1x1 to 16384x16384");
+    const auto fits = [&](unsigned side) { return side >= least && side <= most; };
+    if (std::sscanf(text.c_str(), "%5ux%5u%c", &width, &height, &rest) != 2 || !fits(width) || !fits(height))
+        throw Error("--size " + one_line(text) + format(": expected WIDTHxHEIGHT, %ux%u to %ux%u", least, least, most, most));
     return {width, height};
 }
 
@@ -30,6 +33,10 @@ double fov_of(const HdrImage& image, double given) {
 
 double scale_of_picture(const HdrImage& image, double given) {
     return given > 0 ? given : image.white_luminance > 0 ? image.white_luminance : 1;
+}
+
+void note_unknown_unit(const std::string& file) {
+    std::fprintf(stderr, "note: %s: its header names no unit: taken as cd/m^2 (--scale tells another)\n", one_line(file).c_str());
 }
 
 }  // namespace vesper

@@ -92,7 +92,7 @@ void print_statistics(const RenderArguments& arguments, const Device& device, co
 void write_outputs(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, const GlareReport& glare, unsigned index, double seconds) {
     for (const std::string& output : arguments.outputs) {
         const std::string file = file_of_frame(output, index, arguments.frames);
-        if (ends_with(output, ".png"))
+        if (output.ends_with(".png"))
             write_codes(file, frame, arguments.settings.display);
         else
             write_exr(file, frame.extent.width, frame.extent.height, frame.scene, describe_frame(arguments, device, view, frame, glare, seconds));
@@ -109,8 +109,8 @@ void check_arguments(RenderArguments& arguments) {
     files.reads(arguments.replay_file);
     files.reads(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs) {
-        const bool exr = ends_with(output, ".exr");
-        if (!exr && !ends_with(output, ".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
+        const bool exr = output.ends_with(".exr");
+        if (!exr && !output.ends_with(".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
         if (exr && settings.tone_operator == Operator::Ldr) throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
         files.writes("-o", file_of_frame(output, 0, arguments.frames));
     }
@@ -147,7 +147,7 @@ void run(RenderArguments& arguments) {
     check_arguments(arguments);
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
     Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
-    for (const std::string& output : arguments.outputs) (ends_with(output, ".png") ? outputs.display : outputs.scene) = true;
+    for (const std::string& output : arguments.outputs) (output.ends_with(".png") ? outputs.display : outputs.scene) = true;
 
     arguments.settings.lamps_elsewhere = read_lamps(arguments.glare.lamps);
     // Glare is read off luminances.

@@ -24,7 +24,7 @@ void run(const RoadArguments& arguments) {
     Files files;
     files.reads(arguments.layout);
     for (const std::string& file : arguments.pictures) {
-        if (!ends_with(file, ".png") && !ends_with(file, ".exr")) throw Error("--render " + file + ": a .png or .exr file is expected");
+        if (!file.ends_with(".png") && !file.ends_with(".exr")) throw Error("--render " + file + ": a .png or .exr file is expected");
         files.writes("--render", file);
     }
     files.writes("--csv", arguments.csv);

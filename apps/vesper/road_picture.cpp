@@ -89,7 +89,7 @@ void write_false_colours(const std::string& file, const RoadLayout& road, const 
 }  // namespace
 
 void write_picture(const std::string& file, const RoadLayout& road, const RoadResult& result, const RenderedRoad& rendered) {
-    if (ends_with(file, ".png")) return write_false_colours(file, road, result, rendered);
+    if (file.ends_with(".png")) return write_false_colours(file, road, result, rendered);
     for (size_t i = 0; i < rendered.observers.size(); ++i) {
         const View& view = rendered.observers[i].view;
         const int lane = result.observers[i].lane;

@@ -13,6 +13,11 @@
 namespace vesper {
 namespace {
 
+/// Difference of a point, %: relative to the calculated luminance, but at least to a thousandth of the average.
+double difference_percent(double picture, double calculated, double average) {
+    return 100 * (picture - calculated) / std::max(calculated, 1e-3 * average);
+}
+
 void summarise(const RoadLayout& road, const RoadResult& result, size_t index, RoadReading& reading) {
     const RoadObserver& observer = result.observers[index];
     double sum = 0, squares = 0, least = HUGE_VAL, lane_least = HUGE_VAL, lane_greatest = 0;
@@ -118,10 +123,6 @@ std::string worst_line(const RoadResult& result, const RenderedRoad& rendered, R
 }
 
 }  // namespace
-
-double difference_percent(double picture, double calculated, double average) {
-    return 100 * (picture - calculated) / std::max(calculated, 1e-3 * average);
-}
 
 RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const std::string& select) {
     const Scene scene = road_scene(road);

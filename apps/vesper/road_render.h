@@ -40,9 +40,6 @@ struct RenderedRoad {
     size_t darkest = 0;              ///< which observer that is
 };
 
-/// Difference of a point, %: relative to the calculated luminance, but at least to a thousandth of the average.
-double difference_percent(double picture, double calculated, double average);
-
 /// Renders the scene of the road for every observer on a device and reads the grid off the pictures. Throws Error.
 RenderedRoad render_road(const RoadLayout&, const RoadResult&, const std::string& device);
 

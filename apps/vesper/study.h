@@ -54,6 +54,7 @@ struct Difference {
     std::vector<float> map;  ///< of every pixel, codes
 };
 Difference difference(const ToneMapped& from, const ToneMapped& to, const Display&);
+std::string describe(const Difference&);
 double largest_difference(const std::vector<double>&, const std::vector<double>&);
 
 /// Each study writes its files and fills the page.

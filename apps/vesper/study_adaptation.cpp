@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "arguments.h"
-#include "passes/shown.h"
 #include "perception/pattanaik.h"
+#include "shown.h"
 #include "study.h"
 
 namespace vesper {
@@ -42,11 +42,11 @@ Sensitivity of_eye(const ToneMapped& got, const Observer& observer, double lumin
     return {double(got.eye.cones.pigment), sigma, threshold, threshold / cones.adapted_threshold(luminance)};
 }
 
-/// Pattanaik et al. have responses and no threshold: a constant step of the cones' response p x / (1 + x), x = (L / sigma)^0.73,
+/// Pattanaik et al. have responses and no threshold: a constant step of the cones' response p x / (1 + x)
 /// needs a difference in inverse proportion to its slope.
 Sensitivity of_lagging(const ToneMapped& got, double luminance) {
     const auto slope = [&](double adaptation, double pigment) {
-        constexpr double kExponent = 0.73;
+        using pattanaik::kExponent;
         const double x = std::pow(luminance / pattanaik::cone_sigma(adaptation), kExponent);
         return pigment * kExponent * x / (luminance * (1 + x) * (1 + x));
     };

@@ -27,8 +27,6 @@ struct Results {
     double of_default = 0;                             // largest difference of the default's curve, codes
 };
 
-std::string describe(const Difference& d) { return format("curve %.2f, largest %.0f, 99 %% within %.0f, mean %.3f codes", d.curve, d.largest, d.percentile, d.mean); }
-
 void study_one(Study& study, const StudyPicture& picture, Operator op, Results& all, std::vector<double> worst[2], Progress& progress) {
     ToneChainSettings settings = study.settings;
     settings.tone_operator = op;

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "arguments.h"
 #include "base/error.h"
-#include "passes/shown.h"
+#include "shown.h"
 #include "study.h"
 
 namespace vesper {
@@ -94,6 +95,10 @@ Difference difference(const ToneMapped& from, const ToneMapped& to, const Displa
     std::nth_element(sorted.begin(), at, sorted.end());
     made.percentile = double(*at);
     return made;
+}
+
+std::string describe(const Difference& d) {
+    return format("curve %.2f, largest %.0f, 99 %% within %.0f, mean %.3f codes", d.curve, d.largest, d.percentile, d.mean);
 }
 
 }  // namespace vesper

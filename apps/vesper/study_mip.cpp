@@ -55,7 +55,7 @@ void study_mip(Study& study) {
                 shown.push_back({name + ".png", format("level %u: %.3g\u00b0 a texel, adaptation %.4g cd/m\u00b2", level, degrees, double(got.curve.adaptation))});
                 if (level == 1) continue;
                 save_difference(study.file(name + "-difference.png"), got.extent.width, got.extent.height, d.map);
-                shown.push_back({name + "-difference.png", format("level %u, difference to level 1: curve %.2f, largest %.0f, 99 %% within %.0f, mean %.3f codes", level, d.curve, d.largest, d.percentile, d.mean)});
+                shown.push_back({name + "-difference.png", format("level %u, difference to level 1: ", level) + describe(d)});
             }
             save_plot(study.file(stem + "-curves.png"), plot);
             study.page.heading(picture.name + ", " + name_of(op));

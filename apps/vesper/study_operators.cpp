@@ -4,9 +4,8 @@
 #include <numbers>
 
 #include "arguments.h"
-#include "passes/shown.h"
 #include "perception/visibility.h"
-#include "shared/photometry.h"
+#include "shown.h"
 #include "study.h"
 
 namespace vesper {
@@ -22,8 +21,7 @@ std::vector<double> degree_luminances(const StudyPicture& picture) {
     std::vector<double> sums(size_t{columns} * rows), counts(sums.size());
     for (uint32_t y = 0; y < picture.extent.height; ++y)
         for (uint32_t x = 0; x < picture.extent.width; ++x) {
-            const float* rgb = &picture.values[(size_t{y} * picture.extent.width + x) * picture.channels];
-            const double l = double(picture.scale * (shared::kRed * rgb[0] + shared::kGreen * rgb[1] + shared::kBlue * rgb[2]));
+            const double l = picture.luminance(size_t{y} * picture.extent.width + x);
             if (!std::isfinite(l)) continue;
             const size_t cell = uint64_t{y} * rows / picture.extent.height * columns + uint64_t{x} * columns / picture.extent.width;
             sums[cell] += std::max(l, 0.0), ++counts[cell];

@@ -16,7 +16,7 @@
 namespace vesper {
 namespace {
 
-bool is_scene(const std::string& name) { return ends_with(name, ".gltf") || ends_with(name, ".glb"); }
+bool is_scene(const std::string& name) { return name.ends_with(".gltf") || name.ends_with(".glb"); }
 
 /// Renders the scene once.
 StudyPicture rendered(const PictureSource& arguments, Device& device, const ToneChainSettings& settings, const std::string& input) {
@@ -37,8 +37,7 @@ StudyPicture rendered(const PictureSource& arguments, Device& device, const Tone
 
 StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
     HdrImage image = read_hdr_image(input);
-    if (!(arguments.scale > 0) && !(image.white_luminance > 0))
-        std::fprintf(stderr, "note: %s: its header names no unit: taken as cd/m^2 (--scale tells another)\n", one_line(input).c_str());
+    if (!(arguments.scale > 0) && !(image.white_luminance > 0)) note_unknown_unit(input);
     return {.name = {},
             .extent = {image.width, image.height},
             .values = std::move(image.rgb),
@@ -50,9 +49,8 @@ StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
 /// Looks for the darkest and the brightest light.
 void measure(StudyPicture& picture, const std::string& input) {
     picture.darkest = HUGE_VAL;
-    for (size_t i = 0; i < picture.values.size(); i += picture.channels) {
-        const float* rgb = &picture.values[i];
-        const double l = double(picture.scale * (shared::kRed * rgb[0] + shared::kGreen * rgb[1] + shared::kBlue * rgb[2]));
+    for (size_t i = 0; i < picture.values.size() / picture.channels; ++i) {
+        const double l = picture.luminance(i);
         if (!(l > 0) || !std::isfinite(l)) continue;
         picture.darkest = std::min(picture.darkest, l), picture.brightest = std::max(picture.brightest, l);
     }
@@ -62,6 +60,11 @@ void measure(StudyPicture& picture, const std::string& input) {
 }
 
 }  // namespace
+
+double StudyPicture::luminance(size_t i) const {
+    const float* rgb = &values[i * channels];
+    return double(scale * (shared::kRed * rgb[0] + shared::kGreen * rgb[1] + shared::kBlue * rgb[2]));
+}
 
 StudyPicture read_study_picture(const PictureSource& arguments, Device& device, const ToneChainSettings& settings, const std::string& input) {
     StudyPicture picture = is_scene(input) ? rendered(arguments, device, settings, input) : loaded(arguments, input);

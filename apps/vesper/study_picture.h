@@ -18,6 +18,8 @@ struct StudyPicture {
     double vertical_fov = 0.7;  ///< rad
     double darkest = 0, brightest = 0;  ///< luminance of pixels with light, cd/m^2
 
+    /// Of the i-th pixel, cd/m^2.
+    double luminance(size_t i) const;
     HostPicture host() const { return {extent, values, channels, scale, vertical_fov}; }
 };
 

@@ -96,8 +96,7 @@ Pattern patch(const PatternSettings& s, uint32_t code) {
     return made;
 }
 
-}  // namespace
-
+/// Codes to measure: 0, 1, 2, 4, ... near black, then evenly up to the largest; about as many as asked for.
 std::vector<uint32_t> measured_codes(const PatternSettings& s) {
     const uint32_t largest = (1u << s.bits) - 1;
     std::vector<uint32_t> codes;
@@ -107,6 +106,8 @@ std::vector<uint32_t> measured_codes(const PatternSettings& s) {
     codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
     return codes;
 }
+
+}  // namespace
 
 std::vector<std::string> write_test_patterns(const std::string& folder, const PatternSettings& settings) {
     const uint32_t largest = (1u << settings.bits) - 1;

@@ -14,9 +14,6 @@ struct PatternSettings {
     double window = 0.32;                  ///< side of a measured patch as part of the picture's: 0.32 is 10 % of the area
 };
 
-/// Codes to measure: 0, 1, 2, 4, ... near black, then evenly up to the largest; about as many as asked for.
-std::vector<uint32_t> measured_codes(const PatternSettings&);
-
 /// Writes ramp.png, black.png, near-black.png, near-white.png, patch-CODE.png and measurements.csv, to be filled in, to a
 /// folder that exists. Returns the names. Throws Error.
 std::vector<std::string> write_test_patterns(const std::string& folder, const PatternSettings&);

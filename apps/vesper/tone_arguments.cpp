@@ -32,8 +32,6 @@ Display display_of(const ToneArguments& arguments) {
 }  // namespace
 
 void add_tone_options(CLI::App& command, ToneArguments& a) {
-    std::string names;
-    for (const NamedDisplay& known : known_displays()) names += std::string(names.empty() ? "" : ", ") + known.name;
     add_eye_options(command, a.eye, a.histogram, a.tone);
     command.add_option("--glare", a.glare, "Light scattered in the eye: cie (CIE 135/1 total glare function), spencer (1995), both in cd/m^2 before the operator; ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr", "cie", "spencer"}))->capture_default_str();
     command.add_option("--iris", a.iris, "cie: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")->check(between(0.0, 1.5))->capture_default_str();
@@ -47,7 +45,7 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
     command.add_option("--white", a.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
     command.add_option("--linear-min", a.tone.linear_low, "linear: luminance shown as black, cd/m^2")->check(between(0.0, 1e9))->capture_default_str();
     command.add_option("--linear-max", a.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
-    command.add_option("--display", a.display, "NAME (" + names + ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
+    command.add_option("--display", a.display, "NAME (" + known_display_names() + ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
     command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2")->check(between(0.1, 1e5));
     command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2")->check(between(1e-6, 1e3));
     command.add_option("--display-gamma", a.gamma, "Display: exponent")->check(between(0.5, 5.0));

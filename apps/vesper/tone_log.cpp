@@ -9,7 +9,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "glare_arguments.h"
-#include "passes/shown.h"
+#include "shown.h"
 
 namespace vesper {
 namespace {

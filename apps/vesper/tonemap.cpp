@@ -64,7 +64,7 @@ void check_outputs(const Plan& plan) {
     files.writes("-o", plan.film);
     for (const Job& job : plan.jobs)
         for (const std::string& output : job.outputs) {
-            if (!ends_with(output, ".png") && !ends_with(output, ".exr")) throw Error("-o " + one_line(output) + ": a .png, .exr or .mp4 file or a folder is expected");
+            if (!output.ends_with(".png") && !output.ends_with(".exr")) throw Error("-o " + one_line(output) + ": a .png, .exr or .mp4 file or a folder is expected");
             files.writes("-o", output);
         }
 }
@@ -90,7 +90,7 @@ Plan plan_of(const TonemapArguments& arguments) {
         if (plan.sequence && i > 0) job.seconds = (missing + 1) / plan.fps;  // missing frames take their time
         if (missing > 0) std::fprintf(stderr, "note: %u %s before %s\n", missing, missing == 1 ? "picture is missing" : "pictures are missing", one_line(files[i].file).c_str());
         for (const std::string& output : arguments.outputs) {
-            if (!ends_with(output, ".mp4"))
+            if (!output.ends_with(".mp4"))
                 job.outputs.push_back(output_of(output, files[i].file, files[i].number, files.size() == 1));
             else if (i == 0 && !plan.film.empty())
                 throw Error("-o " + one_line(output) + ": one film at a time");
@@ -118,7 +118,7 @@ Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings,
     shown.scale = scale_of_picture(image, arguments.scale);
     shown.fov = fov_of(image, arguments.fov);
     Outputs outputs{.display = wants_codes, .scene = false, .light = false};
-    for (const std::string& output : job.outputs) (ends_with(output, ".png") ? outputs.display : outputs.light) = true;
+    for (const std::string& output : job.outputs) (output.ends_with(".png") ? outputs.display : outputs.light) = true;
     const double vertical = shown.fov * std::numbers::pi / 180;
     const bool asks_glare = settings.tone_operator != Operator::Ldr && (outputs.light || arguments.statistics);
     outputs.scene = asks_glare;
@@ -135,7 +135,7 @@ Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings,
 void write_outputs(const ToneChainSettings& settings, const Device& device, const Job& job, const Shown& shown) {
     const ToneMapped& picture = shown.picture;
     for (const std::string& output : job.outputs) {
-        if (ends_with(output, ".png")) {
+        if (output.ends_with(".png")) {
             write_codes(output, picture, settings.display);
             continue;
         }
@@ -154,7 +154,7 @@ void write_outputs(const ToneChainSettings& settings, const Device& device, cons
 
 void report(const TonemapArguments& arguments, const Job& job, const Shown& shown, bool first) {
     const ToneMapped& p = shown.picture;
-    if (!shown.absolute && first) std::fprintf(stderr, "note: %s: its header names no unit: taken as cd/m^2 (--scale tells another)\n", one_line(job.input).c_str());
+    if (!shown.absolute && first) note_unknown_unit(job.input);
     if (p.histogram.non_finite > 0)
         std::fprintf(stderr, "note: %s: %u of %u pixels are not finite and shown black\n", one_line(job.input).c_str(), p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite);
     if (!arguments.statistics) return;

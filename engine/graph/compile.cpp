@@ -105,7 +105,7 @@ std::vector<Life> lay_out_steps(const FrameGraph& graph, Plan& plan) {
             uint32_t& usage = plan.usage[use.resource.index];
             if (r.shape.is_image()) {
                 usage |= image_usage_of(use.access);
-            } else if (pass.kernel) {
+            } else if (pass.kernel && i < pass.kernel->bindings.size()) {
                 const VkDescriptorType type = pass.kernel->bindings[i];
                 usage |= buffer_usage_of(use.access, type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER ||
                                                          type == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER);

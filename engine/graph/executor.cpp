@@ -338,11 +338,12 @@ void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const
 void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
     const Kernel& kernel = static_cast<const Kernel&>(*pass.kernel);
     vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-    std::vector<VkDescriptorImageInfo> images(pass.uses.size());
-    std::vector<VkDescriptorBufferInfo> buffers(pass.uses.size());
-    std::vector<VkBufferView> texels(pass.uses.size());
+    const size_t bound = kernel.bindings.size();
+    std::vector<VkDescriptorImageInfo> images(bound);
+    std::vector<VkDescriptorBufferInfo> buffers(bound);
+    std::vector<VkBufferView> texels(bound);
     std::vector<VkWriteDescriptorSet> writes;
-    for (uint32_t i = 0; i < pass.uses.size(); ++i) {
+    for (uint32_t i = 0; i < bound; ++i) {
         const Realized& r = resources_[pass.uses[i].resource.index];
         images[i] = {sampler_.get(), r.view, VK_IMAGE_LAYOUT_GENERAL};
         buffers[i] = {r.buffer, r.offset, r.bytes};
@@ -358,7 +359,9 @@ void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
     device_.push_descriptors(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, uint32_t(writes.size()), writes.data());
     if (!pass.push.empty())
         vkCmdPushConstants(commands_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(pass.push.size()), pass.push.data());
-    vkCmdDispatch(commands_, pass.groups.x, pass.groups.y, pass.groups.z);
+    if (!pass.is_indirect()) return vkCmdDispatch(commands_, pass.groups.x, pass.groups.y, pass.groups.z);
+    const Realized& arguments = resources_[pass.uses.back().resource.index];
+    vkCmdDispatchIndirect(commands_, arguments.buffer, arguments.offset + pass.arguments_offset);
 }
 
 void Executor::record_raster(const FrameGraph& graph, const Plan::Step& step) const {

@@ -61,6 +61,8 @@ bool allowed(PassKind kind, Access access) {
         case Access::Store:
         case Access::Update:
             return kind != PassKind::Transfer;
+        case Access::Arguments:
+            return kind == PassKind::Dispatch;
         case Access::ColorTarget:
         case Access::DepthTarget:
         case Access::Vertices:
@@ -138,10 +140,11 @@ std::string mismatch(VkDescriptorType type, Access access, const Shape& shape) {
 
 void check_kernel(const PassInfo& pass, const std::vector<ResourceInfo>& resources) {
     const KernelInterface& kernel = *pass.kernel;
-    if (pass.uses.size() != kernel.bindings.size())
-        fail(pass, "has " + std::to_string(pass.uses.size()) + " uses, but " + kernel.name + " has " +
+    const size_t bound = pass.uses.size() - (pass.is_indirect() ? 1 : 0);
+    if (bound != kernel.bindings.size())
+        fail(pass, "has " + std::to_string(bound) + " uses, but " + kernel.name + " has " +
                        std::to_string(kernel.bindings.size()) + " bindings");
-    for (size_t i = 0; i < pass.uses.size(); ++i) {
+    for (size_t i = 0; i < bound; ++i) {
         const ResourceInfo& r = resources[pass.uses[i].resource.index];
         const std::string wanted = mismatch(kernel.bindings[i], pass.uses[i].access, r.shape);
         if (!wanted.empty())
@@ -252,15 +255,27 @@ void FrameGraph::add_pass(PassInfo pass) {
 
 void FrameGraph::dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
                           std::span<const std::byte> push, Groups groups) {
-    add_pass({std::string(name), PassKind::Dispatch, uses, &kernel, {push.begin(), push.end()}, groups, {}});
+    add_pass({std::string(name), PassKind::Dispatch, uses, &kernel, {push.begin(), push.end()}, groups, 0, {}});
+}
+
+void FrameGraph::dispatch_indirect(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+                                   std::span<const std::byte> push, Arguments arguments) {
+    PassInfo pass{std::string(name), PassKind::Dispatch, uses, &kernel, {push.begin(), push.end()}, {}, arguments.offset, {}};
+    if (arguments.buffer.index >= resources_.size()) fail(pass, "has no valid resource as arguments");
+    const ResourceInfo& r = resources_[arguments.buffer.index];
+    if (r.shape.is_image()) fail(pass, "reads arguments from the image " + quoted(r.name));
+    if (arguments.offset % 4 != 0 || arguments.offset + sizeof(VkDispatchIndirectCommand) > r.shape.bytes)
+        fail(pass, "reads arguments at byte " + std::to_string(arguments.offset) + " of " + quoted(r.name) + ", which has " + std::to_string(r.shape.bytes));
+    pass.uses.push_back({arguments.buffer, Access::Arguments});
+    add_pass(std::move(pass));
 }
 
 void FrameGraph::raster(std::string_view name, std::vector<Use> uses, Record record) {
-    add_pass({std::string(name), PassKind::Raster, std::move(uses), nullptr, {}, {}, std::move(record)});
+    add_pass({std::string(name), PassKind::Raster, std::move(uses), nullptr, {}, {}, 0, std::move(record)});
 }
 
 void FrameGraph::clear(std::string_view name, Resource buffer) {
-    PassInfo pass{std::string(name), PassKind::Transfer, {{buffer, Access::CopyTarget}}, nullptr, {}, {}, {}};
+    PassInfo pass{std::string(name), PassKind::Transfer, {{buffer, Access::CopyTarget}}, nullptr, {}, {}, 0, {}};
     if (buffer.index >= resources_.size()) fail(pass, "has no valid resource to clear");
     const ResourceInfo& r = resources_[buffer.index];
     if (r.shape.is_image()) fail(pass, "clears the image " + quoted(r.name) + "; only buffers can be");
@@ -278,6 +293,7 @@ void FrameGraph::copy(std::string_view name, Resource from, Resource to) {
                   nullptr,
                   {},
                   {},
+                  0,
                   {}};
     if (from.index >= resources_.size()) fail(pass, "has no valid resource to copy from");
     if (to.index >= resources_.size()) fail(pass, "has no valid resource to copy to");

@@ -64,6 +64,12 @@ constexpr Groups cover(uint32_t width, uint32_t height, uint32_t group_x, uint32
     return {(width + group_x - 1) / group_x, (height + group_y - 1) / group_y, 1};
 }
 
+/// Workgroups of a dispatch as a pass before it wrote them: three words (VkDispatchIndirectCommand) of a buffer.
+struct Arguments {
+    Resource buffer;
+    uint64_t offset = 0;  ///< bytes, a multiple of 4
+};
+
 /// What a recording callback may ask for while its pass runs. Implemented by the executor.
 class Recording {
 public:
@@ -98,11 +104,14 @@ public:
     struct PassInfo {
         std::string name;
         PassKind kind = PassKind::Dispatch;
-        std::vector<Use> uses;
+        std::vector<Use> uses;                    ///< of an indirect dispatch the last is its arguments, not a binding
         const KernelInterface* kernel = nullptr;  ///< of a dispatch
         std::vector<std::byte> push;
         Groups groups;
+        uint64_t arguments_offset = 0;            ///< of an indirect dispatch, bytes
         Record record;                            ///< of a raster or transfer pass
+
+        bool is_indirect() const { return !uses.empty() && uses.back().access == Access::Arguments; }
     };
 
     /// A resource that lives within the frame and shares memory with others that do not overlap it.
@@ -128,6 +137,12 @@ public:
                   Groups groups) {
         dispatch(name, kernel, uses, std::as_bytes(std::span(&push, 1)), groups);
     }
+    /// The same for as many workgroups as an earlier pass found. More than the device allows are for that pass to prevent.
+    template <class Push>
+    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses, const Push& push,
+                  Arguments arguments) {
+        dispatch_indirect(name, kernel, uses, std::as_bytes(std::span(&push, 1)), arguments);
+    }
     void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses, Groups groups) {
         dispatch(name, kernel, uses, std::span<const std::byte>{}, groups);
     }
@@ -152,6 +167,8 @@ public:
 private:
     Resource add(std::string_view name, const Shape& shape, Origin origin);
     void add_pass(PassInfo pass);
+    void dispatch_indirect(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+                           std::span<const std::byte> push, Arguments arguments);
 
     std::vector<ResourceInfo> resources_;
     std::vector<PassInfo> passes_;

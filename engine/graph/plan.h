@@ -22,8 +22,9 @@ enum class Access : uint8_t {
     CopyTarget,   ///< also cleared
     HostRead,     ///< read by the host after the frame
     Vertices,     ///< read as vertex, instance or index data
+    Arguments,    ///< read as how many workgroups a dispatch has
 };
-constexpr uint32_t kAccessCount = 10;
+constexpr uint32_t kAccessCount = 11;
 
 /// Who touches it: dispatches, draws and copies run in different stages.
 enum class Stage : uint8_t { Compute, Graphics, Transfer, Host };

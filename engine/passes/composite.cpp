@@ -1,4 +1,5 @@
 #include "passes/passes.h"
+#include "resident/encoding.h"
 
 namespace vesper {
 namespace {

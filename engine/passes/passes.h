@@ -73,8 +73,26 @@ struct ShadeSettings {
     glm::vec3 ambient{0};             ///< illuminance, RGB of luminance lx
     glm::vec3 sky{0};                 ///< cd/m^2 RGB
     bool all_lights = false;          ///< look at every light in every pixel, for comparison
+    float gather_tolerance = 2e-3f;   ///< as in add_blocks
     Resource retro{};                 ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
 };
+
+/// The image in blocks of shared::kBlockSize pixels, by what is in them (shared/gather.h).
+struct Blocks {
+    uint32_t columns = 0, count = 0;
+    uint32_t capacity = 0;           ///< of a block's list
+    Resource counts, entries;        ///< lists of the lamps that its pixels look at one by one (shared/shade.h)
+    Resource sums;                   ///< of the others
+    Resource class_counts, class_blocks;
+};
+
+/// Selects the lamps that can light what is drawn in each block. Where that is one matt plane or one plane of road, adds up those whose
+/// light is smooth over it: a polynomial of second degree along either side meets it with at most this relative error at four points between its
+/// nodes. A negative tolerance adds up nothing.
+Blocks add_blocks(FrameGraph&, const Kernels&, const GBuffer&, const Clusters&, const View&, float tolerance);
+
+/// Bits of Kernels::ShadeVariant for the lamps and roads there are.
+uint32_t frame_variant(const Clusters&);
 
 /// Turns the emission of a G-buffer, in place, into scene luminance, rgba32f, cd/m^2 RGB (alpha 1):
 /// L = sum_k E_k (rho lambert + specular) + ambient rho lambert + emission, E_k = I_k(direction) cos / d^2, counted where
@@ -200,12 +218,5 @@ Resource add_composite(FrameGraph&, const Kernels&, const CompositeInputs&, uint
 /// every colour and no peak.
 Resource add_display_light(FrameGraph&, const Kernels&, const CompositeInputs&, uint32_t tone, const View&,
                            const Display&, float ldr_glare_gain);
-
-/// Displayed light to codes: cells of light, see shared/encode.h.
-struct Encoding {
-    std::vector<glm::vec4> cells;
-    shared::EncodePush push;
-};
-Encoding make_encoding(const Display&);
 
 }  // namespace vesper

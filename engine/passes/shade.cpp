@@ -1,51 +1,57 @@
+#include <array>
+
 #include "passes/passes.h"
+#include "shared/gather.h"
 
 namespace vesper {
 namespace {
 
-constexpr uint32_t kBlockCapacity = 256;  // lights of a block of pixels; more, and it looks at every light
+// What is in the blocks of a class, as bits of a shading kernel, beside the lamps that the frame has.
+struct BlockClass {
+    const char* name;
+    uint32_t variant;
+};
+constexpr std::array<BlockClass, shared::kBlockClasses> kClasses{{
+    {"shade empty", 0},
+    {"shade matt", Kernels::kGathered},
+    {"shade matt listed", Kernels::kGathered | Kernels::kListed},
+    {"shade paved", Kernels::kGathered | Kernels::kRoads},
+    {"shade paved listed", Kernels::kGathered | Kernels::kRoads | Kernels::kListed},
+    {"shade glossy", Kernels::kGlossy | Kernels::kListed},
+    {"shade glossy paved", Kernels::kGlossy | Kernels::kRoads | Kernels::kListed},
+    {"shade retro", Kernels::kRetro | Kernels::kGlossy | Kernels::kListed},
+}};
 
 }  // namespace
 
 Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g, const Clusters& clusters, const View& view, const ShadeSettings& settings) {
-    const Groups block_grid = cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
-    const uint32_t blocks = block_grid.x * block_grid.y;
-    const Groups group_grid = cover(view.extent.width, view.extent.height, kernels.shade_group.width, kernels.shade_group.height * kernels.shade_rows);
-    const uint32_t group_rows = (group_grid.y + kernels.shade_bands - 1) / kernels.shade_bands * kernels.shade_bands;
-    const glm::uvec2 pixels{view.extent.width, view.extent.height};
-    constexpr uint64_t kWord = sizeof(uint32_t);
-
-    const Resource counts = graph.transient("block counts", buffer_shape(blocks * 2 * kWord, VK_FORMAT_R32_UINT));
-    const Resource entries = graph.transient("block entries", buffer_shape(blocks * kBlockCapacity * kWord, VK_FORMAT_R32_UINT));
-    uint32_t variant = 0;
-    if (settings.all_lights) variant |= Kernels::kEveryLight;
-    if (clusters.push.lights.powers) variant |= Kernels::kPowers;
-    if (clusters.push.lights.maps) variant |= Kernels::kMaps;
-    if (clusters.maps.has_roads) variant |= Kernels::kRoads;
-    if (settings.retro) variant |= Kernels::kRetro;
+    const Blocks blocks = add_blocks(graph, kernels, g, clusters, view, settings.all_lights ? -1 : settings.gather_tolerance);
+    shared::ShadePush push{.size = {view.extent.width, view.extent.height},
+                           .grid = clusters.push.grid,
+                           .lights = clusters.push.lights,
+                           .threshold = clusters.push.threshold,
+                           .lambert = settings.lambert,
+                           .emission_limit = settings.emission_limit,
+                           .ambient = settings.ambient,
+                           .sky = settings.sky,
+                           .blocks_x = blocks.columns,
+                           .capacity = blocks.capacity,
+                           .roads = clusters.maps.roads,
+                           .blocks = blocks.count,
+                           .block_class = 0};
     const Resource retro = settings.retro ? settings.retro : clusters.maps.texels;  // the binding must hold something
-    const Kernel& select = kernels.select(variant);
-    graph.dispatch("select", select,
-                   {load(g.surface), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(counts), store(entries), sample(clusters.maps.texels)},
-                   shared::SelectPush{clusters.push, pixels, block_grid.x, kBlockCapacity},
-                   cover(block_grid.x, block_grid.y, select.group[0], select.group[1]));
-
-    const shared::ShadePush push{.size = pixels,
-                                 .grid = clusters.push.grid,
-                                 .lights = clusters.push.lights,
-                                 .threshold = clusters.push.threshold,
-                                 .lambert = settings.lambert,
-                                 .emission_limit = settings.emission_limit,
-                                 .ambient = settings.ambient,
-                                 .sky = settings.sky,
-                                 .blocks_x = block_grid.x,
-                                 .capacity = kBlockCapacity,
-                                 .roads = clusters.maps.roads,
-                                 .group_rows = group_rows,
-                                 .bands = kernels.shade_bands};
-    graph.dispatch("shade", kernels.shade(variant),
-                   {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(counts), sample(entries), sample(clusters.maps.texels), sample(retro)},
-                   push, {group_grid.x, group_rows, 1});
+    const uint32_t frame = frame_variant(clusters) | (settings.retro ? Kernels::kRetro : 0u);
+    for (push.block_class = 0; push.block_class < kClasses.size(); ++push.block_class) {
+        const BlockClass& c = kClasses[push.block_class];
+        if (c.variant & Kernels::kRoads & ~frame) continue;
+        // The last class has any surfaces; without classes of retroreflection a sheet is a glossy surface.
+        uint32_t variant = c.variant & Kernels::kRetro ? (c.variant & ~Kernels::kRetro) | (frame & (Kernels::kRetro | Kernels::kRoads)) : c.variant;
+        if (variant & Kernels::kListed) variant |= (frame & (Kernels::kCones | Kernels::kPowers | Kernels::kMaps)) | (settings.all_lights ? Kernels::kEveryLight : 0u);
+        graph.dispatch(c.name, kernels.shade(variant),
+                       {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lights), sample(blocks.counts), sample(blocks.entries),
+                        sample(clusters.maps.texels), sample(retro), sample(blocks.sums), sample(blocks.class_counts), sample(blocks.class_blocks)},
+                       push, Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
+    }
     return g.emission;
 }
 

@@ -101,4 +101,10 @@ const std::vector<NamedDisplay>& known_displays() {
     return displays;
 }
 
+std::string known_display_names() {
+    std::string names;
+    for (const NamedDisplay& known : known_displays()) names += std::string(names.empty() ? "" : ", ") + known.name;
+    return names;
+}
+
 }  // namespace vesper

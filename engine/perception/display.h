@@ -1,8 +1,10 @@
 // A display: what luminance its codes have. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/primaries.h"
@@ -16,6 +18,9 @@ enum class Eotf : uint8_t {
     Pq,     ///< absolute, SMPTE ST 2084, as far as the display goes: from black to peak
     Table,  ///< measured
 };
+
+/// As files and commands call them.
+constexpr std::array<std::pair<const char*, Eotf>, 4> kEotfNames{{{"gamma", Eotf::Gamma}, {"srgb", Eotf::Srgb}, {"pq", Eotf::Pq}, {"table", Eotf::Table}}};
 
 /// One measurement of a display in the dark.
 struct DisplaySample {
@@ -69,5 +74,7 @@ struct NamedDisplay {
 };
 /// The displays that are known by name. The first is the default.
 const std::vector<NamedDisplay>& known_displays();
+/// Their names, with commas between.
+std::string known_display_names();
 
 }  // namespace vesper

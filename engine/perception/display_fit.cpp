@@ -82,13 +82,14 @@ void fit_gamma(Display& display, std::span<const DisplayMeasurement> measured, d
         for (const DisplayMeasurement& m : measured) x.push_back(std::pow(double(m.code) / display.largest_code(), gamma));
         return fit_line(measured, floor, x);
     };
-    double best = 1;
+    double best = 1, least = line_of(best).error;
     for (double gamma = 0.5; gamma <= 5; gamma += 0.05)
-        if (line_of(gamma).error < line_of(best).error) best = gamma;
+        if (const double error = line_of(gamma).error; error < least) best = gamma, least = error;
     double low = std::max(best - 0.05, 0.5), high = std::min(best + 0.05, 5.0);
     for (int i = 0; i < 60; ++i) {
         const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-        (line_of(a).error < line_of(b).error ? high : low) = line_of(a).error < line_of(b).error ? b : a;
+        const bool nearer_to_low = line_of(a).error < line_of(b).error;
+        (nearer_to_low ? high : low) = nearer_to_low ? b : a;
     }
     const Line line = line_of((low + high) / 2);
     display.gamma = float((low + high) / 2);

@@ -6,7 +6,6 @@
 namespace vesper::pattanaik {
 namespace {
 
-constexpr double kExponent = 0.73;
 constexpr double kWhite = 5, kBlack = 5.0 / 32;  // reference luminances over the adaptation luminance
 constexpr double kDisplayAdaptation = 25;        // cd/m^2
 

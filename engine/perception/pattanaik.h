@@ -12,6 +12,9 @@ struct State {
 /// 5e5 as in Hunt and in the paper; pfstmo_pattanaik00 has 5e4.
 constexpr double kRodConstant = 5e5;
 
+/// n: responses are x / (1 + x), x = (L / sigma)^n.
+constexpr double kExponent = 0.73;
+
 /// Half saturation of cones and rods adapted to a luminance, cd/m^2.
 double cone_sigma(double adaptation);
 double rod_sigma(double adaptation, double rod_constant = kRodConstant);

@@ -7,14 +7,13 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/luminance.h"
 #include "io/hdr_image.h"
 
 namespace vesper {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-double photometric(glm::dvec3 c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
 glm::dvec3 pixel(const Environment& e, uint32_t x, uint32_t y) {
     const float* c = &e.rgb[(static_cast<size_t>(y) * e.width + x) * 3];
@@ -137,12 +136,12 @@ double sky_luminance(const Environment& e) {
     double sum = 0, weights = 0;
     for (uint32_t y = 0; 2 * y < e.height; ++y) {
         const double weight = band(y, std::min(y + 1.0, e.height / 2.0), e.height);
-        for (uint32_t x = 0; x < e.width; ++x) sum += weight * photometric(pixel(e, x, y)), weights += weight;
+        for (uint32_t x = 0; x < e.width; ++x) sum += weight * luminance(pixel(e, x, y)), weights += weight;
     }
     return sum / weights;
 }
 
-double horizontal_illuminance(const Environment& e) { return photometric(irradiance(e, {0, 1, 0})); }
+double horizontal_illuminance(const Environment& e) { return luminance(irradiance(e, {0, 1, 0})); }
 
 Environment scaled(Environment e, double factor) {
     for (float& value : e.rgb) {

@@ -5,16 +5,15 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/luminance.h"
 #include "io/hdr_image.h"
 
 namespace vesper {
 namespace {
 
-double photometric(glm::dvec3 c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
-
 /// The colour nearest to `c` on the way to the grey of its luminance that has no negative component.
 glm::dvec3 inside(glm::dvec3 c) {
-    const double y = photometric(c), least = std::min({c.r, c.g, c.b});
+    const double y = luminance(c), least = std::min({c.r, c.g, c.b});
     if (!(y > 0)) return glm::dvec3(0);
     return glm::max(glm::dvec3(y) + (c - y) * (y / (y - least)), glm::dvec3(0));
 }
@@ -46,7 +45,7 @@ glm::dvec3 mean_colour(const LuminancePicture& p) {
 double largest_luminance(const LuminancePicture& p) {
     double largest = 0;
     for (size_t i = 0; i + 2 < p.rgb.size(); i += 3)
-        largest = std::max(largest, photometric({p.rgb[i], p.rgb[i + 1], p.rgb[i + 2]}));
+        largest = std::max(largest, luminance({p.rgb[i], p.rgb[i + 1], p.rgb[i + 2]}));
     return largest;
 }
 
@@ -57,7 +56,7 @@ PictureMeans::PictureMeans(const LuminancePicture& p) : width_(p.width), height_
         sums_.push_back(0);
         for (size_t x = 0; x < width_; ++x) {
             const float* c = &p.rgb[(y * width_ + x) * 3];
-            sums_.push_back(sum += photometric({c[0], c[1], c[2]}));
+            sums_.push_back(sum += luminance({c[0], c[1], c[2]}));
         }
         mean_ += sum / width_ / height_;
     }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/luminance.h"
 
 namespace vesper {
 namespace {
@@ -55,13 +56,6 @@ struct Estimate {
     double value() const { return seen() ? std::exp(good() ? sum / weight : closest) : 0; }
 };
 
-/// Of linear Rec. 709.
-template <typename T>
-double luminance(const T* rgb) {
-    return 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
-           0.0722 * static_cast<double>(rgb[2]);
-}
-
 }  // namespace
 
 MergedImage merge_exposures(std::span<const Exposure> exposures, const Response& response) {
@@ -98,7 +92,7 @@ MergedImage merge_exposures(std::span<const Exposure> exposures, const Response&
             }
             made.held.push_back(good);
             if (good) {
-                const double y_of_pixel = luminance(colour);
+                const double y_of_pixel = luminance({colour[0], colour[1], colour[2]});
                 made.darkest = std::min(made.darkest, y_of_pixel);
                 made.brightest = std::max(made.brightest, y_of_pixel);
             } else {
@@ -146,7 +140,8 @@ double scale_to_luminance(MergedImage& merged, const Region& region, double cd_m
         for (int64_t x = region.x; x < region.x + region.width; ++x) {
             const auto pixel = static_cast<size_t>(y * image.width + x);
             held += merged.held[pixel];
-            sum += luminance(image.rgb.data() + 3 * pixel);
+            const float* rgb = &image.rgb[3 * pixel];
+            sum += luminance({rgb[0], rgb[1], rgb[2]});
         }
     const int64_t pixels = region.width * region.height;
     if (held < pixels)

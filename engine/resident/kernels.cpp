@@ -7,6 +7,7 @@
 #include "shaders/cluster.comp.inc"
 #include "shaders/composite.comp.inc"
 #include "shaders/display_light.comp.inc"
+#include "shaders/gather.comp.inc"
 #include "shaders/histogram.comp.inc"
 #include "shaders/pyramid.comp.inc"
 #include "shaders/scatter_down.comp.inc"
@@ -21,9 +22,8 @@ namespace vesper {
 // A CPU device fetches a light once for eight pixels and works on rows of 32; a GPU on squares, a pixel each.
 Kernels::Kernels(const Device& device)
     : cluster(device, "cluster.comp", cluster_comp),
-      shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{8, 8}),
+      shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{32, 8}),
       shade_rows(device.is_cpu() ? 8 : 1),
-      shade_bands(device.is_cpu() ? 16 : 1),
       sky(device, "sky.comp", sky_comp, {shade_group.width, shade_group.height, shade_rows}),
       sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
@@ -42,21 +42,31 @@ Kernels::Kernels(const Device& device)
       composite_rows(device.is_cpu() ? 4 : 1),
       device_(device) {}
 
-const Kernel& Kernels::shade(uint32_t variant) const {
-    const auto found = shade_.find(variant);
-    if (found != shade_.end()) return found->second;
-    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
-    Kernel kernel(device_, "shade.comp", shade_comp,
-                  {shade_group.width, shade_group.height, shade_rows, has(kEveryLight), has(kPowers), has(kMaps), has(kRoads), has(kRetro)});
-    return shade_.emplace(variant, std::move(kernel)).first->second;
-}
-
 const Kernel& Kernels::select(uint32_t variant) const {
     variant &= kPowers | kMaps;
     const auto found = select_.find(variant);
     if (found != select_.end()) return found->second;
     Kernel kernel(device_, "select.comp", select_comp, {variant & kPowers ? 1u : 0u, variant & kMaps ? 1u : 0u});
     return select_.emplace(variant, std::move(kernel)).first->second;
+}
+
+const Kernel& Kernels::gather(uint32_t variant) const {
+    variant &= kCones | kPowers | kMaps | kRoads;
+    const auto found = gather_.find(variant);
+    if (found != gather_.end()) return found->second;
+    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
+    Kernel kernel(device_, "gather.comp", gather_comp, {has(kCones), has(kPowers), has(kMaps), has(kRoads)});
+    return gather_.emplace(variant, std::move(kernel)).first->second;
+}
+
+const Kernel& Kernels::shade(uint32_t variant) const {
+    const auto found = shade_.find(variant);
+    if (found != shade_.end()) return found->second;
+    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
+    Kernel kernel(device_, "shade.comp", shade_comp,
+                  {shade_group.width, shade_group.height, shade_rows, has(kEveryLight), has(kCones), has(kPowers), has(kMaps), has(kListed),
+                   has(kGathered), has(kGlossy), has(kRoads), has(kRetro)});
+    return shade_.emplace(variant, std::move(kernel)).first->second;
 }
 
 const Kernel& Kernels::adapt(uint32_t model) const {

@@ -12,14 +12,17 @@ namespace vesper {
 /// Every compute shader, specialized for the device.
 struct Kernels {
     Kernel cluster;
-    VkExtent2D shade_group;  ///< invocations per workgroup of the shading kernels
+    VkExtent2D shade_group;  ///< invocations per workgroup of the shading kernels: shared::kBlocksPerGroup blocks wide
     uint32_t shade_rows;     ///< pixels of a column that one invocation shades; divides shared::kBlockSize
-    uint32_t shade_bands;    ///< as shared::ShadePush::bands
-    /// Bits of a selecting or shading kernel: what it has code for. Selection knows kPowers and kMaps.
-    enum ShadeVariant : uint32_t { kEveryLight = 1, kPowers = 2, kMaps = 4, kRoads = 8, kRetro = 16 };
+    /// Bits of a selecting, gathering or shading kernel: what it has code for. Selection knows kPowers and kMaps, gathering these,
+    /// kCones and kRoads.
+    enum ShadeVariant : uint32_t {
+        kEveryLight = 1, kCones = 2, kPowers = 4, kMaps = 8, kListed = 16, kGathered = 32, kGlossy = 64, kRoads = 128, kRetro = 256
+    };
     /// Made when it is first asked for.
-    const Kernel& shade(uint32_t variant) const;
     const Kernel& select(uint32_t variant) const;
+    const Kernel& gather(uint32_t variant) const;
+    const Kernel& shade(uint32_t variant) const;
     Kernel sky;
     Kernel sources;
     Kernel pyramid_first, pyramid;
@@ -48,7 +51,7 @@ struct Kernels {
 
 private:
     const Device& device_;
-    mutable std::map<uint32_t, Kernel> shade_, select_, adapt_, bright_;
+    mutable std::map<uint32_t, Kernel> shade_, select_, gather_, adapt_, bright_;
     mutable std::map<CompositeVariant, Kernel> composite_;
 };
 

@@ -1,20 +1,15 @@
-// Skies and retroreflective classes as the shaders read them. SPDX-License-Identifier: MIT
+// Skies as the shaders read them. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "photometry/retroreflection.h"
 #include "photometry/sky_map.h"
 
 namespace vesper {
 
 /// The texels of shared/sky.h.
 std::vector<glm::vec4> sky_texels(const SkyMap&);
-
-/// The texels of shared/retro.h; always of kRetroClasses classes, so that no index leaves the buffer.
-std::vector<glm::vec4> retro_texels(std::span<const Retroreflector>);
 
 }  // namespace vesper

@@ -3,10 +3,9 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+#include "base/luminance.h"
 
-/// Luminance of a linear Rec. 709 colour, in the colour's unit.
-inline double luminance(glm::dvec3 rgb) { return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b; }
+namespace vesper {
 
 /// Linear Rec. 709 colour of luminance 1 of a black body, gamut-clipped to non-negative. `kelvin` in [1000, 25000].
 glm::vec3 colour_of_temperature(double kelvin);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/display_file.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -14,11 +13,8 @@ namespace {
 
 constexpr uint64_t kMaxBytes = 1u << 20;
 
-constexpr std::array<std::pair<const char*, Eotf>, 4> kEotfs{{{"gamma", Eotf::Gamma}, {"srgb", Eotf::Srgb}, {"pq", Eotf::Pq}, {"table", Eotf::Table}}};
-constexpr std::array<std::pair<const char*, Primaries>, 3> kPrimaries{{{"rec709", kRec709}, {"p3", kDisplayP3}, {"rec2020", kRec2020}}};
-
 Eotf read_eotf(const JsonValue& value) {
-    for (const auto& [name, eotf] : kEotfs)
+    for (const auto& [name, eotf] : kEotfNames)
         if (value.text() == name) return eotf;
     value.fail("is none of gamma, srgb, pq and table");
 }
@@ -33,7 +29,7 @@ glm::dvec2 read_xy(const JsonValue& value) {
 Primaries read_primaries(const JsonValue& value) {
     Primaries read = kRec709;
     if (value.json().is_string()) {
-        for (const auto& [name, primaries] : kPrimaries)
+        for (const auto& [name, primaries] : kPrimariesNames)
             if (value.text() == name) return primaries;
         value.fail("is none of rec709, p3 and rec2020");
     }
@@ -106,9 +102,7 @@ Display find_display(const std::string& name_or_file) {
     for (const NamedDisplay& known : known_displays())
         if (name_or_file == known.name) return known.display;
     if (name_or_file.ends_with(".json")) return read_display(name_or_file);
-    std::string names;
-    for (const NamedDisplay& known : known_displays()) names += std::string(names.empty() ? "" : ", ") + known.name;
-    throw Error("display '" + one_line(name_or_file, 100) + "': is none of " + names + ", nor a .json file");
+    throw Error("display '" + one_line(name_or_file, 100) + "': is none of " + known_display_names() + ", nor a .json file");
 }
 
 std::string display_json(const Display& display, const std::string& name) {
@@ -122,7 +116,7 @@ std::string display_json(const Display& display, const std::string& name) {
     const auto xy = [](glm::dvec2 c) { return nlohmann::ordered_json{c.x, c.y}; };
     made["version"] = 1;
     if (!name.empty()) made["name"] = name;
-    for (const auto& [text, eotf] : kEotfs)
+    for (const auto& [text, eotf] : kEotfNames)
         if (eotf == display.eotf) made["eotf"] = text;
     if (display.eotf == Eotf::Gamma) made["gamma"] = number(display.gamma);
     if (display.eotf != Eotf::Table) {
@@ -132,7 +126,7 @@ std::string display_json(const Display& display, const std::string& name) {
     made["bits"] = display.bits;
     const Primaries& p = display.primaries;
     made["primaries"] = {{"red", xy(p.red)}, {"green", xy(p.green)}, {"blue", xy(p.blue)}, {"white", xy(p.white)}};
-    for (const auto& [text, primaries] : kPrimaries)
+    for (const auto& [text, primaries] : kPrimariesNames)
         if (primaries == p) made["primaries"] = text;
     made["ambient_lx"] = number(display.ambient);
     made["reflection"] = number(display.reflection);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace vesper {
 
@@ -31,6 +32,26 @@ double luminous_intensity(const Light& light, std::span<const Distribution> dist
         case Light::Kind::Measured:
             return candela * intensity(distributions[light.distribution], direction);
         case Light::Kind::Directional:
+            break;
+    }
+    return 0;
+}
+
+double luminous_flux(const Light& light) {
+    constexpr double kPi = std::numbers::pi;
+    const double intensity = light.intensity;
+    switch (light.kind) {
+        case Light::Kind::Point:
+            return 4 * kPi * intensity;
+        case Light::Kind::Spot: {
+            // Full within the inner cone; between, the squared ramp in cos(angle), whose mean is a third.
+            const double inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
+            return 2 * kPi * intensity * ((1 - inner) + (inner - outer) / 3);
+        }
+        case Light::Kind::CosinePower:
+            return 2 * kPi * intensity / (light.exponent + 1.0);
+        case Light::Kind::Directional:
+        case Light::Kind::Measured:  // its flux is that of its distribution
             break;
     }
     return 0;

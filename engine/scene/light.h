@@ -1,4 +1,4 @@
-// Luminous intensity of a scene's lamps, and the luminance it gives their openings. SPDX-License-Identifier: MIT
+// Luminous intensity and flux of a scene's lamps, and the luminance they give their openings. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <span>
@@ -10,6 +10,9 @@ namespace vesper {
 /// Intensity of a lamp in a direction of its own frame (axis -Z, right +X, up +Y; any length), cd. A directional light
 /// has none: 0.
 double luminous_intensity(const Light& light, std::span<const Distribution> distributions, glm::dvec3 direction);
+
+/// Luminous flux of a lamp, lm: its intensity integrated over all directions. Not of Measured: see distribution.h.
+double luminous_flux(const Light& light);
 
 /// Slope a and offset b of KHR_lights_punctual's ramp in the cosine c to a lamp's axis, clamp(a c + b, 0, 1): 1 within the
 /// inner cone, 0 beyond the outer; intensity goes with its square. A point lamp is 1 in every direction. Cones that coincide

@@ -224,26 +224,6 @@ Photometry read_photometry(const std::filesystem::path& file) {
     return made;
 }
 
-double luminous_flux(const Light& light) {
-    constexpr double kPi = std::numbers::pi;
-    const double intensity = light.intensity;
-    switch (light.kind) {
-        case Light::Kind::Point:
-            return 4 * kPi * intensity;
-        case Light::Kind::Spot: {
-            // Full within the inner cone; between, the squared ramp in cos(angle), whose mean is a third.
-            const double inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
-            return 2 * kPi * intensity * ((1 - inner) + (inner - outer) / 3);
-        }
-        case Light::Kind::CosinePower:
-            return 2 * kPi * intensity / (light.exponent + 1.0);
-        case Light::Kind::Directional:
-        case Light::Kind::Measured:  // its flux is that of its distribution
-            break;
-    }
-    return 0;
-}
-
 bool matches_name(const std::string& pattern, const std::string& name) {
     return matches(pattern.c_str(), name.c_str(), 0);
 }

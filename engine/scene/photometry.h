@@ -99,9 +99,6 @@ struct Photometry {
 /// Reads and checks a photometry file. Throws Error naming file, JSON pointer and reason.
 Photometry read_photometry(const std::filesystem::path& file);
 
-/// Luminous flux of a lamp, lm: its intensity integrated over all directions. Not of Measured: see distribution.h.
-double luminous_flux(const Light& light);
-
 /// Whether a name matches a pattern of `*` (any characters) and `?` (one character).
 bool matches_name(const std::string& pattern, const std::string& name);
 

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "scene/colour.h"
-#include "scene/photometry.h"
+#include "scene/light.h"
 #include "scene/reflectance.h"
 #include "scene/scene_warnings.h"
 
@@ -22,7 +22,6 @@ struct PlacedLamp {
     double lowest = HUGE_VAL, highest = -HUGE_VAL;  // surfaces in the lamp's vertical, m
 };
 
-double luminance_of(glm::vec3 rgb) { return luminance(glm::dvec3(rgb)); }
 
 /// A name without the number at its end, which tells lamps of one kind apart.
 std::string stem_of(std::string name) {
@@ -157,7 +156,7 @@ SceneReport report_scene(const Scene& scene) {
         made.roughness = static_cast<double>(m.roughness);
         made.metallic = static_cast<double>(m.metallic);
         made.textured = m.base_colour_texture.image != kNone;
-        made.emission = luminance_of(m.emission);
+        made.emission = luminance(m.emission);
         if (m.emission_picture.image != kNone) {
             const LuminancePicture& picture = scene.luminance_pictures[m.emission_picture.image];
             made.picture = picture.name;

@@ -36,8 +36,8 @@ struct ShadePush {
     uint blocks_x;          // as in SelectPush
     uint capacity;
     uint roads;             // texel of the first cell of the first road table
-    uint group_rows;        // rows of workgroups, rounded up to a multiple of bands
-    uint bands;             // consecutive rows of workgroups are `bands` rows apart in the image: spreads sky and road
+    uint blocks;            // of the image
+    uint block_class;       // the one to shade
 };
 SHARED_SIZE(ShadePush, 120)
 

@@ -157,6 +157,20 @@ TEST(FrameGraphErrors, ADispatchThatDoesNotFitTheKernel) {
     EXPECT_NO_THROW(f.graph.dispatch("d", kernel, {store(a)}, 1u, Groups{1, 1, 1}));
 }
 
+TEST(FrameGraphErrors, ArgumentsThatAreNone) {
+    DeclaredFrame f;
+    const Resource a = f.buffer("a"), image = f.image("image"), arguments = f.buffer("arguments", 32);
+    const KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 4, {1, 1, 1}};
+    const auto dispatch = [&](Arguments from) { f.graph.dispatch("d", kernel, {store(a)}, 1u, from); };
+    expect_error([&] { dispatch({arguments, 0}); }, "pass 'd' reads 'arguments' before any pass has written it");
+    f.compute("write", {store(arguments)});
+    expect_error([&] { dispatch({image, 0}); }, "pass 'd' reads arguments from the image 'image'");
+    expect_error([&] { dispatch({arguments, 2}); }, "pass 'd' reads arguments at byte 2 of 'arguments'");
+    expect_error([&] { dispatch({arguments, 24}); }, "pass 'd' reads arguments at byte 24 of 'arguments', which has 32");
+    expect_error([&] { dispatch({Resource{99}, 0}); }, "pass 'd' has no valid resource as arguments");
+    EXPECT_NO_THROW(dispatch({arguments, 20}));
+}
+
 TEST(FrameGraphErrors, UsesThatThePassCannotHave) {
     DeclaredFrame f;
     const Resource image = f.image("image"), z = f.image("z", VK_FORMAT_D32_SFLOAT), bytes = f.buffer("bytes");

@@ -324,6 +324,24 @@ TEST(Plan, UsageFollowsTheBindings) {
     EXPECT_EQ(plan.usage[out.index], VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 }
 
+TEST(Plan, ArgumentsWaitForTheirWriter) {
+    DeclaredFrame f;
+    const Resource counts = f.buffer("counts", 64), out = f.buffer("out");
+    const KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 4, {1, 1, 1}};
+    f.compute("count", {store(counts)});
+    f.graph.dispatch("work", kernel, {store(out)}, 1u, Arguments{counts, 16});
+    f.graph.keep(out);
+    const std::string text = f.text();
+    EXPECT_NE(text.find("    counts: compute store -> compute arguments\n"), text.npos) << text;
+    EXPECT_TRUE(f.plan().usage[counts.index] & VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+    const Plan plan = f.plan();
+    for (const Plan::Barrier& barrier : plan.steps[1].barriers)
+        if (barrier.resource == counts.index) {
+            EXPECT_EQ(barrier.to.stages(), VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT);
+            EXPECT_EQ(barrier.to.accesses(), VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
+        }
+}
+
 TEST(AccessSet, TurnsIntoVulkan) {
     AccessSet set;
     EXPECT_TRUE(set.empty());

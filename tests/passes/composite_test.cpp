@@ -2,6 +2,7 @@
 #include "passes/composite_reference.h"
 
 #include "support/compare.h"
+#include "support/displays.h"
 #include "support/texels.h"
 #include "support/tones.h"
 
@@ -144,17 +145,10 @@ TEST(Composite, DisplaysShowTheLightThatFallsOnThem) {
     EXPECT_NEAR(lcd.high(), reference::display_luminance(1, 200, 0.8, 2.2, 60, 0.01), 1e-4);
 }
 
-/// A display measured at uneven codes, of an odd shape.
-Display measured_display(uint32_t bits = 8) {
-    return {.peak = 90, .black = 0.3f, .ambient = 20, .eotf = Eotf::Table, .bits = bits,
-            .table = {{0, 0.3f}, {0.02, 0.305}, {0.1, 0.5}, {0.3, 5}, {0.31, 8}, {0.6, 30}, {0.9, 80}, {1, 90}}};
-}
-
 TEST(Composite, EveryKindOfDisplay) {
     PassRig rig;
     const VkExtent2D extent{70, 40};
-    std::vector<Display> displays{measured_display(), measured_display(10)};
-    for (const NamedDisplay& known : known_displays()) displays.push_back(known.display);
+    std::vector<Display> displays = every_kind_of_display();
     displays.push_back({.eotf = Eotf::Srgb, .bits = 10, .primaries = kDisplayP3});
     displays.push_back({.primaries = {{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}});
     for (const Display& display : displays)
@@ -172,9 +166,7 @@ TEST(Composite, EveryKindOfDisplay) {
 // densely over [0, 1], evenly and by decades, and one float below and above each light where a code begins.
 TEST(Composite, CodesAreTheNearest) {
     PassRig rig;
-    std::vector<Display> displays{measured_display(), measured_display(10)};
-    for (const NamedDisplay& known : known_displays()) displays.push_back(known.display);
-    for (Display display : displays) {
+    for (Display display : every_kind_of_display()) {
         display.primaries = kRec709;
         std::vector<float> lights{0, -0.0f, 1};
         for (int i = 0; i <= 20000; ++i) lights.push_back(float(i) / 20000), lights.push_back(std::pow(10.0f, -9 * float(i) / 20000));

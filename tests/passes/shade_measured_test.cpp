@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "support/lights.h"
+#include "support/noise.h"
 #include "support/shading.h"
 
 namespace vesper::test {
@@ -64,19 +65,16 @@ struct Street {
 
 /// Every surface: roads seen flat and steep, matt and glossy ones, sky.
 Surfaces noise(VkExtent2D extent, uint32_t seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<float> unit(0, 1);
-    std::normal_distribution<double> normal;
+    Noise random(seed);
     Surfaces p{extent, {}, {}, {}};
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
-        const auto value = [&] { return std::floor(unit(random) * 1024) / 1024; };  // exact in a half float
-        const bool road = i % 3 != 0, sky = unit(random) < 0.05f;
-        const float kind = road ? (i % 2 ? -1.0f : -2.0f) : i % 5 == 0 ? value() : 0.0f;
-        p.reflectance.emplace_back(value(), value(), value(), kind);
-        const glm::dvec3 up = glm::normalize(glm::dvec3(0.05 * normal(random), 1, 0.02 + 0.3 * unit(random) * unit(random)));
-        const glm::dvec3 wall = glm::normalize(glm::dvec3(normal(random), normal(random), std::abs(normal(random)) + 0.1));
-        p.surface.emplace_back(glm::vec2(reference::octahedral_encode(road ? up : wall)), sky ? 0 : 2 * std::pow(60.0f, unit(random)),
-                               road ? 0.22f : i % 4 == 0 ? 1.0f : 0.2f + 0.8f * unit(random));
+        const bool road = i % 3 != 0, sky = random.unit() < 0.05f;
+        const float kind = road ? (i % 2 ? -1.0f : -2.0f) : i % 5 == 0 ? random.fine() : 0.0f;
+        p.reflectance.emplace_back(random.fine(), random.fine(), random.fine(), kind);
+        const glm::dvec3 up = glm::normalize(glm::dvec3(0.05 * random.normal(), 1, 0.02 + 0.3 * random.unit() * random.unit()));
+        const glm::dvec3 wall = random.facing(0.1);
+        p.surface.emplace_back(glm::vec2(reference::octahedral_encode(road ? up : wall)), sky ? 0 : 2 * std::pow(60.0f, random.unit()),
+                               road ? 0.22f : i % 4 == 0 ? 1.0f : 0.2f + 0.8f * random.unit());
         p.emission.emplace_back(0);
     }
     return p;

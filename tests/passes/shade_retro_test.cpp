@@ -1,7 +1,6 @@
 // Shading of retroreflective surfaces, against the reference. SPDX-License-Identifier: MIT
-#include <random>
-
 #include "support/lights.h"
+#include "support/noise.h"
 #include "support/shading.h"
 
 namespace vesper::test {
@@ -20,19 +19,16 @@ const std::vector<Retroreflector> kClasses{retroreflective_class("RA1"),
 
 /// Signs facing the eye more or less, markings, beside matt and glossy surfaces, roads with a table and sky.
 Surfaces signs(VkExtent2D extent, uint32_t seed, bool roads) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<float> unit(0, 1);
-    std::normal_distribution<double> normal;
+    Noise random(seed);
     Surfaces p{extent, {}, {}, {}};
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
-        const auto value = [&] { return std::floor(unit(random) * 1024) / 1024; };  // exact in a half float
-        const float kinds[]{2, 3, 4, 5, 6, 0, value(), roads ? -1.0f : 0.0f};
-        p.reflectance.emplace_back(value(), value(), value(), kinds[(i / 3 + i) % 8]);
+        const float kinds[]{2, 3, 4, 5, 6, 0, random.fine(), roads ? -1.0f : 0.0f};
+        p.reflectance.emplace_back(random.fine(), random.fine(), random.fine(), kinds[(i / 3 + i) % 8]);
         const glm::dvec3 n =
-            glm::normalize(glm::dvec3(0.5 * normal(random), 0.5 * normal(random), std::abs(normal(random)) + 0.3));
+            glm::normalize(glm::dvec3(0.5 * random.normal(), 0.5 * random.normal(), std::abs(random.normal()) + 0.3));
         p.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)),
-                               unit(random) < 0.1f ? 0 : 2 * std::pow(100.0f, unit(random)),
-                               i % 2 ? 1.0f : 0.2f + 0.8f * unit(random));
+                               random.unit() < 0.1f ? 0 : 2 * std::pow(100.0f, random.unit()),
+                               i % 2 ? 1.0f : 0.2f + 0.8f * random.unit());
         p.emission.emplace_back(0);
     }
     return p;

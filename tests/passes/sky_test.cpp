@@ -5,6 +5,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "resident/sky.h"
+#include "support/noise.h"
 #include "support/shading.h"
 
 namespace vesper::test {
@@ -29,18 +31,15 @@ struct Lit : Surfaces {
 
 /// Noise: metals, dielectrics, mirrors, coded materials, matt surfaces, a quarter of sky.
 Lit noise(VkExtent2D extent, uint32_t seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<float> unit(0, 1);
-    std::normal_distribution<double> normal;
+    Noise random(seed);
     Lit s{{extent, {}, {}, {}}, {}};
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
-        const auto value = [&] { return std::floor(unit(random) * 1024) / 1024; };  // exact in a 16-bit float
-        const float codes[]{0, 0, value(), 1, 2, 5, -1, -2};
-        s.reflectance.emplace_back(value(), value(), value(), codes[i % 8]);
-        const glm::dvec3 n = glm::normalize(glm::dvec3(normal(random), normal(random), std::abs(normal(random)) + 0.3));
-        s.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)), i % 4 == 1 ? 0.0f : 1 + 50 * unit(random),
-                               i % 3 == 0 ? 1.0f : unit(random));
-        s.scene.emplace_back(unit(random), unit(random), unit(random), 1);
+        const float codes[]{0, 0, random.fine(), 1, 2, 5, -1, -2};
+        s.reflectance.emplace_back(random.fine(), random.fine(), random.fine(), codes[i % 8]);
+        const glm::dvec3 n = random.facing(0.3);
+        s.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)), i % 4 == 1 ? 0.0f : 1 + 50 * random.unit(),
+                               i % 3 == 0 ? 1.0f : random.unit());
+        s.scene.emplace_back(random.unit(), random.unit(), random.unit(), 1);
     }
     return s;
 }

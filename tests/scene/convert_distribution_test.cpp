@@ -4,9 +4,8 @@
 
 #include "photometry/ies.h"
 #include "scene/colour.h"
-#include "scene/convert.h"
 #include "scene/photometry.h"
-#include "scene/scene_files.h"
+#include "support/conversion.h"
 
 namespace vesper::test {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 /// A street lamp, two cars' headlamps, and files of their distributions beside the photometry file.
-class ConvertDistributionTest : public testing::Test {
+class ConvertDistributionTest : public ConversionTest {
 protected:
     ConvertDistributionTest() {
         street_.show({{"attributes", {{"POSITION", street_.vec3({0, 0, 0, 20, 0, 0, 0, 20, 0})}}}});
@@ -44,16 +43,14 @@ protected:
     }
     ConversionReport convert_with(const std::vector<json>& lamps, const std::string& output = "out.gltf",
                                   bool keep = false) {
-        const json photometry = {{"version", 1}, {"lamps", lamps}, {"lights", {{"keep", keep}}}};
-        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()),
-                       folder_ / output);
+        return ConversionTest::convert_with({{"lamps", lamps}, {"lights", {{"keep", keep}}}}, output);
     }
     std::string complaint_with(const json& rule) {
         return complaint_of([&] { convert_with({rule}); });
     }
     /// Intensity of the first measured lamp of the result in a direction of the world, cd.
     double seen(glm::dvec3 direction, const std::string& output = "out.gltf") const {
-        const Scene scene = read_gltf(folder_ / output).scene;
+        const Scene scene = converted(output);
         const auto world = world_transforms(scene, 0);
         for (size_t i = 0; i < scene.nodes.size(); ++i) {
             if (scene.nodes[i].light == kNone) continue;
@@ -65,8 +62,6 @@ protected:
         return -1;
     }
 
-    TempFolder folder_;
-    GltfFile street_;
     Distribution lamp_;
 };
 
@@ -108,12 +103,12 @@ TEST_F(ConvertDistributionTest, ScalesFlux) {
     rule["maintenance_factor"] = 0.8;
     rule["dimming"] = 0.5;
     const ConversionReport report = convert_with({rule});
-    EXPECT_NEAR(read_gltf(folder_ / "out.gltf").scene.lights[0].intensity, 9000 / measured * 0.4, 1e-4);
+    EXPECT_NEAR(converted().lights[0].intensity, 9000 / measured * 0.4, 1e-4);
     EXPECT_TRUE(mentions(report.changes, "3600 lm each"));
     rule.erase("flux_lm");
     rule["flux_scale"] = 2;
     convert_with({rule});
-    EXPECT_NEAR(read_gltf(folder_ / "out.gltf").scene.lights[0].intensity, 0.8, 1e-6);
+    EXPECT_NEAR(converted().lights[0].intensity, 0.8, 1e-6);
 }
 
 TEST_F(ConvertDistributionTest, TurnsAStreetLampToTheRoad) {
@@ -176,7 +171,7 @@ TEST_F(ConvertDistributionTest, KeepsOrRemovesThoseOfTheOriginal) {
     for (const char* output : {"out.gltf", "out.glb"}) {
         const ConversionReport removing = convert_with({beam_rule()}, output);
         EXPECT_TRUE(mentions(removing.changes, "removed 1 light"));
-        EXPECT_EQ(read_gltf(folder_ / output).scene.distributions.size(), 1u);
+        EXPECT_EQ(converted(output).distributions.size(), 1u);
         convert_with({beam_rule(), street_rule()}, output, true);
         const TempFolder elsewhere;
         std::filesystem::copy(folder_ / output, elsewhere / output);

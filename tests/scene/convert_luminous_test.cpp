@@ -4,11 +4,9 @@
 
 #include "io/atomic_file.h"
 #include "io/hdr_image.h"
-#include "io/image_file.h"
 #include "scene/colour.h"
-#include "scene/convert.h"
-#include "scene/scene_files.h"
 #include "scene/scene_report.h"
+#include "support/conversion.h"
 
 namespace vesper::test {
 namespace {
@@ -16,12 +14,10 @@ namespace {
 using nlohmann::json;
 
 /// Three shop windows: with a base colour texture, with an emission texture moved by a transform, with neither.
-class ConvertLuminous : public testing::Test {
+class ConvertLuminous : public ConversionTest {
 protected:
     ConvertLuminous() {
-        const std::vector<uint8_t> pixels = {255, 128, 0, 255, 10, 10, 10, 255};
-        write_png(folder_ / "wall.png", 2, 1, pixels);
-        street_.root["images"] = {{{"uri", "wall.png"}}};
+        add_wall_picture();
         street_.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
         street_.root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
         const json moved = {{"index", 1},
@@ -47,17 +43,11 @@ protected:
     void write(const std::string& name, double white) const { write_exr(folder_ / name, picture(white)); }
 
     ConversionReport convert_with(json emitter, const std::string& output = "out.gltf") {
-        const json photometry = {{"version", 1}, {"emitters", emitter.is_array() ? emitter : json::array({emitter})}};
-        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()),
-                       folder_ / output);
+        return ConversionTest::convert_with({{"emitters", emitter.is_array() ? emitter : json::array({emitter})}}, output);
     }
-    Scene converted(const std::string& output = "out.gltf") const { return read_gltf(folder_ / output).scene; }
     std::string complaint_with(const json& emitter) {
         return complaint_of([&] { convert_with(emitter); });
     }
-
-    TempFolder folder_;
-    GltfFile street_;
 };
 
 TEST_F(ConvertLuminous, APictureGoesIntoTheFile) {

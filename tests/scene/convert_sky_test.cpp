@@ -5,9 +5,8 @@
 
 #include "io/hdr_image.h"
 #include "scene/colour.h"
-#include "scene/convert.h"
 #include "scene/photometry.h"
-#include "scene/scene_files.h"
+#include "support/conversion.h"
 
 namespace vesper::test {
 namespace {
@@ -22,7 +21,7 @@ HdrImage picture(uint32_t width, uint32_t height, float value, double white = 0)
             .header = {}};
 }
 
-class ConvertSky : public testing::Test {
+class ConvertSky : public ConversionTest {
 protected:
     ConvertSky() {
         street_.root["materials"] = {{{"name", "sign"}}, {{"name", "marking"}}, {{"name", "wall"}}};
@@ -36,19 +35,10 @@ protected:
         write_exr(folder_ / "night.exr", image);
     }
 
-    ConversionReport convert_with(json photometry, const std::string& output = "out.gltf") {
-        photometry["version"] = 1;
-        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()),
-                       folder_ / output);
-    }
-    Scene converted(const std::string& output = "out.gltf") const { return read_gltf(folder_ / output).scene; }
     Environment sky() const { return converted().environment.value(); }
     std::string complaint_with(const json& photometry) {
         return complaint_of([&] { convert_with(photometry); });
     }
-
-    TempFolder folder_;
-    GltfFile street_;
 };
 
 // 0.018 to 0.024 cd/m^2 over a big city, 0.1 to 1 lx in towns.

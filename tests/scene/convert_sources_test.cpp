@@ -5,10 +5,9 @@
 
 #include "io/hdr_image.h"
 #include "photometry/ies.h"
-#include "scene/convert.h"
 #include "scene/convert_rules.h"
 #include "scene/light.h"
-#include "scene/scene_files.h"
+#include "support/conversion.h"
 
 namespace vesper::test {
 namespace {
@@ -16,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 /// Two cars: a mesh with the glass of a lamp, 0.3 x 0.2 m facing +X, and a node for the lamp in its middle.
-class ConvertSourcesTest : public testing::Test {
+class ConvertSourcesTest : public ConversionTest {
 protected:
     ConvertSourcesTest() {
         street_.root["materials"] = {{{"name", "glass"}, {"emissiveFactor", {1, 1, 1}}}, {{"name", "body"}}};
@@ -38,18 +37,13 @@ protected:
     }
     static json opening() { return {{"width_m", 0.3}, {"height_m", 0.2}}; }
     ConversionReport convert_with(const json& lamp_rule, const json& emitter) {
-        const json photometry = {{"version", 1}, {"lamps", {lamp_rule}}, {"emitters", {emitter}}};
-        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()), folder_ / "out.gltf");
+        return ConversionTest::convert_with({{"lamps", {lamp_rule}}, {"emitters", {emitter}}});
     }
-    Scene converted() const { return read_gltf(folder_ / "out.gltf").scene; }
     static size_t given(const ConversionReport& report) {
         size_t count = 0;
         for (const std::string& line : report.warnings) count += line.find(" cd/m^2 given") != std::string::npos;
         return count;
     }
-
-    TempFolder folder_;
-    GltfFile street_;
 };
 
 TEST_F(ConvertSourcesTest, OpeningsAreStored) {
@@ -80,8 +74,7 @@ TEST_F(ConvertSourcesTest, OpeningsOfMeasuredLampsAreStored) {
     json rule = {{"name", "beam"}, {"nodes", "headlamp"}, {"type", "distribution"}, {"file", "beam.ies"}, {"opening", "file"}};
     json second = rule;
     second["opening"] = opening(), second["name"] = "other";
-    const json photometry = {{"version", 1}, {"lamps", {rule, second}}};
-    convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()), folder_ / "out.gltf");
+    ConversionTest::convert_with({{"lamps", {rule, second}}});
     const Scene scene = converted();
     ASSERT_EQ(scene.lights.size(), 2u) << "one file, two openings";
     EXPECT_NEAR(scene.lights[0].opening.length, 0.6, 1e-12);

@@ -3,9 +3,8 @@
 
 #include <cmath>
 
-#include "io/image_file.h"
 #include "scene/colour.h"
-#include "scene/scene_files.h"
+#include "support/conversion.h"
 
 namespace vesper::test {
 namespace {
@@ -13,13 +12,10 @@ namespace {
 using nlohmann::json;
 
 /// A street in miniature: a lamp with a light node, two cars, three materials, a picture beside the file.
-class ConvertTest : public testing::Test {
+class ConvertTest : public ConversionTest {
 protected:
     ConvertTest() {
-        const std::vector<uint8_t> pixels = {255, 128, 0, 255, 10, 10, 10, 255};
-        write_png(folder_ / "wall.png", 2, 1, pixels);
-        street_.root["images"] = {{{"uri", "wall.png"}}};
-        street_.root["textures"] = {{{"source", 0}}};
+        add_wall_picture();
         street_.root["materials"] = {
             {{"name", "wall"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}}}},
             {{"name", "lamp_glass"},
@@ -61,19 +57,9 @@ protected:
                  {"offset_m", {0, 0, 0.5}}}};
     }
 
-    ConversionReport convert_with(json photometry, const std::string& output = "out.gltf",
-                                  const std::optional<Transfer>& transfer = std::nullopt) {
-        photometry["version"] = 1;
-        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()),
-                       folder_ / output, transfer);
-    }
-    Scene converted(const std::string& output = "out.gltf") const { return read_gltf(folder_ / output).scene; }
     std::string complaint_with(const json& photometry, const std::string& output = "out.gltf") {
         return complaint_of([&] { convert_with(photometry, output); });
     }
-
-    TempFolder folder_;
-    GltfFile street_;
 };
 
 TEST_F(ConvertTest, PutsLampsOnNodes) {

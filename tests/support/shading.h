@@ -6,7 +6,7 @@
 
 #include "passes/shade_reference.h"
 #include "resident/light_maps.h"
-#include "resident/sky.h"
+#include "resident/retro.h"
 #include "support/compare.h"
 #include "support/texels.h"
 

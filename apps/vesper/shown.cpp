@@ -1,4 +1,4 @@
-#include "passes/shown.h"
+#include "shown.h"
 
 #include <algorithm>
 #include <cmath>

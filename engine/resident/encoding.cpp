@@ -1,9 +1,7 @@
-// Cells of displayed light, see shared/encode.h.
+#include "resident/encoding.h"
+
 #include <algorithm>
 #include <bit>
-#include <cmath>
-
-#include "passes/passes.h"
 
 namespace vesper {
 namespace {

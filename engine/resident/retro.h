@@ -1,0 +1,16 @@
+// Retroreflective classes as the shaders read them. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "photometry/retroreflection.h"
+
+namespace vesper {
+
+/// The texels of shared/retro.h; always of kRetroClasses classes, so that no index leaves the buffer.
+std::vector<glm::vec4> retro_texels(std::span<const Retroreflector>);
+
+}  // namespace vesper

@@ -1,0 +1,46 @@
+// Lamps of any kind: fetched, and evaluated in a direction. Needs `samplerBuffer lights`, `samplerBuffer maps` and the constants
+// kPowers and kMaps.
+
+#include "maps.glsl"
+#include "shared/light.h"
+
+struct Lamp {
+    vec3 position;
+    float intensity;
+    vec3 axis;
+    float lobe_a;
+    vec3 colour;
+    float lobe_b;
+    // Of a map.
+    bool measured;
+    vec3 start, turn, pole;
+    float first, last_azimuth;
+    vec4 grid;
+};
+
+// `maps_from`: index of the first measured lamp.
+Lamp fetch(uint index, bool cone, uint maps_from) {
+    const int texel = int(index * kTexelsPerLight);
+    const vec4 a = texelFetch(lights, texel), c = texelFetch(lights, texel + 2);
+    vec4 b = vec4(0.0), d = vec4(0.0), e = vec4(0.0), f = vec4(0.0);
+    if (cone || kPowers != 0u) b = texelFetch(lights, texel + 1);
+    if (!cone && kMaps != 0u) d = texelFetch(lights, texel + 3), e = texelFetch(lights, texel + 4), f = texelFetch(lights, texel + 5);
+    return Lamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w, kPowers == 0u || index >= maps_from,
+                d.xyz, cross(d.xyz, e.xyz), e.xyz, d.w, e.w, f);
+}
+
+// Intensity in a direction relative to the largest. `cosine` to the axis; `from` the lamp, of any length.
+float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool cone) {
+    if (cone) {
+        const float ramp = clamp(lamp.lobe_a * cosine + lamp.lobe_b, 0.0, 1.0);
+        return ramp * ramp;
+    }
+    float relative = 0.0;
+    if (kPowers != 0u) relative = cosine > 0.0 ? exp2(lamp.lobe_a * log2(cosine)) : 0.0;
+    if (kMaps != 0u) {
+        const vec3 d = vec3(dot(lamp.start, from), dot(lamp.turn, from), dot(lamp.pole, from));
+        const float mapped = map_intensity(d, inverse, lamp.grid, lamp.first, vec2(lamp.last_azimuth, lamp.lobe_b));
+        relative = lamp.measured ? mapped : relative;
+    }
+    return relative;
+}

@@ -1,0 +1,118 @@
+// Blocks of pixels: their classes, and the lamps that can be added up over them. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+
+#include "passes/shade_reference.h"
+#include "shared/gather.h"
+
+namespace vesper::reference {
+
+/// The plane that a block of pixels shows.
+struct BlockPlane {
+    dvec3 normal{0};
+    double away = 0;  ///< normal . point of the plane, m
+    double kind = 0;  ///< metallic of the G-buffer: 0 or a road's
+};
+
+/// A block of the image: where it begins, px, and what its pixels show.
+struct Block {
+    glm::uvec2 corner{0};
+    std::vector<glm::uvec2> pixels;  ///< that are drawn
+    std::vector<SurfaceTexel> texels;
+};
+
+inline bool is_road(const SurfaceTexel& t) { return t.reflectance.w <= shared::kRoadKind; }
+inline bool is_sheet(const SurfaceTexel& t) { return t.reflectance.w >= shared::kRetroCode; }
+inline bool is_glossy(const SurfaceTexel& t) { return !is_road(t) && (t.surface.w < 1 || t.reflectance.w > 0); }
+
+/// One of shared::kClass*. `listed`: a lamp is left on the block's list.
+inline uint32_t class_of(const Block& block, bool listed) {
+    const auto any = [&](auto is) { return std::any_of(block.texels.begin(), block.texels.end(), is); };
+    const bool paved = any(is_road);
+    if (block.texels.empty()) return shared::kClassEmpty;
+    if (any(is_sheet)) return shared::kClassRetro;
+    if (any(is_glossy)) return paved ? shared::kClassGlossyPaved : shared::kClassGlossy;
+    if (paved) return listed ? shared::kClassPavedListed : shared::kClassPaved;
+    return listed ? shared::kClassMattListed : shared::kClassMatt;
+}
+
+/// The plane, if all that is drawn lies within `lift` of its distance from the eye and `tilt`, rad, of its normal.
+inline std::optional<BlockPlane> plane_of(const Block& block, const shared::ClusterGrid& grid, double tilt = 3e-4, double lift = 2e-4) {
+    if (block.texels.empty()) return {};
+    const auto point = [&](size_t i) { return view_position(grid, dvec2(block.pixels[i]) + 0.5, block.texels[i].surface.z); };
+    const dvec3 normal = octahedral_decode(dvec2(block.texels[0].surface));
+    const BlockPlane plane{normal, glm::dot(normal, point(0)), block.texels[0].reflectance.w};
+    for (size_t i = 0; i < block.texels.size(); ++i) {
+        const SurfaceTexel& t = block.texels[i];
+        if (is_glossy(t) || is_sheet(t) || t.reflectance.w != plane.kind) return {};
+        if (glm::distance(octahedral_decode(dvec2(t.surface)), normal) > tilt) return {};
+        if (std::abs(glm::dot(normal, point(i)) - plane.away) > lift * t.surface.z) return {};
+    }
+    return plane;
+}
+
+/// A function of a place in a block, px from the image's corner.
+using OfPlace = std::function<double(dvec2)>;
+
+/// Centres of the outermost pixels and what lies halfway: node (i, j) of a block.
+inline dvec2 node(const Block& block, int i, int j) { return dvec2(block.corner) + 0.5 + 3.5 * dvec2(i, j); }
+
+/// The polynomial of degree two along either side through its values at the nodes (Lagrange).
+inline double polynomial(const Block& block, const OfPlace& f, dvec2 place) {
+    const auto weight = [](int node, double x) {  // x from 0 to 2
+        return node == 0 ? (x - 1) * (x - 2) / 2 : node == 1 ? x * (2 - x) : x * (x - 1) / 2;
+    };
+    const dvec2 x = (place - dvec2(block.corner) - 0.5) / 3.5;
+    double sum = 0;
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) sum += weight(i, x.x) * weight(j, x.y) * f(node(block, i, j));
+    return sum;
+}
+
+/// The largest error of the polynomial at the four points between nodes, relative to the least value at nodes and points.
+inline double roughness_of(const Block& block, const OfPlace& f) {
+    double error = 0, least = 1e300;
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) least = std::min(least, f(node(block, i, j)));
+    for (const dvec2 between : {dvec2(0.5, 0.5), dvec2(1.5, 0.5), dvec2(0.5, 1.5), dvec2(1.5, 1.5)}) {
+        const dvec2 place = dvec2(block.corner) + 0.5 + 3.5 * between;
+        error = std::max(error, std::abs(polynomial(block, f, place) - f(place)));
+        least = std::min(least, f(place));
+    }
+    return error / least;
+}
+
+/// Whether the nodes and points between tell all of a lamp: they lie in a cone of directions no wider than half its beam (to where a
+/// ramp ends, or a power has fallen to exp(-1/2)) and 0.35 rad from its axis.
+inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, const Block& block, const shared::Light& light, LightKind kind, double slack = 1) {
+    const auto point = [&](dvec2 place) {
+        const dvec3 ray = view_position(grid, place, 1);
+        return ray * (plane.away / glm::dot(plane.normal, ray));
+    };
+    double radius = 0, nearest = 1e300;
+    for (int j = 0; j < 5; ++j)
+        for (int i = 0; i < 5; ++i) {
+            if (i % 2 != j % 2) continue;
+            const dvec3 p = point(dvec2(block.corner) + 0.5 + 1.75 * dvec2(i, j));
+            radius = std::max(radius, glm::distance(p, point(node(block, 1, 1))));
+            nearest = std::min(nearest, glm::distance(p, dvec3(light.position)));
+        }
+    double beam = std::numbers::pi;
+    if (kind == LightKind::Cone && light.lobe_a > 0) beam = std::acos(std::clamp(-double(light.lobe_b) / light.lobe_a, -1.0, 1.0));
+    if (kind == LightKind::Power) beam = 1 / std::sqrt(std::max(double(light.lobe_a), 0.1));
+    return radius / nearest <= slack * std::min(0.5 * beam, 0.35);
+}
+
+/// The illuminance, lx, of a lamp on the plane where a pixel sees it; 0 where it gives less than the threshold.
+inline double light_on_plane(const BlockPlane& plane, const shared::ClusterGrid& grid, const shared::Light& light, LightKind kind, double threshold, dvec2 place) {
+    const dvec3 ray = view_position(grid, place, 1), point = ray * (plane.away / glm::dot(plane.normal, ray));
+    const dvec3 path = dvec3(light.position) - point;
+    const double d = glm::length(path), cosine = glm::dot(plane.normal, path) / d;
+    const double e = intensity(light, kind, -glm::dot(dvec3(light.axis), path) / d) * cosine / (d * d);
+    return cosine > 0 && e >= threshold ? e : 0;
+}
+
+}  // namespace vesper::reference

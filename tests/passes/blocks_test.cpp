@@ -1,0 +1,197 @@
+// Blocks of the image on the device: their classes, and the lamps that are added up over them. SPDX-License-Identifier: MIT
+#include "passes/blocks_reference.h"
+
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "support/lights.h"
+#include "support/noise.h"
+#include "support/shading.h"
+
+namespace vesper::test {
+namespace {
+
+constexpr float kTolerance = 2e-3f;
+
+/// A road of some kind 1.2 m under the eye between walls at 8 m, sky above 20 m; and, in squares here and there, what makes other classes.
+Surfaces canyon(VkExtent2D extent, float road_kind = 0, bool mixed = true, bool sheets = false) {
+    const View view = View::symmetric(extent, 0.7f, glm::mat4(1));
+    Surfaces s{extent, {}, {}, {}};
+    Noise noise(extent.width);
+    for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
+        const glm::uvec2 pixel = s.pixel(i);
+        const glm::dvec2 ray = glm::dvec2(view.ray_scale()) * (glm::dvec2(pixel) + 0.5) + glm::dvec2(view.ray_offset());
+        const double road = ray.y < 0 ? 1.2 / -ray.y : 1e6, wall = 8 / std::max(std::abs(ray.x), 1e-6), depth = std::min(road, wall);
+        const bool on_road = road < wall, sky = depth * ray.y > 20 || depth > 1000;
+        glm::dvec3 normal = on_road ? glm::dvec3(0, 1, 0) : glm::dvec3(ray.x < 0 ? 1 : -1, 0, 0);
+        float kind = on_road ? road_kind : 0, roughness = kind < 0 ? 0.22f : 1;
+        const uint32_t square = (pixel.x / 24 + 3 * (pixel.y / 24)) % 11;
+        if (mixed && square == 1) roughness = kind < 0 ? roughness : 0.4f;                      // glossy
+        if (mixed && square == 4) kind = kind < 0 ? kind : noise.fine();                        // metal
+        if (mixed && square == 6) normal = glm::normalize(normal + 0.3 * noise.facing(0.1));    // bumps
+        if (mixed && sheets && square == 8) kind = shared::kRetroCode, roughness = 1;
+        s.reflectance.emplace_back(noise.fine(), noise.fine(), noise.fine(), kind);
+        s.surface.emplace_back(glm::vec2(reference::octahedral_encode(normal)), sky ? 0.0f : float(depth), roughness);
+        s.emission.emplace_back(0);
+    }
+    return s;
+}
+
+reference::Block block_of(const Surfaces& s, uint32_t x, uint32_t y) {
+    reference::Block block{{x * shared::kBlockSize, y * shared::kBlockSize}, {}, {}};
+    for (uint32_t j = block.corner.y; j < std::min(block.corner.y + shared::kBlockSize, s.extent.height); ++j)
+        for (uint32_t i = block.corner.x; i < std::min(block.corner.x + shared::kBlockSize, s.extent.width); ++i) {
+            const reference::SurfaceTexel t = s.texel(size_t(j) * s.extent.width + i);
+            if (t.surface.z > 0) block.pixels.emplace_back(i, j), block.texels.push_back(t);
+        }
+    return block;
+}
+
+struct Gathered {
+    Blocks blocks;
+    shared::ClusterPush cluster;
+    std::vector<uint32_t> counts, entries, class_counts, class_blocks;
+    std::vector<glm::vec4> sums;
+
+    uint32_t listed(uint32_t block) const { return counts[2 * block] + counts[2 * block + 1]; }
+    std::set<uint32_t> lights(uint32_t block) const {
+        std::set<uint32_t> all;
+        const size_t first = size_t(block) * blocks.capacity;
+        for (uint32_t i = 0; i < counts[2 * block]; ++i) all.insert(entries[first + i] & ((1u << shared::kFirstSliceShift) - 1));
+        for (uint32_t i = 0; i < counts[2 * block + 1]; ++i) all.insert(entries[first + blocks.capacity - 1 - i] & ((1u << shared::kFirstSliceShift) - 1));
+        return all;
+    }
+    glm::dvec3 sum(uint32_t block, int i, int j) const {
+        glm::dvec3 value;
+        for (int c = 0; c < 3; ++c) {
+            const size_t at = size_t(3 * (3 * j + i) + c);
+            value[c] = double(sums[size_t(block) * shared::kGatherTexels + at / 4][int(at % 4)]);
+        }
+        return value;
+    }
+};
+
+Gathered gather(PassRig& rig, const Surfaces& s, const LightList& list, float tolerance = kTolerance) {
+    FrameGraph graph;
+    const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
+    const GBuffer g = upload(graph, s);
+    const Clusters c = add_clusters(graph, rig.kernels(), list, no_maps(graph), view, {});
+    Gathered got;
+    got.blocks = add_blocks(graph, rig.kernels(), g, c, view, tolerance);
+    got.cluster = c.push;
+    const Blocks& b = got.blocks;
+    const Resource counts = keep<uint32_t>(graph, b.counts), entries = keep<uint32_t>(graph, b.entries), sums = keep<glm::vec4>(graph, b.sums),
+                   classes = keep<uint32_t>(graph, b.class_counts), members = keep<uint32_t>(graph, b.class_blocks);
+    rig.run(graph);
+    got.counts = rig.got<uint32_t>(counts), got.entries = rig.got<uint32_t>(entries), got.sums = rig.got<glm::vec4>(sums);
+    got.class_counts = rig.got<uint32_t>(classes), got.class_blocks = rig.got<uint32_t>(members);
+    return got;
+}
+
+// A lamp is on the list, or in the sums, or gives nothing; and it is in the sums exactly where it is smooth.
+TEST(Blocks, EveryLampIsListedOrAddedUp) {
+    PassRig rig;
+    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {203, 131}}) {
+        SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
+        const Surfaces s = canyon(extent);
+        const LightList list = street_lamps({20, 20, 0}, 300, extent.width);
+        const Gathered got = gather(rig, s, list);
+        uint32_t planes = 0, taken = 0;
+        for (uint32_t b = 0; b < got.blocks.count; ++b) {
+            const reference::Block block = block_of(s, b % got.blocks.columns, b / got.blocks.columns);
+            const auto plane = reference::plane_of(block, got.cluster.grid);
+            const std::set<uint32_t> listed = got.lights(b);
+            glm::dvec3 expected[9]{};
+            bool doubtful = false;
+            for (uint32_t l = 0; plane && l < list.lamps(); ++l) {
+                const reference::OfPlace e = [&](glm::dvec2 p) { return reference::light_on_plane(*plane, got.cluster.grid, list.lights[l], reference::kind_of(l, list.counts), got.cluster.threshold, p); };
+                const double roughness = reference::roughness_of(block, e);  // infinite or NaN where it gives nothing at some point
+                // Single precision: errors of a few 1e-6 of a value are a few 1e-3 of the tolerance.
+                const auto is_resolved = [&](double slack) { return reference::resolved(*plane, got.cluster.grid, block, list.lights[l], reference::kind_of(l, list.counts), slack); };
+                const bool smooth = roughness < kTolerance && is_resolved(1);
+                const bool close = std::abs(roughness - kTolerance) < 0.01 * kTolerance || is_resolved(0.999) != is_resolved(1.001);
+                doubtful = doubtful || close;
+                EXPECT_FALSE(smooth && !close && listed.contains(l)) << "block " << b << ", lamp " << l << " of roughness " << roughness;
+                if (listed.contains(l) || !smooth) continue;
+                ++taken;
+                for (int n = 0; n < 9; ++n) expected[n] += e(reference::node(block, n % 3, n / 3)) * glm::dvec3(list.lights[l].colour);
+            }
+            planes += plane ? 1 : 0;
+            if (doubtful) continue;
+            for (int n = 0; n < 9; ++n)
+                for (int c = 0; c < 3; ++c)  // 1e-4: positions on planes seen at grazing angles, in floats
+                    EXPECT_NEAR(got.sum(b, n % 3, n / 3)[c], expected[n][c], 1e-4 * expected[n][c] + 1e-6) << "block " << b << ", node " << n;
+        }
+        if (extent.width > 100) {
+            EXPECT_GT(planes, got.blocks.count / 3);
+            EXPECT_GT(taken, planes) << "hardly anything was added up";
+        }
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Blocks, EveryBlockIsInItsClass) {
+    PassRig rig;
+    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {203, 131}}) {
+        const Surfaces s = canyon(extent, 0, true, true);
+        const Gathered got = gather(rig, s, street_lamps({6, 5, 0}, 300, 2));
+        std::vector<uint32_t> class_of_block(got.blocks.count, ~0u);
+        for (uint32_t k = 0; k < shared::kBlockClasses; ++k) {
+            const uint32_t* words = &got.class_counts[k * shared::kClassWords];
+            EXPECT_EQ(words[0], (words[3] + shared::kBlocksPerGroup - 1) / shared::kBlocksPerGroup);
+            EXPECT_EQ(words[1], 1u);
+            EXPECT_EQ(words[2], 1u);
+            for (uint32_t i = 0; i < words[3]; ++i) {
+                const uint32_t block = got.class_blocks[k * got.blocks.count + i];
+                ASSERT_LT(block, got.blocks.count);
+                EXPECT_EQ(class_of_block[block], ~0u) << "block " << block << " is in two classes";
+                class_of_block[block] = k;
+            }
+        }
+        for (uint32_t b = 0; b < got.blocks.count; ++b)
+            EXPECT_EQ(class_of_block[b], reference::class_of(block_of(s, b % got.blocks.columns, b / got.blocks.columns), got.listed(b) != 0)) << "block " << b;
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Blocks, ANegativeToleranceAddsUpNothing) {
+    PassRig rig;
+    const Gathered got = gather(rig, canyon({64, 40}), street_lamps({20, 20, 0}, 300, 3), -1);
+    for (const glm::vec4& texel : got.sums) EXPECT_EQ(texel, glm::vec4(0));
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A polynomial is wrong by at most the tolerance at four points; anywhere else, a cubic term may be 1.03 times that.
+TEST(Blocks, ShadingWithSumsIsShadingLampByLamp) {
+    PassRig rig;
+    const Surfaces s = canyon({333, 211});
+    const LightList list = street_lamps({60, 60, 1}, 300, 7);
+    const Shot gathered = shade(rig, s, list, {}, {}), one_by_one = shade(rig, s, list, {}, {.gather_tolerance = -1});
+    EXPECT_TRUE(same_light("gathered", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.1 * kTolerance, 1e-7}));
+    EXPECT_NE(gathered.pixels, one_by_one.pixels) << "nothing was added up";
+    const Shot again = shade(rig, s, list, {}, {});
+    EXPECT_EQ(gathered.pixels, again.pixels) << "blocks come in any order, pictures may not tell";
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Blocks, WhatIsNoNumberStaysInItsPixel) {
+    PassRig rig;
+    Surfaces s = canyon({61, 43}, 0, false);
+    const LightList list = street_lamps({20, 20, 0}, 300, 8);
+    const Shot clean = shade(rig, s, list, {}, {});
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    const std::set<size_t> spoiled{0, 700, 1500, 2000, 2222, size_t(61 * 43 - 1)};
+    const glm::vec4 broken[] = {{nan, 0, 5, 1}, {0, 0, nan, 1}, {0, 0, infinite, 1}, {0, 0, 5, nan}, {infinite, 0, 5, 1}, {0, nan, nan, nan}};
+    uint32_t turn = 0;
+    for (const size_t i : spoiled) s.surface[i] = broken[turn++];
+    const Shot got = shade(rig, s, list, {}, {});
+    for (size_t i = 0; i < got.pixels.size(); ++i)
+        for (int c = 0; c < 3 && !spoiled.contains(i); ++c)  // its block is shaded lamp by lamp now
+            EXPECT_NEAR(got.pixels[i][c], clean.pixels[i][c], 1.1 * kTolerance * std::abs(clean.pixels[i][c]) + 1e-7) << "pixel " << i;
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -1,0 +1,47 @@
+// Lamps of a scene: what closed forms say of their lobes. SPDX-License-Identifier: MIT
+#include "scene/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace vesper::test {
+namespace {
+
+/// Flux by numerical integration of the lobe over the sphere.
+double integrated(const Light& light) {
+    double sum = 0;
+    constexpr int kSteps = 200'000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double angle = std::numbers::pi * (i + 0.5) / kSteps, cosine = std::cos(angle);
+        double value = 1;
+        if (light.kind == Light::Kind::CosinePower) value = cosine > 0 ? std::pow(cosine, light.exponent) : 0;
+        if (light.kind == Light::Kind::Spot) {
+            const double outer = std::cos(light.outer_cone), inner = std::cos(light.inner_cone);
+            const double ramp = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
+            value = ramp * ramp;
+        }
+        sum += 2 * std::numbers::pi * std::sin(angle) * light.intensity * value * std::numbers::pi / kSteps;
+    }
+    return sum;
+}
+
+TEST(Light, FluxIsTheIntegralOfTheLobe) {
+    Light light;
+    light.intensity = 100;
+    EXPECT_NEAR(luminous_flux(light), integrated(light), 1e-4);
+    EXPECT_NEAR(luminous_flux(light), 400 * std::numbers::pi, 1e-6);
+    light.kind = Light::Kind::Spot;
+    light.inner_cone = 0.3f, light.outer_cone = 1.2f;
+    EXPECT_NEAR(luminous_flux(light), integrated(light), 1e-4);
+    light.kind = Light::Kind::CosinePower;
+    for (const float exponent : {0.0f, 1.0f, 250.0f}) {
+        light.exponent = exponent;
+        EXPECT_NEAR(luminous_flux(light), integrated(light), 1e-3) << exponent;
+    }
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -1,0 +1,35 @@
+// A street and a photometry file, converted in a folder of their own. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "io/image_file.h"
+#include "scene/convert.h"
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+
+class ConversionTest : public testing::Test {
+protected:
+    /// wall.png, two pixels, and a texture of it.
+    void add_wall_picture() {
+        const std::vector<uint8_t> pixels = {255, 128, 0, 255, 10, 10, 10, 255};
+        write_png(folder_ / "wall.png", 2, 1, pixels);
+        street_.root["images"] = {{{"uri", "wall.png"}}};
+        street_.root["textures"] = {{{"source", 0}}};
+    }
+    /// `photometry` needs no version.
+    ConversionReport convert_with(nlohmann::json photometry, const std::string& output = "out.gltf",
+                                  const std::optional<Transfer>& transfer = std::nullopt) {
+        photometry["version"] = 1;
+        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()),
+                       folder_ / output, transfer);
+    }
+    Scene converted(const std::string& output = "out.gltf") const { return read_gltf(folder_ / output).scene; }
+
+    TempFolder folder_;
+    GltfFile street_;
+};
+
+}  // namespace vesper::test

@@ -19,6 +19,7 @@ Renderer::Renderer(Device& device, const Scene& scene)
       sky_luminance_(scene.sky_luminance),
       ambient_colour_(scene.ambient_colour),
       sky_colour_(scene.sky_colour),
+      scatter_(device),
       executor_(device) {
     maps_.texels = std::vector<glm::vec4>();  // the device has them
     if (scene.environment) {
@@ -39,7 +40,7 @@ Resource Renderer::TexelBuffer::in(FrameGraph& graph, const std::string& name) c
 }
 
 Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
-                                     const LightList& lights, const SourceList& sources, float seconds, Outputs outputs) const {
+                                     const LightList& lights, const SourceList& sources, const ChainInputs& given, Outputs outputs) const {
     const bool ldr = settings.tone_operator == Operator::Ldr;
     ClusterSettings clustering = settings.clusters;
     clustering.far = resident_.farthest_depth(frame, view.world_to_view);
@@ -60,7 +61,7 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
         scene = add_sky(graph, kernels_, surfaces, scene, sky, sky_sharp_side_, view, shading.lambert);
     }
     scene = add_sources(graph, kernels_, scene, surfaces.surface, sources, view);
-    return {.chain = add_tone_chain(graph, kernels_, scene, view, settings, seconds, outputs, eye_ ? &*eye_ : nullptr),
+    return {.chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs),
             .clusters = bring_back(graph, "cluster report", clusters.report, sizeof(shared::ClusterReport)),
             .far = clusters.push.far};
 }
@@ -72,8 +73,18 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     if (ldr) set_to_one(lights, settings.ldr_reference_distance);
     const SourceList sources = source_list(sources_, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
 
+    ChainInputs given{.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = nullptr, .outside = {}};
+    std::vector<GlareSource> dazzling;
+    if (!ldr) {
+        if (settings.glare == Glare::Scatter) given.scatter = &scatter_.at(settings.scatter, view);
+        given.outside = settings.lamps_elsewhere;
+        dazzling = glare_sources(sources_, frame, view);
+        for (const GlareSource& source : dazzling)
+            if (source.inside < 1) given.outside.push_back({source.direction, (1 - source.inside) * source.illuminance});
+    }
+
     FrameGraph graph;
-    const Declared declared = declare(graph, settings, view, frame, lights, sources, seconds, outputs);
+    const Declared declared = declare(graph, settings, view, frame, lights, sources, given, outputs);
     const double declared_after = watch.milliseconds();
     executor_.run(graph);
     eye_.reset();
@@ -86,6 +97,8 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     result.lights = uint32_t(lights.lights.size());
     result.sources = uint32_t(sources.sources.size());
     result.far = declared.far;
+    result.glare_sources = std::move(dazzling);
+    result.outside = std::move(given.outside);
     result.host_times.declare = declared_after;
     result.milliseconds = milliseconds;
     return result;

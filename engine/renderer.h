@@ -17,6 +17,7 @@ struct RenderSettings : ToneChainSettings {
     bool paper_lambert = false;            ///< L = E R instead of E R / pi
     bool all_lights = false;               ///< shade without clusters, for comparison
     ClusterSettings clusters;
+    std::vector<OutsideLamp> lamps_elsewhere;  ///< on other screens: scattered in the eye, not drawn; directions in the view frame
     float ldr_reference_distance = 6.5f;   ///< m: where an LDR lamp of 1.0 lights with 1.0; the paper's lamp height
 };
 
@@ -26,6 +27,8 @@ struct Frame : ToneMapped {
     uint32_t lights = 0;            ///< lamps that shine
     uint32_t sources = 0;           ///< of their openings, those in view
     float far = 0;                  ///< m: the far limit of the clusters
+    std::vector<GlareSource> glare_sources;  ///< lamps before the eye, as if nothing stood between; none with Operator::Ldr
+    std::vector<OutsideLamp> outside;        ///< light from beside the picture: of those, and of lamps elsewhere
 };
 
 /// Renders one scene on one device. Not thread-safe; several renderers may share a device in one thread.
@@ -62,7 +65,7 @@ private:
     };
     TexelBuffer upload_texels(const Device& device, const std::vector<glm::vec4>& texels);
     Declared declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
-                     const LightList& lights, const SourceList& sources, float seconds, Outputs outputs) const;
+                     const LightList& lights, const SourceList& sources, const ChainInputs& given, Outputs outputs) const;
 
     Kernels kernels_;
     ResidentScene resident_;
@@ -75,6 +78,7 @@ private:
     uint32_t sky_sharp_side_ = 0;
     float ambient_illuminance_, sky_luminance_;
     glm::vec3 ambient_colour_, sky_colour_;
+    ScatterCache scatter_;
     Executor executor_;
     std::optional<shared::EyeState> eye_;  // set for the next frame
     std::string plan_;

@@ -19,10 +19,12 @@ Resource bring_back(FrameGraph& graph, const std::string& name, Resource from, u
     return to;
 }
 
-ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource scene, const View& view, const ToneChainSettings& settings, float seconds, Outputs outputs, const shared::EyeState* remembered) {
+ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource rendered, const View& view, const ToneChainSettings& settings, const ChainInputs& given, Outputs outputs) {
     const OperatorInfo& op = operator_info(settings.tone_operator);
     uint32_t tone = op.form | (settings.tone.colour_loss ? shared::kToneColourLoss : 0) | (settings.tone.purkinje ? shared::kTonePurkinje : 0) |
                           (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0);
+    // What the eye adapts to and the histogram counts is what falls on the retina.
+    const Resource scene = given.scatter ? add_scatter(graph, kernels, rendered, *given.scatter, given.outside) : rendered;
     const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent, settings.tone.log_epsilon);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
     HistogramSettings votes = settings.histogram;
@@ -30,8 +32,8 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource sce
     votes.fine = votes.fine && (op.model == shared::kModelHistogram || op.model == shared::kModelTrimmed || settings.tone.automatic);
     const Resource histogram = add_histogram(graph, kernels, luminance, level, view.extent, votes);
     const FovealView fovea{level, luminance.extents[level - 1], view.extent};
-    const shared::ToneParameters parameters = tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, seconds);
-    const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, op, parameters, level, remembered,
+    const shared::ToneParameters parameters = tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, given.seconds);
+    const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, op, parameters, level, given.remembered,
                                                  op.chromatic ? add_colours(graph, kernels, scene, view.extent) : Colours{});
     Resource seen = settings.tone.acuity_loss ? add_acuity(graph, kernels, scene, luminance, level, view) : scene;
     if (op.bands) {
@@ -55,7 +57,7 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource sce
         const Resource light = add_display_light(graph, kernels, inputs, tone, view, settings.display, settings.ldr_glare.gain);
         chain.light = bring_back(graph, "display light", light, pixels * 16);
     }
-    if (outputs.scene) chain.scene = bring_back(graph, "scene", scene, pixels * 16);
+    if (outputs.scene) chain.scene = bring_back(graph, "scene", rendered, pixels * 16);
     return chain;
 }
 

@@ -11,7 +11,7 @@
 
 namespace vesper {
 
-enum class Glare : uint8_t { None, Ldr };
+enum class Glare : uint8_t { None, Ldr, Scatter };
 
 /// Everything between the luminance of a frame and its display codes.
 struct ToneChainSettings {
@@ -22,6 +22,7 @@ struct ToneChainSettings {
     Display display;
     Glare glare = Glare::None;
     LdrGlareSettings ldr_glare;
+    ScatterSettings scatter;     ///< of Glare::Scatter: light scattered in the eye, in cd/m^2
 };
 
 /// What to bring back to the host.
@@ -37,11 +38,17 @@ struct ToneChain {
     uint32_t foveal_level = 0;
 };
 
-/// Declares pyramid, histogram, adaptation, glare and composite of `scene` (rgba32f, cd/m^2 RGB; with Operator::Ldr values
-/// relative to white), `seconds` after the last frame.
-/// The eye (kEyeHistory) remembers from frame to frame, also when sizes change; `remembered` stands for the last frame.
-ToneChain add_tone_chain(FrameGraph&, const Kernels&, Resource scene, const View&, const ToneChainSettings&, float seconds,
-                         Outputs, const shared::EyeState* remembered = nullptr);
+/// What a frame brings besides its picture.
+struct ChainInputs {
+    float seconds = 0;                              ///< since the last frame
+    const shared::EyeState* remembered = nullptr;   ///< stands for the last frame
+    const ResidentScatter* scatter = nullptr;       ///< of the settings and the view; nothing: no light is scattered
+    std::vector<OutsideLamp> outside;               ///< lamps whose light is scattered into the picture
+};
+
+/// Declares glare, pyramid, histogram, adaptation and composite of `scene` (rgba32f, cd/m^2 RGB; with Operator::Ldr values
+/// relative to white). The eye (kEyeHistory) remembers from frame to frame, also when sizes change.
+ToneChain add_tone_chain(FrameGraph&, const Kernels&, Resource scene, const View&, const ToneChainSettings&, const ChainInputs&, Outputs);
 
 /// One tone-mapped frame on the host.
 struct ToneMapped {

@@ -6,7 +6,7 @@
 
 namespace vesper {
 
-ToneMapper::ToneMapper(Device& device) : device_(device), kernels_(device), executor_(device) {}
+ToneMapper::ToneMapper(Device& device) : device_(device), kernels_(device), executor_(device), scatter_(device) {}
 
 ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture& picture, float seconds, Outputs outputs) {
     const Stopwatch watch;
@@ -31,7 +31,7 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
     const Resource scene = graph.transient("scene", image_shape(kSceneFormat, picture.extent));
     graph.copy("picture", graph.external("picture", pixels_.buffer(), bytes), scene);
     const View view = View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1));
-    const ToneChain chain = add_tone_chain(graph, kernels_, scene, view, settings, seconds, outputs, eye_ ? &*eye_ : nullptr);
+    const ToneChain chain = add_tone_chain(graph, kernels_, scene, view, settings, {.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = settings.glare == Glare::Scatter ? &scatter_.at(settings.scatter, view) : nullptr, .outside = picture.outside}, outputs);
     const double declared_after = watch.milliseconds();
     executor_.run(graph);
     eye_.reset();

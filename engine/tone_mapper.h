@@ -15,7 +15,8 @@ struct HostPicture {
     std::span<const float> values;  ///< RGB (or RGBA, alpha ignored) in linear Rec. 709, rows from the top
     uint32_t channels = 3;          ///< 3 or 4
     float scale = 1;                ///< cd/m^2 per unit
-    double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height, for the foveal level
+    double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
+    std::vector<OutsideLamp> outside = {};  ///< lamps that scatter light into it; the picture is seen along -z, y up
 };
 
 /// Maps pictures of any size to the display, one after the other; the eye remembers from each to the next, also when the
@@ -42,6 +43,7 @@ private:
     Kernels kernels_;
     Executor executor_;
     HostBuffer pixels_;
+    ScatterCache scatter_;
     std::optional<shared::EyeState> eye_;  // set for the next picture
     std::string plan_;
 };

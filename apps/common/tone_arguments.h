@@ -15,7 +15,8 @@ namespace vesper {
 /// Options of the way from luminance to display codes.
 struct ToneArguments {
     EyeArguments eye;
-    std::string glare = "none", display;
+    std::string glare = "none", pupil = "photopic", display;
+    double iris = ScatteringEye{}.pigmentation;
     std::optional<float> peak, black, gamma, ambient, reflection;  ///< in place of the display's
     double histogram_low = 1e-4, histogram_high = 1e6;  ///< cd/m^2
     HistogramSettings histogram;

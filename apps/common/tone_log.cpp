@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "glare_arguments.h"
 #include "io/atomic_file.h"
 #include "shown.h"
 
@@ -53,15 +54,15 @@ std::string log_heading() {
     for (uint32_t i = 0; i <= shared::kMaxBins; ++i) line += format(",node%u", i);
     line += ",cone_sigma,rod_sigma,log_average,maximum,under_full,slack";
     for (int i = 0; i < kSamples; ++i) line += format(",Ld(1e%.1f)", sample_log10(i));
-    return line + "\n";
+    return line + glare_columns() + "\n";
 }
 
-std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form, const Display& display) {
+std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form, const Display& display, const GlareReport& glare) {
     std::string line = format("%u,%.17g,%.9g,%s", index, frame.seconds, double(frame.step), frame.tone_operator.c_str());
     for (float value : floats_of(frame.eye)) line += format(",%.9g", double(value));
     for (float value : {curve.cone_sigma, curve.rod_sigma, curve.log_average, curve.maximum, curve.under_full, curve.slack}) line += format(",%.9g", double(value));
     for (double shown : curve_samples(curve, form, display)) line += format(",%.6g", shown);
-    return line + "\n";
+    return line + glare_values(glare) + "\n";
 }
 
 std::vector<LoggedFrame> read_log(const std::string& file) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "perception/glare_report.h"
 #include "tone_chain.h"
 
 namespace vesper {
@@ -18,7 +19,7 @@ struct LoggedFrame {
 
 /// Lines of a log. The first names the columns; numbers are written so that they read back to the last bit.
 std::string log_heading();
-std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form, const Display& display);
+std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form, const Display& display, const GlareReport& glare);
 
 /// Reads a log. Throws Error, naming file and line.
 std::vector<LoggedFrame> read_log(const std::string& file);

@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "commands.h"
+#include "glare_arguments.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
@@ -25,8 +26,9 @@ namespace {
 struct RenderArguments {
     std::string scene, camera, size = "1680x1050", device, lambert = "physical";
     ToneArguments tone;
+    GlareArguments glare;
     std::vector<std::string> outputs;
-    std::string statistics_file, log_file, replay_file;
+    std::string statistics_file, log_file, replay_file, sources_file;
     RenderSettings settings;
     unsigned frames = 1;
     double dt = 1.0 / 30, start = 0;
@@ -41,7 +43,7 @@ std::string file_of_frame(const std::string& pattern, unsigned index, unsigned f
     return pattern.substr(0, dot) + format(".%04u", index) + pattern.substr(dot);
 }
 
-Header describe_frame(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, double seconds) {
+Header describe_frame(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, const GlareReport& glare, double seconds) {
     std::string pose;
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + digits(double(view.world_to_view[c][r]));
@@ -58,6 +60,8 @@ Header describe_frame(const RenderArguments& arguments, const Device& device, co
             {"vesper:device", device.name() + ", " + device.driver()}};
     const Header tone = describe_tone(arguments.settings, frame);
     header.insert(header.end(), tone.begin(), tone.end());
+    const Header dazzled = describe_glare(arguments.settings, glare);
+    header.insert(header.end(), dazzled.begin(), dazzled.end());
     return header;
 }
 
@@ -87,13 +91,13 @@ void print_statistics(const RenderArguments& arguments, const Device& device, co
                 milliseconds.size(), milliseconds.front());
 }
 
-void write_outputs(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, unsigned index, double seconds) {
+void write_outputs(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, const GlareReport& glare, unsigned index, double seconds) {
     for (const std::string& output : arguments.outputs) {
         const std::string file = file_of_frame(output, index, arguments.frames);
         if (output.ends_with(".png"))
             write_codes(file, frame, arguments.settings.display);
         else
-            write_exr(file, frame.extent.width, frame.extent.height, frame.scene, describe_frame(arguments, device, view, frame, seconds));
+            write_exr(file, frame.extent.width, frame.extent.height, frame.scene, describe_frame(arguments, device, view, frame, glare, seconds));
     }
 }
 
@@ -105,6 +109,7 @@ void check_arguments(RenderArguments& arguments) {
     Files files;
     files.reads(arguments.scene);
     files.reads(arguments.replay_file);
+    files.reads(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs) {
         const bool exr = output.ends_with(".exr");
         if (!exr && !output.ends_with(".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
@@ -113,8 +118,9 @@ void check_arguments(RenderArguments& arguments) {
     }
     files.writes("--stats-json", arguments.statistics_file);
     files.writes("--log", arguments.log_file);
-    if (arguments.outputs.empty() && arguments.log_file.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan)
-        throw Error("nothing to do: give -o, --stats, --stats-json, --log or --plan");
+    files.writes("--glare-sources", arguments.sources_file);
+    if (arguments.outputs.empty() && arguments.log_file.empty() && arguments.sources_file.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan)
+        throw Error("nothing to do: give -o, --stats, --stats-json, --log, --glare-sources or --plan");
 }
 
 // A frame to render: its time, how long after the one before, and, in a replay, what the eye remembers.
@@ -163,6 +169,12 @@ void run(RenderArguments& arguments) {
     Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs) (output.ends_with(".png") ? outputs.display : outputs.scene) = true;
 
+    arguments.settings.lamps_elsewhere = read_lamps(arguments.glare.lamps);
+    // Glare is read off luminances.
+    const bool ldr = arguments.settings.tone_operator == Operator::Ldr;
+    const bool logs_glare = !arguments.log_file.empty() && !ldr;
+    outputs.scene |= logs_glare;
+
     const std::vector<Moment> moments = moments_of(arguments);
     arguments.frames = unsigned(moments.size());
     LoadedScene loaded = read_gltf(arguments.scene);
@@ -178,7 +190,7 @@ void run(RenderArguments& arguments) {
     Renderer renderer(device, scene);
     Progress progress("rendering", arguments.frames);
     std::vector<double> milliseconds;
-    std::string log = log_heading();
+    std::string log = log_heading(), sources = glare_sources_heading();
     for (unsigned index = 0; index < arguments.frames; ++index) {
         const auto& [seconds, step, eye] = moments[index];
         if (eye) renderer.set_eye(*eye);
@@ -188,8 +200,11 @@ void run(RenderArguments& arguments) {
         const Frame frame = renderer.render(arguments.settings, view, moment, step,
                                             {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
-        write_outputs(arguments, device, view, frame, index, seconds);
-        if (!arguments.log_file.empty()) log += log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display);
+        GlareReport glare;
+        if (outputs.scene && !ldr) glare = glare_of(arguments.glare, arguments.settings, frame, angles_of(view), frame.outside);
+        write_outputs(arguments, device, view, frame, glare, index, seconds);
+        if (!arguments.log_file.empty()) log += log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display, glare);
+        if (!arguments.sources_file.empty()) sources += glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye);
         if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);
         if (last) {
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
@@ -199,6 +214,7 @@ void run(RenderArguments& arguments) {
         progress.step();
     }
     if (!arguments.log_file.empty()) write_text(arguments.log_file, log);
+    if (!arguments.sources_file.empty()) write_text(arguments.sources_file, sources);
 }
 
 }  // namespace
@@ -212,7 +228,8 @@ void add_render(CLI::App& program) {
     command->add_option("--size,-s", a->size, "WIDTHxHEIGHT, px")->capture_default_str();
     command->add_option("--frames", a->frames, "How many frames; files are numbered")->check(CLI::Range(1u, 1000000u))->capture_default_str();
     command->add_option("--dt", a->dt, "Time between frames, s")->check(between(1e-6, 3600.0))->capture_default_str();
-    command->add_option("--log", a->log_file, "Write the state of the eye and the tone curve of every frame to a CSV file");
+    command->add_option("--log", a->log_file, "Write the state of the eye, the tone curve and what glare hides of every frame to a CSV file");
+    command->add_option("--glare-sources", a->sources_file, "Write the lamps before the eye to a CSV file: direction in degrees, cd, lx at the eye and veil, as if nothing stood between");
     command->add_option("--replay", a->replay_file, "Take times and the state of the eye from such a log: the same frames to the last bit; --start and --frames choose from them");
     command->add_option("--start", a->start, "Time of the first frame, s")->check(between(0.0, 1e6))->capture_default_str();
     command->add_flag("--stats", a->statistics, "Print luminances and milliseconds of the last frame");
@@ -222,6 +239,7 @@ void add_render(CLI::App& program) {
     command->add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")->check(CLI::IsMember({"physical", "paper"}))->capture_default_str();
     command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")->check(between(1e-9, 1e3))->capture_default_str();
     add_tone_options(*command, a->tone);
+    add_glare_options(*command, a->glare);
     command->add_flag("--all-lights", a->settings.all_lights, "Shade without clusters: the slow way to the same picture");
     command->footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"

@@ -86,6 +86,19 @@ private:
     Renderer renderer_;
 };
 
+/// Veil and TI off a picture of what dazzles; lamps above the roof of the car do not.
+GlareReport read_glare(const RoadLayout& road, const RoadObserver& observer, Renderer& renderer, const Scene& scene) {
+    const View view = road_glare_view(observer.glare_eye);
+    const Frame frame = renderer.render({}, view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
+    std::vector<DazzlingLight> beside;
+    for (const OutsideLamp& lamp : frame.outside)
+        if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z) beside.push_back({lamp.direction, glm::dot(lamp.illuminance, glm::dvec3(0.2126, 0.7152, 0.0722))});
+    const ImageAngles image = angles_of(view);
+    const double average = observer.average_luminance / road.maintenance_factor;
+    const glm::dvec2 sight = image.pixels_at({0, 0}) / glm::dvec2(image.width, image.height);
+    return report_glare(image, frame.scene, beside, {.eye = {road.age}, .gaze = sight, .source_luminance = 100 * average, .average_luminance = average});
+}
+
 double read_point(const std::vector<float>& rgba, const View& view, const RoadPoint& point) {
     return luminance_at(rgba, view.extent, project(view, {point.x, point.y, 0}));
 }
@@ -126,6 +139,9 @@ RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const
         made.observers.push_back(std::move(seen));
         if (result.observers[i].average_luminance < result.observers[made.darkest].average_luminance) made.darkest = i;
     }
+    const Scene dazzling = road_glare_scene(road);
+    Renderer glare(device, dazzling);
+    for (size_t i = 0; i < made.observers.size(); ++i) made.observers[i].glare = read_glare(road, result.observers[i], glare, dazzling);
     for (const auto& [counted, wanted] : groups_of(road, road_scene_luminaires(road), result)) {
         RoadPictures some(device, with_luminaires(scene, counted));
         std::vector<float> rgba;
@@ -169,6 +185,12 @@ std::string text_of(const RoadResult& result, const RenderedRoad& rendered) {
     for (size_t o = 0; o < result.observers.size(); ++o) text += summary_line(result.observers[o], rendered.observers[o].counted);
     text += "  and by every luminaire, those that the standard leaves out too:\n";
     for (size_t o = 0; o < result.observers.size(); ++o) text += summary_line(result.observers[o], rendered.observers[o].every);
+    text += "\nGlare, off a picture of the new luminaires: veil in cd/m2 and TI, calculated, rendered\n";
+    for (size_t o = 0; o < result.observers.size(); ++o) {
+        const RoadObserver& a = result.observers[o];
+        const GlareReport& b = rendered.observers[o].glare;
+        text += format("  %4d  %7.4f %7.4f   %6.2f %% %6.2f %%\n", a.lane, a.veil, b.road_veil, a.threshold_increment, b.increment);
+    }
     text += "\nLargest difference: " + worst_line(result, rendered, &RenderedObserver::counted);
     return text + "By every luminaire: " + worst_line(result, rendered, &RenderedObserver::every);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "perception/glare_report.h"
 #include "photometry/road.h"
 #include "resident/view.h"
 
@@ -27,6 +28,8 @@ struct RenderedObserver {
     /// what that leaves out.
     RoadReading counted, every;
     double longest_pixel = 0;        ///< m of road in a pixel, at the far end of the field
+    /// Off a picture of the new luminaires from RoadObserver::glare_eye, those outside of it added.
+    GlareReport glare;
 };
 
 struct RenderedRoad {

@@ -161,6 +161,8 @@ std::string json_of(const RoadLayout& road, const RoadResult& result, const Ligh
         for (size_t o = 0; o < rendered->observers.size(); ++o) {
             const RenderedObserver& seen = rendered->observers[o];
             json["observers"][o]["rendered"] = json_of(seen.counted);
+            json["observers"][o]["rendered"]["veiling_luminance_cd_m2"] = seen.glare.road_veil;
+            json["observers"][o]["rendered"]["threshold_increment_percent"] = seen.glare.increment;
             json["observers"][o]["rendered_every_luminaire"] = json_of(seen.every);
             for (size_t i = 0; i < result.points.size(); ++i) {
                 json["points"][i]["luminance_rendered_cd_m2"].push_back(seen.counted.luminance[i]);

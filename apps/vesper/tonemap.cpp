@@ -8,6 +8,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "commands.h"
+#include "glare_arguments.h"
 #include "io/atomic_file.h"
 #include "io/hdr_image.h"
 #include "numbered_files.h"
@@ -28,6 +29,7 @@ struct TonemapArguments {
     std::vector<std::string> inputs, outputs;
     std::string device, layer;
     ToneArguments tone;
+    GlareArguments glare;
     double scale = 0, fps = 0, fov = 0;
     bool statistics = false;
 };
@@ -106,9 +108,10 @@ struct Shown {
     ToneMapped picture;
     double scale = 1, fov = 0;
     bool absolute = false;
+    GlareReport glare;
 };
 
-Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, ToneMapper& mapper, const Job& job, bool wants_codes) {
+Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, const std::vector<OutsideLamp>& lamps, ToneMapper& mapper, const Job& job, bool wants_codes) {
     const HdrImage image = read_hdr_image(job.input, {}, arguments.layer);
     Shown shown;
     shown.absolute = arguments.scale > 0 || image.white_luminance > 0;
@@ -116,12 +119,16 @@ Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings,
     shown.fov = fov_of(image, arguments.fov);
     Outputs outputs{.display = wants_codes, .scene = false, .light = false};
     for (const std::string& output : job.outputs) (output.ends_with(".png") ? outputs.display : outputs.light) = true;
+    const double vertical = shown.fov * std::numbers::pi / 180;
+    const bool asks_glare = settings.tone_operator != Operator::Ldr && (outputs.light || arguments.statistics);
+    outputs.scene = asks_glare;
     try {
-        shown.picture = mapper.map(settings, {.extent = {image.width, image.height}, .values = image.rgb, .channels = 3, .scale = float(shown.scale), .vertical_fov = shown.fov * std::numbers::pi / 180},
+        shown.picture = mapper.map(settings, {.extent = {image.width, image.height}, .values = image.rgb, .channels = 3, .scale = float(shown.scale), .vertical_fov = vertical, .outside = lamps},
                                    float(job.seconds), outputs);
     } catch (const Error& error) {
         throw Error(one_line(job.input) + ": " + error.what());
     }
+    if (asks_glare) shown.glare = glare_of(arguments.glare, settings, shown.picture, angles_of(View::symmetric(shown.picture.extent, float(vertical), glm::mat4(1))), lamps);
     return shown;
 }
 
@@ -139,6 +146,8 @@ void write_outputs(const ToneChainSettings& settings, const Device& device, cons
                       {"vesper:device", device.name() + ", " + device.driver()}};
         const Header tone = describe_tone(settings, picture);
         header.insert(header.end(), tone.begin(), tone.end());
+        const Header dazzled = describe_glare(settings, shown.glare);
+        header.insert(header.end(), dazzled.begin(), dazzled.end());
         write_exr(output, picture.extent.width, picture.extent.height, picture.light, header);
     }
 }
@@ -154,12 +163,14 @@ void report(const TonemapArguments& arguments, const Job& job, const Shown& show
     std::printf("%s: %u x %u px, %.4g cd/m^2 per unit, adaptation %.4g cd/m^2, maximum %.4g cd/m^2, foveal level %u (%.3g degrees), %.1f ms (device %.1f)\n",
                 one_line(job.input).c_str(), p.extent.width, p.extent.height, shown.scale, double(p.curve.adaptation), double(p.curve.maximum), p.foveal_level, shown.fov,
                 p.milliseconds, device);
+    std::printf("  veil %.4g cd/m^2, threshold increment %.3g %%, background %.4g cd/m^2\n", shown.glare.veil, shown.glare.increment, shown.glare.background);
     for (const Timing& timing : p.timings) std::printf("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
 }
 
 void run(const TonemapArguments& arguments) {
     const ToneChainSettings settings = tone_settings(arguments.tone);
     const Plan plan = plan_of(arguments);
+    const std::vector<OutsideLamp> lamps = read_lamps(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs)
         if (output.ends_with('/') && !fs::is_directory(output)) throw Error("-o " + one_line(output) + ": there is no such folder");
 
@@ -172,7 +183,7 @@ void run(const TonemapArguments& arguments) {
     for (const Job& job : plan.jobs) {
         if (!plan.sequence) mapper.reset_adaptation();
         try {
-            const Shown shown = show(arguments, settings, mapper, job, !plan.film.empty());
+            const Shown shown = show(arguments, settings, lamps, mapper, job, !plan.film.empty());
             const auto [width, height] = shown.picture.extent;
             if (!plan.film.empty() && !film) film = std::make_unique<Video>(plan.film, width, height, plan.fps, settings.display);
             write_outputs(settings, device, job, shown);
@@ -205,6 +216,7 @@ void add_tonemap(CLI::App& program) {
     command->add_flag("--stats", a->statistics, "Print adaptation and milliseconds of each picture");
     command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     add_tone_options(*command, a->tone);
+    add_glare_options(*command, a->glare);
     command->footer("Examples:\n  vesper tonemap night.exr --display projector -o night.png\n"
                     "  vesper tonemap *.hdr --scale 179 --operator reinhard -o shown/\n"
                     "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"

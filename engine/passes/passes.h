@@ -15,6 +15,7 @@
 #include "passes/operators.h"
 #include "perception/display.h"
 #include "perception/eye.h"
+#include "resident/eye_scatter.h"
 #include "resident/formats.h"
 #include "resident/kernels.h"
 #include "resident/lights.h"
@@ -208,6 +209,11 @@ Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource 
 /// `tone`: kToneCurve and how dim light is perceived. `cone_break`: as ToneParameters has it.
 Resource add_bands(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, uint32_t foveal_level, Resource curve, uint32_t tone, float cone_break,
                    VkExtent2D extent);
+
+/// The scene as it falls on the retina: every pixel keeps a part of its light and scatters the rest, as `fit` has it, and lamps
+/// outside of the picture scatter theirs into it. rgba32f, cd/m^2. What a picture loses is what falls beside it. A pixel that
+/// is not finite stays and scatters nothing. `fit` is of the same size as the scene.
+Resource add_scatter(FrameGraph&, const Kernels&, Resource scene, const ResidentScatter& fit, const std::vector<OutsideLamp>&);
 
 struct LdrGlareSettings {
     float threshold = 0.9f;      ///< light of its brightest channel, relative to white, from which a pixel glares

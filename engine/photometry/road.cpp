@@ -11,7 +11,6 @@ namespace vesper {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kGlareRange = 500;  // m
 
 /// Intensity of a new luminaire towards a point, cd.
 double intensity_towards(const RoadLayout& road, const RoadLuminaire& lamp, glm::dvec3 point) {
@@ -110,21 +109,24 @@ double road_luminance(const RoadLayout& road, std::span<const RoadLuminaire> lam
     return sum * road.maintenance_factor;
 }
 
+double road_glare(double theta, double age) {
+    if (theta > 60 || theta < 0.1) return 0;
+    const double inverse = 1 / theta;
+    if (theta > 1.5) return 9.86 * (1 + std::pow(age / 66.4, 4)) * inverse * inverse;
+    return (10 * inverse + 5 * (1 + std::pow(age / 62.5, 4))) * inverse * inverse;
+}
+
 double veiling_luminance(const RoadLayout& road, std::span<const RoadLuminaire> lamps, glm::dvec3 eye) {
     static const double kRoof = std::tan(20 / kDegrees);
     static const glm::dvec3 kSight(std::cos(1 / kDegrees), 0, -std::sin(1 / kDegrees));
-    const double far = 9.86 * (1 + std::pow(road.age / 66.4, 4)), near = 1 + std::pow(road.age / 62.5, 4);
     double sum = 0;
     for (const RoadLuminaire& lamp : lamps) {
         const glm::dvec3 away = lamp.position - eye;
         const double distance = glm::length(away);
         if (away.x <= 0 || away.x > kGlareRange || away.z > kRoof * away.x) continue;
         const double cosine = std::min(glm::dot(away, kSight) / distance, 1.0);
-        const double theta = std::acos(cosine) * kDegrees;
-        if (theta > 60 || theta < 0.1) continue;
-        const double e = intensity_towards(road, lamp, eye) * cosine / (distance * distance);
-        const double inverse = 1 / theta;
-        sum += e * inverse * inverse * (theta > 1.5 ? far : 10 * inverse + 5 * near);
+        const double glare = road_glare(std::acos(cosine) * kDegrees, road.age);
+        if (glare > 0) sum += intensity_towards(road, lamp, eye) * cosine / (distance * distance) * glare;
     }
     return sum;
 }

@@ -87,10 +87,14 @@ double horizontal_illuminance(const RoadLayout&, std::span<const RoadLuminaire>,
 double reflected_towards(const RoadLayout&, const RoadLuminaire&, glm::dvec2 point, glm::dvec2 observer);
 /// Maintained luminance towards an observer, cd/m^2, by the luminaires that count.
 double road_luminance(const RoadLayout&, std::span<const RoadLuminaire>, glm::dvec2 point, glm::dvec2 observer);
-/// Veiling luminance of new luminaires for an eye that looks along x and 1 degree down, cd/m^2: 1.5 to 60 degrees off
-/// the line of sight k E / theta^2 with k = 9.86 (1 + (age/66.4)^4), nearer by E (10/theta^3 + 5/theta^2 (1 +
-/// (age/62.5)^4)); not those beyond 500 m, nor above the car's roof, 20 degrees up (EN 13201-3, 8.5).
+/// Veiling luminance for 1 lx at the eye, sr^-1, theta degrees off the line of sight: 1.5 to 60 degrees 9.86 (1 + (age/66.4)^4)
+/// / theta^2, 0.1 to 1.5 degrees 10/theta^3 + 5/theta^2 (1 + (age/62.5)^4); otherwise 0 (EN 13201-3, 8.5).
+double road_glare(double theta, double age);
+/// Veiling luminance of new luminaires for an eye that looks along x and 1 degree down, cd/m^2; not those beyond 500 m, nor above
+/// the car's roof, 20 degrees up (EN 13201-3, 8.5).
 double veiling_luminance(const RoadLayout&, std::span<const RoadLuminaire>, glm::dvec3 eye);
+/// Luminaires beyond this distance along the road dazzle nobody (CIE 140), m.
+constexpr double kGlareRange = 500;
 /// TI, %: 65 Lv / Lav^0.8, above 5 cd/m^2 95 Lv / Lav^1.05 (CIE 140; EN 13201-3, 8.5).
 double threshold_increment(double veil, double average_luminance);
 

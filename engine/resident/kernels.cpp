@@ -12,6 +12,9 @@
 #include "shaders/gather.comp.inc"
 #include "shaders/histogram.comp.inc"
 #include "shaders/pyramid.comp.inc"
+#include "shaders/scatter_down.comp.inc"
+#include "shaders/scatter_top.comp.inc"
+#include "shaders/scatter_up.comp.inc"
 #include "shaders/select.comp.inc"
 #include "shaders/shade.comp.inc"
 #include "shaders/sky.comp.inc"
@@ -32,6 +35,13 @@ Kernels::Kernels(const Device& device)
       histogram_rows(device.is_cpu() ? 8 : 1),
       histogram(device, "histogram.comp", histogram_comp, {histogram_rows}),
       blur(device, "blur.comp", blur_comp),
+      scatter_up_block(device.is_cpu() ? VkExtent2D{2, 4} : VkExtent2D{1, 1}),
+      scatter_down_block(device.is_cpu() ? VkExtent2D{2, 8} : VkExtent2D{1, 1}),
+      scatter_up_first(device, "scatter_up.comp", scatter_up_comp, {scatter_up_block.width, scatter_up_block.height, 1}),
+      scatter_up(device, "scatter_up.comp", scatter_up_comp, {scatter_up_block.width, scatter_up_block.height, 0}),
+      scatter_top(device, "scatter_top.comp", scatter_top_comp),
+      scatter_down(device, "scatter_down.comp", scatter_down_comp, {scatter_down_block.width, scatter_down_block.height, 0}),
+      scatter_down_last(device, "scatter_down.comp", scatter_down_comp, {scatter_down_block.width, scatter_down_block.height, 1}),
       composite_rows(device.is_cpu() ? 4 : 1),
       device_(device) {}
 

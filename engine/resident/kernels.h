@@ -42,6 +42,8 @@ struct Kernels {
     };
     const Kernel& bands(const BandsVariant&) const;
     Kernel blur;
+    VkExtent2D scatter_up_block, scatter_down_block;  ///< texels that one invocation does
+    Kernel scatter_up_first, scatter_up, scatter_top, scatter_down, scatter_down_last;
     uint32_t composite_rows;        ///< pixels of a column that one invocation of the composite does
     /// What the composite and display_light.comp have code for. Made when first asked for.
     struct CompositeVariant {

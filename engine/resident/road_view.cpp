@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/colour.h"
 #include "scene/road_scene.h"
@@ -53,6 +56,17 @@ View road_overview(const RoadLayout& road, const RoadObserver& observer, uint32_
     view.world_to_view = along_road(observer.eye);
     view.tangent_low = {static_cast<float>(-left), static_cast<float>(bottom)};
     view.tangent_high = {static_cast<float>(right), static_cast<float>(top)};
+    view.near = kNear;
+    return view;
+}
+
+View road_glare_view(glm::dvec3 eye) {
+    const double degree = std::numbers::pi / 180, roof = std::tan(21 * degree);
+    View view;
+    view.extent = {1600, 400};
+    view.world_to_view = glm::rotate(glm::mat4(1), float(degree), glm::vec3(1, 0, 0)) * along_road(eye);
+    view.tangent_low = {-1.2f, float(roof - 0.6)};
+    view.tangent_high = {1.2f, float(roof)};
     view.near = kNear;
     return view;
 }

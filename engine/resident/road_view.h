@@ -16,6 +16,10 @@ View road_view(const RoadLayout& road, const RoadObserver& observer, uint32_t ma
 /// A view of square pixels, `width` of them, from 40 m ahead of an observer to the horizon.
 View road_overview(const RoadLayout& road, const RoadObserver& observer, uint32_t width);
 
+/// A view of what may dazzle an eye at `eye` (in the road's frame) that looks along the road and 1 degree down, 50 degrees to
+/// both sides and up to the roof of the car, 20 degrees above the horizon.
+View road_glare_view(glm::dvec3 eye);
+
 /// Where a point of the road's frame is seen, px from the upper left corner; centres of pixels are at halves.
 glm::dvec2 project(const View& view, glm::dvec3 road_point);
 

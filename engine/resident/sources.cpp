@@ -38,10 +38,13 @@ struct Seen {
     Outline outline;
     double luminance;  // cd/m^2
     double hidden;     // m
+    dvec3 to_eye;
+    double distance;   // m
+    double candela;    // towards the eye; 0: nothing to see
 };
 
 Seen look_at(const Light& light, const std::vector<Distribution>& distributions, const glm::mat4& m, const View& view) {
-    const Seen nothing{{}, 0, 0};
+    const Seen nothing{{}, 0, 0, {}, 0, 0};
     const dvec3 centre(m[3]);
     const dvec3 columns[] = {dvec3(m[0]), dvec3(m[1]), dvec3(m[2])};
     for (const dvec3& column : columns)
@@ -63,7 +66,22 @@ Seen look_at(const Light& light, const std::vector<Distribution>& distributions,
     const Opening opening{centre, 0.5 * o.length * across, 0.5 * o.width * along, o.round};
     Outline outline = project(opening, view, kSmallest);
     const double luminance = candela / (light.opening.area() * glm::dot(normal, to_eye) * outline.widening);
-    return {std::move(outline), luminance, -centre.z * 0.999 - kHousing - reach - double(shared::kSourceEdge)};
+    return {std::move(outline), luminance, -centre.z * 0.999 - kHousing - reach - double(shared::kSourceEdge), to_eye, distance, candela};
+}
+
+// Part of a lamp's light that its outline in the picture has.
+double part_inside(const Seen& seen, const View& view) {
+    double twice_area = 0;
+    const std::vector<dvec2>& v = seen.outline.vertices;
+    for (size_t i = 0; i < v.size(); ++i) {
+        const dvec2 a = v[i], b = v[(i + 1) % v.size()];
+        twice_area += a.x * b.y - b.x * a.y;
+    }
+    const dvec2 pixel = glm::abs(dvec2(view.ray_scale()));
+    const double cosine = seen.to_eye.z;
+    const double drawn = seen.luminance * std::abs(twice_area) / 2 * pixel.x * pixel.y * cosine * cosine * cosine;
+    const double part = drawn / (seen.candela / (seen.distance * seen.distance));
+    return part > 0.99 ? 1 : part;  // outlines are good to so much
 }
 
 // Where a convex polygon crosses a horizontal line: empty (low > high) outside it.
@@ -139,6 +157,17 @@ SourceSet placed_sources(const Scene& scene) {
             set.lamps.push_back(placed);
     if (!set.lamps.empty()) set.distributions = scene.distributions;
     return set;
+}
+
+std::vector<GlareSource> glare_sources(const SourceSet& set, const SceneFrame& frame, const View& view) {
+    std::vector<GlareSource> sources;
+    for (const auto& [light, node] : set.lamps) {
+        const Seen seen = look_at(light, set.distributions, view.world_to_view * frame.world[node], view);
+        if (!(seen.candela > 0) || !std::isfinite(seen.luminance) || !(seen.to_eye.z > 0)) continue;
+        const dvec3 illuminance = seen.candela / (seen.distance * seen.distance) * dvec3(light.colour);
+        sources.push_back({node, -seen.to_eye, seen.distance, seen.candela, illuminance, part_inside(seen, view)});
+    }
+    return sources;
 }
 
 SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View& view, std::optional<float> white) {

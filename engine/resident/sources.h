@@ -34,6 +34,18 @@ struct SourceList {
     std::vector<uint32_t> entries;     ///< a source, ascending in a tile, and kCoversTile
 };
 
+/// A lamp as it dazzles: what of its light arrives at the eye, where nothing stands between them.
+struct GlareSource {
+    uint32_t node;               ///< of the scene, that carries it
+    glm::dvec3 direction;        ///< from the eye, view frame, of unit length
+    double distance;             ///< m
+    double candela;              ///< towards the eye
+    glm::dvec3 illuminance;      ///< RGB lx, on a plane at the eye that faces the lamp
+    double inside;               ///< part of its light that lies within the picture, 0 .. 1
+};
+/// Those before the eye, in the order of the scene.
+std::vector<GlareSource> glare_sources(const SourceSet& set, const SceneFrame& frame, const View& view);
+
 /// The openings a view sees, with the luminance L = I(towards the eye) / projected area, I / d^2 being what arrives at
 /// the eye. `white` is what the largest component of each is instead: the LDR baseline.
 SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View& view,

@@ -29,14 +29,15 @@ Primitive carriageway(const RoadLayout& road, double first, double last) {
     return plane;
 }
 
-void add_luminaires(Scene& scene, const RoadLayout& road) {
+void add_luminaires(Scene& scene, const RoadLayout& road, const std::vector<RoadLuminaire>& lamps, double factor, const LuminousOpening& opening) {
     scene.distributions.push_back(road.distribution);
     Light light{.name = road.distribution.name, .kind = Light::Kind::Measured};
-    light.intensity = static_cast<float>(road.flux_factor * road.maintenance_factor);
+    light.intensity = static_cast<float>(road.flux_factor * factor);
+    light.opening = opening;
     if (road.colour_temperature > 0) light.colour = glm::vec3(colour_of_temperature(road.colour_temperature));
     light.distribution = 0;
     scene.lights.push_back(light);
-    for (const RoadLuminaire& lamp : road_scene_luminaires(road)) {
+    for (const RoadLuminaire& lamp : lamps) {
         Node node{.name = "luminaire " + std::to_string(scene.nodes.size() + 1)};
         node.translation = glm::vec3(road_to_world(lamp.position));
         node.rotation = glm::quat(glm::normalize(glm::quat_cast(kToWorld * lamp.axes)));
@@ -57,19 +58,8 @@ void add_observers(Scene& scene, const RoadLayout& road) {
     }
 }
 
-}  // namespace
-
-glm::dvec3 road_to_world(glm::dvec3 point) { return kToWorld * point; }
-
-std::vector<RoadLuminaire> road_scene_luminaires(const RoadLayout& road) {
-    const double height = road_height(road);
-    return road_luminaires(road, road_observers(road)[0].eye.x - 5 * height, road.spacing + 12 * height);
-}
-
-Scene road_scene(const RoadLayout& road) {
-    check_road(road);
-    const double last = road.spacing + 12 * road_height(road), eye = road_observers(road)[0].eye.x;
-
+Scene bare_road(const RoadLayout& road, double last) {
+    const double eye = road_observers(road)[0].eye.x;
     Scene scene{.name = road.name};
     scene.reflection_tables.push_back(road.surface);
     Material material{.name = "road " + road.surface.name};
@@ -84,8 +74,33 @@ Scene road_scene(const RoadLayout& road) {
     Node surface{.name = "carriageway"};
     surface.mesh = 0;
     scene.nodes.push_back(surface);
-    add_luminaires(scene, road);
+    return scene;
+}
+
+}  // namespace
+
+glm::dvec3 road_to_world(glm::dvec3 point) { return kToWorld * point; }
+
+std::vector<RoadLuminaire> road_scene_luminaires(const RoadLayout& road) {
+    const double height = road_height(road);
+    return road_luminaires(road, road_observers(road)[0].eye.x - 5 * height, road.spacing + 12 * height);
+}
+
+Scene road_scene(const RoadLayout& road) {
+    check_road(road);
+    Scene scene = bare_road(road, road.spacing + 12 * road_height(road));
+    add_luminaires(scene, road, road_scene_luminaires(road), road.maintenance_factor, {});
     add_observers(scene, road);
+    return scene;
+}
+
+Scene road_glare_scene(const RoadLayout& road) {
+    check_road(road);
+    Scene scene = bare_road(road, road.spacing + kGlareRange);
+    LuminousOpening opening;
+    opening.length = 0.6, opening.width = 0.3;
+    const double first = road_observers(road)[0].eye.x - 5 * road_height(road);
+    add_luminaires(scene, road, road_luminaires(road, first, road.spacing + kGlareRange), 1, opening);
     return scene;
 }
 

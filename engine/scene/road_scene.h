@@ -17,7 +17,11 @@ glm::dvec3 road_to_world(glm::dvec3 point);
 /// along the road and 1 degree down. Black sky, no ambient light.
 Scene road_scene(const RoadLayout& road);
 
-/// The luminaires that this scene holds.
+/// The same when new, for TI: luminaires of initial intensity up to kGlareRange from the observers, each with an opening of
+/// 0.6 m x 0.3 m to be seen by (what dazzles is I / d^2, whatever the opening).
+Scene road_glare_scene(const RoadLayout& road);
+
+/// The luminaires that road_scene holds.
 std::vector<RoadLuminaire> road_scene_luminaires(const RoadLayout& road);
 
 }  // namespace vesper

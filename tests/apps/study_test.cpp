@@ -89,8 +89,8 @@ TEST_F(StudyProgram, MoreBinsComeNearerToTheFinest) {
     }
     for (const auto& [name, of_bins] : curve) {
         EXPECT_GT(of_bins.at(16), 0.1) << name;
-        for (int bins : {64, 100, 128, 200})  // whole votes jump as bins grow narrow
-            if (name.ends_with("shared")) EXPECT_LT(of_bins.at(bins), of_bins.at(16) + 0.5) << name << bins;
+        if (!name.ends_with("shared")) continue;  // whole votes jump as bins grow narrow
+        for (int bins : {64, 100, 128, 200}) EXPECT_LT(of_bins.at(bins), of_bins.at(16) + 0.5) << name << bins;
     }
     expect_page("out/bins.html");
 }

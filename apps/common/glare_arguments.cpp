@@ -1,0 +1,115 @@
+#include "glare_arguments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "tone_arguments.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kSourceContrast = 100;  // of the log average
+constexpr size_t kMostLamps = 10000;
+
+struct Named {
+    const char* name;
+    double GlareReport::*value;
+};
+constexpr Named kNames[]{{"veil", &GlareReport::veil},           {"road_veil", &GlareReport::road_veil},
+                         {"ti", &GlareReport::increment},        {"background", &GlareReport::background},
+                         {"glare_lux", &GlareReport::illuminance}, {"target", &GlareReport::target},
+                         {"around", &GlareReport::around},       {"target_veil", &GlareReport::target_veil},
+                         {"visibility", &GlareReport::visibility}};
+
+double luminance(glm::dvec3 rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
+}  // namespace
+
+void add_glare_options(CLI::App& command, GlareArguments& a) {
+    command.add_option("--lamps", a.lamps, "CSV file of lamps on other screens, to be scattered into this one with --glare cie or spencer: degrees to the right, degrees up, lx at the eye");
+    command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: reports how visible it is")->delimiter(',')->expected(4)->check(between(0.0, 1.0));
+}
+
+std::vector<OutsideLamp> read_lamps(const std::string& file) {
+    std::vector<OutsideLamp> lamps;
+    if (file.empty()) return lamps;
+    std::ifstream in(file);
+    if (!in) throw Error(file + ": cannot be read");
+    std::string line;
+    for (size_t number = 1; std::getline(in, line); ++number) {
+        const size_t start = line.find_first_not_of(" \t\r");
+        if (start == line.npos || line[start] == '#') continue;
+        if (lamps.empty() && std::isalpha(static_cast<unsigned char>(line[start]))) continue;
+        double values[3];
+        const char* at = line.c_str();
+        for (size_t i = 0; i < 3; ++i) {
+            char* end = nullptr;
+            values[i] = std::strtod(at, &end);
+            const size_t rest = std::string(end).find_first_not_of(" \t\r");
+            const bool last = rest == std::string::npos;
+            if (end == at || !std::isfinite(values[i]) || last != (i == 2) || (!last && end[rest] != ','))
+                throw Error(file + ": line " + std::to_string(number) + ": expected degrees to the right, degrees up, lx");
+            at = last ? end : end + rest + 1;
+        }
+        const auto [azimuth, elevation, lux] = values;
+        if (std::abs(azimuth) > 180 || std::abs(elevation) > 90 || lux < 0 || lux > 1e9)
+            throw Error(file + ": line " + std::to_string(number) + ": degrees of -180 to 180 and -90 to 90 and 0 to 1e9 lx are expected");
+        if (lamps.size() == kMostLamps) throw Error(file + ": more than " + std::to_string(kMostLamps) + " lamps");
+        const double a = azimuth / kDegrees, e = elevation / kDegrees;
+        lamps.push_back({{std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)}, glm::dvec3(lux)});
+    }
+    return lamps;
+}
+
+GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& settings, const ToneMapped& shown, const ImageAngles& image, const std::vector<OutsideLamp>& outside) {
+    std::vector<DazzlingLight> lights;
+    for (const OutsideLamp& lamp : outside) lights.push_back({lamp.direction, luminance(lamp.illuminance)});
+    GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze), .source_luminance = kSourceContrast * double(shown.curve.log_average)};
+    if (const auto& t = arguments.target; t.size() == 4) question.target = MarkedTarget{{t[0], t[1]}, {t[2], t[3]}};
+    return report_glare(image, shown.scene, lights, question);
+}
+
+Header describe_glare(const ToneChainSettings& settings, const GlareReport& report) {
+    const ScatterSettings& s = settings.scatter;
+    const bool cie = s.model == ScatterSettings::Model::Cie;
+    Header header{{"vesper:glare", settings.glare == Glare::None ? "none" : settings.glare == Glare::Ldr ? "ldr" : cie ? "cie" : "spencer"},
+                  {"vesper:glare:age", digits(s.eye.age)},
+                  {"vesper:glare:iris", digits(s.eye.pigmentation)}};
+    for (const Named& n : kNames) header.emplace_back(std::string("vesper:glare:") + n.name, digits(report.*n.value));
+    return header;
+}
+
+std::string glare_columns() {
+    std::string text;
+    for (const Named& n : kNames) text += std::string(",") + n.name;
+    return text;
+}
+
+std::string glare_values(const GlareReport& report) {
+    std::string text;
+    for (const Named& n : kNames) text += format(",%.9g", report.*n.value);
+    return text;
+}
+
+std::string glare_sources_heading() { return "frame,lamp,azimuth,elevation,distance,candela,lux,veil,inside\n"; }
+
+std::string glare_sources_lines(unsigned frame, const Scene& scene, std::vector<GlareSource> sources, const ScatteringEye& eye) {
+    std::stable_sort(sources.begin(), sources.end(), [](const GlareSource& a, const GlareSource& b) { return luminance(a.illuminance) > luminance(b.illuminance); });
+    std::string text;
+    for (const GlareSource& s : sources) {
+        const double cosine = -s.direction.z, theta = std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees, lux = luminance(s.illuminance);
+        std::string name = scene.nodes[s.node].name;
+        std::replace_if(name.begin(), name.end(), [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }, ' ');
+        text += format("%u,%s,%.4f,%.4f,%.3f,%.6g,%.6g,%.6g,%.3f\n", frame, name.c_str(), std::atan2(s.direction.x, -s.direction.z) * kDegrees, std::asin(s.direction.y) * kDegrees,
+                       s.distance, s.candela, lux, lux * cosine * cie_general_glare(std::max(theta, 0.1), eye), s.inside);
+    }
+    return text;
+}
+
+}  // namespace vesper

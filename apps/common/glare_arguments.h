@@ -1,0 +1,39 @@
+// Glare: lamps that no picture shows, and what glare hides, in numbers. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "io/image_file.h"
+#include "perception/glare_report.h"
+#include "resident/eye_scatter.h"
+#include "resident/sources.h"
+#include "scene/scene.h"
+#include "tone_chain.h"
+
+namespace vesper {
+
+struct GlareArguments {
+    std::string lamps;           ///< file of lamps elsewhere
+    std::vector<double> target;  ///< x, y, width, height
+};
+void add_glare_options(CLI::App&, GlareArguments&);
+
+/// Lamps on other screens, one a line: azimuth to the right, elevation, degrees from the middle of the view, lx at the eye, on a
+/// plane facing the lamp. Empty lines, lines of # and a heading of words are passed by. Throws Error, naming file and line.
+std::vector<OutsideLamp> read_lamps(const std::string& file);
+
+/// What glare hides in a frame, whose `scene` was brought back: a pixel of more than 100 times the log average is a source.
+GlareReport glare_of(const GlareArguments&, const ToneChainSettings&, const ToneMapped&, const ImageAngles&, const std::vector<OutsideLamp>& outside);
+Header describe_glare(const ToneChainSettings&, const GlareReport&);
+/// Columns of a log, with a leading comma, and their values.
+std::string glare_columns();
+std::string glare_values(const GlareReport&);
+
+/// The lamps before the eye, brightest first, as a CSV file for hardware that dazzles.
+std::string glare_sources_heading();
+std::string glare_sources_lines(unsigned frame, const Scene&, std::vector<GlareSource>, const ScatteringEye&);
+
+}  // namespace vesper

@@ -1,0 +1,60 @@
+#include "passes/passes.h"
+#include "shared/scatter.h"
+
+namespace vesper {
+namespace {
+
+Groups cover_blocks(VkExtent2D size, const Kernel& kernel, VkExtent2D block) {
+    return cover(size.width, size.height, kernel.group[0] * block.width, kernel.group[1] * block.height);
+}
+
+VkExtent2D with_margin(VkExtent2D size, uint32_t margin) { return {size.width + 2 * margin, size.height + 2 * margin}; }
+
+}  // namespace
+
+Resource add_scatter(FrameGraph& graph, const Kernels& kernels, Resource scene, const ResidentScatter& fit, const std::vector<OutsideLamp>& lamps) {
+    using namespace shared;
+    const int top = fit.levels();
+    const auto texels = [&](const char* name, ResidentScatter::Texels t, VkFormat format) { return graph.external(name, t.buffer, t.bytes, format); };
+    const auto at_least_one = [](std::vector<glm::vec4> list) { return list.empty() ? std::vector{glm::vec4(0)} : list; };
+    const Resource taps = texels("scatter taps", fit.taps(), VK_FORMAT_R32G32B32A32_SFLOAT);
+
+    std::vector<Resource> levels{scene};
+    std::vector<VkExtent2D> sizes{{uint32_t(fit.image().width), uint32_t(fit.image().height)}};
+    for (int l = 1; l <= top; ++l) {
+        const VkExtent2D below = sizes.back(), size{(below.width + 1) / 2, (below.height + 1) / 2};
+        const VkExtent2D from = l == 1 ? below : with_margin(below, kScatterUpMargin), to = with_margin(size, kScatterUpMargin);
+        const std::string name = "scatter up " + std::to_string(l);
+        const std::vector<glm::vec4> outside = fit.lamps_of(l, lamps);
+        const Resource list = graph.upload(name + " lamps", at_least_one(outside), VK_FORMAT_R32G32B32A32_SFLOAT);
+        const Resource image = graph.transient(name, image_shape(kSceneFormat, to));
+        const Kernel& kernel = l == 1 ? kernels.scatter_up_first : kernels.scatter_up;
+        graph.dispatch(name, kernel, {load(levels.back()), sample(list), store(image)},
+                       ScatterUpPush{{from.width, from.height}, {to.width, to.height}, uint32_t(outside.size() / 2)},
+                       cover_blocks(to, kernel, kernels.scatter_up_block));
+        levels.push_back(image);
+        sizes.push_back(size);
+    }
+
+    const VkExtent2D takes = with_margin(sizes.back(), kScatterDownMargin);
+    Resource seen = graph.transient("scatter top", image_shape(kSceneFormat, takes));
+    const Resource weights = texels("scatter weights", fit.top(), VK_FORMAT_R32_SFLOAT);
+    const Resource veil = graph.upload("veil of far lamps", fit.far_veil(lamps), VK_FORMAT_R32G32B32A32_SFLOAT);
+    graph.dispatch("scatter top", kernels.scatter_top, {load(levels.back()), sample(weights), sample(veil), store(seen)},
+                   ScatterTopPush{{sizes.back().width, sizes.back().height}}, cover(takes.width * takes.height, 1, kernels.scatter_top.group[0], 1));
+
+    for (int l = top - 1; l >= 0; --l) {
+        const VkExtent2D size = l == 0 ? sizes[0] : with_margin(sizes[size_t(l)], kScatterDownMargin);
+        const std::string name = "scatter down " + std::to_string(l);
+        const Resource image = graph.transient(name, image_shape(kSceneFormat, size));
+        const Kernel& kernel = l == 0 ? kernels.scatter_down_last : kernels.scatter_down;
+        const glm::vec2 scale = glm::vec2(fit.nodes() - 1) * float(1 << l) / glm::vec2(fit.image().width, fit.image().height);
+        graph.dispatch(name, kernel, {load(levels[size_t(l)]), load(seen), sample(taps), store(image)},
+                       ScatterDownPush{{size.width, size.height}, glm::uvec2(fit.nodes()), fit.node_texels(), ResidentScatter::first_texel(l), scale},
+                       cover_blocks(size, kernel, kernels.scatter_down_block));
+        seen = image;
+    }
+    return seen;
+}
+
+}  // namespace vesper

@@ -1,0 +1,61 @@
+// Light scattered in the eye: published point spread functions. SPDX-License-Identifier: MIT
+// Angles theta in degrees from the source, ages in years, values in sr^-1: cd/m^2 of veil per lx at the eye.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace vesper {
+
+/// Whose eye scatters. Pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue (CIE 135/1-6, 1999).
+struct ScatteringEye {
+    double age = 35;
+    double pigmentation = 0.5;
+    bool operator==(const ScatteringEye&) const = default;
+};
+
+/// CIE total glare function (Vos and van den Berg, CIE 135/1, 1999): all angles up to 90 degrees, the core included.
+double cie_total_glare(double theta, const ScatteringEye& = {});
+/// CIE general disability glare equation (CIE 146:2002): 0.1 to 100 degrees.
+double cie_general_glare(double theta, const ScatteringEye& = {});
+/// CIE small angle equation (the same): 0.1 to 30 degrees.
+double cie_small_angle_glare(double theta, double age = 35);
+/// CIE age-adjusted Stiles-Holladay equation (the same): 1 to 30 degrees.
+double cie_age_adjusted_glare(double theta, double age = 35);
+
+/// The parts of Spencer, Shirley, Zimmerman and Greenberg 1995, each of which integrates to 1 over the hemisphere.
+double spencer_core(double theta);      ///< f0: what is not scattered
+double spencer_corona(double theta);    ///< f1: the ciliary corona, seen as needles
+double spencer_bloom(double theta);     ///< f2
+double spencer_halo(double theta, double nanometres = 568);  ///< f3: lenticular halo, a ring at 3 degrees times nm / 568
+
+/// What the eye is adapted to: its pupil decides how much light passes the fibres at the edge of the lens.
+enum class SpencerState : unsigned char { Photopic, Mesopic, Scotopic };
+struct SpencerWeights {
+    double core, corona, bloom, halo;
+};
+SpencerWeights spencer_weights(SpencerState);
+/// The sum of the weighted parts.
+double spencer_glare(double theta, SpencerState, double nanometres = 568);
+
+/// A point spread function about its axis, scaled so that it integrates to 1 over the hemisphere: it moves light, and makes none.
+class EyeScatter {
+public:
+    /// `psf` in sr^-1 of theta in degrees, positive, without features narrower than a sixteenth of their angle.
+    explicit EyeScatter(std::function<double(double)> psf);
+
+    /// sr^-1.
+    double operator()(double theta) const { return scale_ * psf_(theta); }
+    /// Part of the light within `theta` of the source.
+    double within(double theta) const { return scale_ * integral(theta); }
+    /// What the function as given integrates to.
+    double total() const { return 1 / scale_; }
+
+private:
+    double integral(double theta) const;
+    std::function<double(double)> psf_;
+    std::vector<double> angles_, sums_;  // sums_[i]: the integral up to angles_[i]
+    double scale_ = 1;
+};
+
+}  // namespace vesper

@@ -1,0 +1,112 @@
+#include "perception/glare_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "perception/visibility.h"
+#include "photometry/road.h"
+
+namespace vesper {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kBackground = 10;  // deg about the line of sight
+constexpr double kLooked = 0.1;     // deg: nearer is not beside the line of sight
+
+// E cos(theta) f(theta), summed.
+struct Veils {
+    double illuminance = 0, general = 0, road = 0;
+};
+
+Veils veils_of(const std::vector<DazzlingLight>& lights, dvec3 sight, const ScatteringEye& eye) {
+    Veils sum;
+    for (const DazzlingLight& light : lights) {
+        const double cosine = std::min(glm::dot(light.direction, sight), 1.0), theta = std::acos(cosine) * kDegrees;
+        if (cosine <= 0) continue;
+        const double e = light.illuminance * cosine;
+        sum.illuminance += e;
+        if (theta < kLooked) continue;
+        sum.general += e * cie_general_glare(theta, eye);
+        sum.road += e * road_glare(theta, eye.age);
+    }
+    return sum;
+}
+
+class Pixels {
+public:
+    Pixels(const ImageAngles& image, std::span<const float> rgba) : image_(image), rgba_(rgba), pixel_(image.pixel()) {}
+    double luminance(int x, int y) const {
+        const float* p = &rgba_[4 * (size_t(y) * size_t(image_.width) + size_t(x))];
+        const double value = 0.2126 * double(p[0]) + 0.7152 * double(p[1]) + 0.0722 * double(p[2]);
+        return std::isfinite(value) ? value : 0;
+    }
+    /// From the eye; z is -1.
+    dvec3 towards(int x, int y) const { return {image_.at(dvec2(x, y) + 0.5), -1}; }
+    double solid_angle(dvec3 towards) const {
+        const double square = glm::dot(towards, towards);
+        return pixel_.x * pixel_.y / (square * std::sqrt(square));
+    }
+
+private:
+    const ImageAngles& image_;
+    std::span<const float> rgba_;
+    dvec2 pixel_;
+};
+
+struct Mean {
+    double sum = 0, weight = 0;
+    void add(double value, double w) { sum += w * value, weight += w; }
+    double value() const { return weight > 0 ? sum / weight : 0; }
+};
+
+void report_target(const ImageAngles& image, const Pixels& pixels, const std::vector<DazzlingLight>& lights, const GlareQuestion& question, GlareReport& report) {
+    const dvec2 extent(image.width, image.height);
+    const dvec2 low = question.target->corner * extent, high = low + question.target->size * extent, border = high - low;
+    Mean target, around;
+    for (int y = int(std::max(0.0, low.y - border.y)); y < std::min(extent.y, high.y + border.y); ++y)
+        for (int x = int(std::max(0.0, low.x - border.x)); x < std::min(extent.x, high.x + border.x); ++x) {
+            const bool within = x + 0.5 >= low.x && x + 0.5 < high.x && y + 0.5 >= low.y && y + 0.5 < high.y;
+            const double value = pixels.luminance(x, y);
+            if (within || value <= question.source_luminance) (within ? target : around).add(value, 1);
+        }
+    const dvec2 middle = image.at(0.5 * (low + high));
+    report.target = target.value();
+    report.around = around.value();
+    report.target_veil = veils_of(lights, glm::normalize(dvec3(middle, -1)), question.eye).general;
+    const dvec2 span = border * image.pixel();
+    const double steradians = span.x * span.y / std::pow(1 + glm::dot(middle, middle), 1.5);
+    Target seen{.age = question.eye.age};
+    seen.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegrees * 60;  // of a disc as large
+    if (report.around + report.target_veil > 0) report.visibility = visibility_level(report.target + report.target_veil, report.around + report.target_veil, seen);
+}
+
+}  // namespace
+
+GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, std::span<const DazzlingLight> outside, const GlareQuestion& question) {
+    const Pixels pixels(image, rgba);
+    const dvec3 sight = glm::normalize(dvec3(image.at(question.gaze * dvec2(image.width, image.height)), -1));
+    const double wide = std::cos(kBackground / kDegrees);
+    std::vector<DazzlingLight> lights(outside.begin(), outside.end());
+    Mean background;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const double value = pixels.luminance(x, y);
+            const dvec3 towards = pixels.towards(x, y);
+            if (value > question.source_luminance)
+                lights.push_back({glm::normalize(towards), value * pixels.solid_angle(towards)});
+            else if (glm::dot(towards, sight) > wide * glm::length(towards))
+                background.add(value, pixels.solid_angle(towards));
+        }
+    const Veils veils = veils_of(lights, sight, question.eye);
+    GlareReport report{.background = background.value(), .illuminance = veils.illuminance, .veil = veils.general, .road_veil = veils.road};
+    const double average = question.average_luminance.value_or(report.background);
+    report.increment = average > 0 ? threshold_increment(veils.road, average) : 0;
+    if (question.target) report_target(image, pixels, lights, question, report);
+    return report;
+}
+
+}  // namespace vesper

@@ -1,0 +1,127 @@
+#include "resident/eye_scatter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "resident/resident_scene.h"
+#include "shared/scatter.h"
+
+namespace vesper {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+
+static_assert(kScatterMargin == int(shared::kScatterUpMargin) && kScatterReach == int(shared::kScatterDownMargin));
+static_assert(kFineTaps <= int(4 * shared::kScatterFineTexels) && kCoarseTaps <= int(4 * shared::kScatterCoarseTexels));
+
+// Texels outside the picture that a lamp may be for its light to go wholly into the margin of a level. One level lower it
+// has then no say in the picture.
+constexpr double kOutside = 5;
+
+// Taps of all levels, each in texels of its own.
+std::vector<glm::vec4> padded_taps(const ScatterFit& fit) {
+    std::vector<float> padded;
+    for (size_t node = 0; node < size_t(fit.nodes.x * fit.nodes.y); ++node)
+        for (int l = 0; l < fit.levels; ++l) {
+            const float* taps = &fit.kernels[node * size_t(fit.taps()) + size_t(first_scatter_tap(l))];
+            padded.insert(padded.end(), taps, taps + scatter_taps(l));
+            padded.resize(padded.size() + 4 * (l == 0 ? shared::kScatterFineTexels : shared::kScatterCoarseTexels) - size_t(scatter_taps(l)));
+        }
+    std::vector<glm::vec4> texels;
+    for (size_t i = 0; i < padded.size(); i += 4) texels.emplace_back(padded[i], padded[i + 1], padded[i + 2], padded[i + 3]);
+    return texels;
+}
+
+std::vector<float> transposed(const std::vector<float>& matrix, size_t rows) {
+    const size_t columns = matrix.size() / rows;
+    std::vector<float> turned(matrix.size());
+    for (size_t r = 0; r < rows; ++r)
+        for (size_t c = 0; c < columns; ++c) turned[c * rows + r] = matrix[r * columns + c];
+    return turned;
+}
+
+}  // namespace
+
+EyeScatter eye_scatter(const ScatterSettings& settings) {
+    if (settings.model == ScatterSettings::Model::Cie) return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
+    return EyeScatter([w = spencer_weights(settings.state)](double theta) {
+        return w.core * spencer_core(theta) + w.corona * spencer_corona(theta) + w.bloom * spencer_bloom(theta);
+    });
+}
+
+ImageAngles angles_of(const View& view) {
+    return {int(view.extent.width), int(view.extent.height), dvec2(view.tangent_low), dvec2(view.tangent_high)};
+}
+
+ResidentScatter::ResidentScatter(const Device& device, const ScatterSettings& settings, const ImageAngles& image)
+    : settings_(settings), image_(image), psf_(eye_scatter(settings)), arena_(device) {
+    const ScatterFit fit = fit_scatter(psf_, image);
+    levels_ = fit.levels;
+    nodes_ = fit.nodes;
+    const auto upload = [&](const auto& values, OwnedBuffer& buffer) {
+        const auto bytes = std::as_bytes(std::span(values));
+        buffer = upload_buffer(device, arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+        return Texels{buffer.get(), bytes.size()};
+    };
+    taps_texels_ = upload(padded_taps(fit), taps_);
+    top_texels_ = upload(transposed(fit.top, size_t(fit.top_rows().x * fit.top_rows().y)), top_);
+}
+
+uint32_t ResidentScatter::first_texel(int level) {
+    return level == 0 ? 0 : shared::kScatterFineTexels + shared::kScatterCoarseTexels * uint32_t(level - 1);
+}
+uint32_t ResidentScatter::node_texels() const { return first_texel(levels_); }
+
+std::optional<ResidentScatter::Entry> ResidentScatter::entry_of(const OutsideLamp& lamp) const {
+    if (!(lamp.direction.z < 0)) return {};
+    const dvec2 tangents = dvec2(lamp.direction) / -lamp.direction.z, pixels = image_.pixels_at(tangents);
+    const dvec2 beyond = glm::max(-pixels, pixels - dvec2(image_.width, image_.height));
+    for (int level = 1; level <= levels_; ++level)
+        if (std::max(beyond.x, beyond.y) <= kOutside * std::exp2(level)) return Entry{level, pixels, tangents};
+    return {};
+}
+
+std::vector<glm::vec4> ResidentScatter::lamps_of(int level, const std::vector<OutsideLamp>& lamps) const {
+    std::vector<glm::vec4> texels;
+    for (const OutsideLamp& lamp : lamps) {
+        const std::optional<Entry> entry = entry_of(lamp);
+        if (!entry || entry->level != level) continue;
+        // Luminance of a pixel there, times the part of a texel that the pixel is.
+        const dvec2 pixel = image_.pixel();
+        const double solid_angle = pixel.x * pixel.y / std::pow(1 + glm::dot(entry->tangents, entry->tangents), 1.5);
+        texels.emplace_back(entry->pixels / std::exp2(level), 0, 0);
+        texels.emplace_back(lamp.illuminance / (solid_angle * std::exp2(2 * level)), 0);
+    }
+    return texels;
+}
+
+std::vector<glm::vec4> ResidentScatter::far_veil(const std::vector<OutsideLamp>& lamps) const {
+    std::vector<OutsideLamp> far;
+    for (const OutsideLamp& lamp : lamps)
+        if (lamp.direction.z < 0 && !entry_of(lamp)) far.push_back({glm::normalize(lamp.direction), lamp.illuminance});
+    const glm::ivec2 rows = scatter_size(image_, levels_) + 2 * kScatterReach;
+    std::vector<glm::vec4> veil(size_t(rows.x * rows.y), glm::vec4(0));
+    for (int y = 0; y < rows.y && !far.empty(); ++y)
+        for (int x = 0; x < rows.x; ++x) {
+            const dvec3 to = glm::normalize(dvec3(image_.at(std::exp2(levels_) * (dvec2(x, y) - double(kScatterReach) + 0.5)), -1));
+            dvec3 sum(0);
+            for (const OutsideLamp& lamp : far) {
+                const double theta = std::acos(std::clamp(glm::dot(to, lamp.direction), -1.0, 1.0)) * 180 / std::numbers::pi;
+                sum += psf_(theta) * lamp.illuminance;
+            }
+            veil[size_t(y * rows.x + x)] = glm::vec4(sum, 0);
+        }
+    return veil;
+}
+
+const ResidentScatter& ScatterCache::at(const ScatterSettings& settings, const View& view) {
+    const ImageAngles image = angles_of(view);
+    if (!fit_ || !(fit_->settings() == settings) || !(fit_->image() == image)) {
+        fit_.reset();  // before the next one takes its memory
+        fit_.emplace(*device_, settings, image);
+    }
+    return *fit_;
+}
+
+}  // namespace vesper

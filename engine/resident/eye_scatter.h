@@ -1,0 +1,83 @@
+// Light scattered in the eye, fitted to a view and kept on the device. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "gpu/memory.h"
+#include "perception/scatter_fit.h"
+#include "resident/view.h"
+
+namespace vesper {
+
+/// Which published function scatters, and in whose eye.
+struct ScatterSettings {
+    enum class Model : uint8_t { Cie, Spencer };
+    Model model = Model::Cie;
+    ScatteringEye eye;                             ///< CIE
+    SpencerState state = SpencerState::Photopic;   ///< Spencer; without its halo and needles
+    bool operator==(const ScatterSettings&) const = default;
+};
+
+EyeScatter eye_scatter(const ScatterSettings&);
+ImageAngles angles_of(const View&);
+
+/// Light of a lamp outside of the picture, which is not in its pixels. It scatters nothing from behind the plane of the eye.
+struct OutsideLamp {
+    glm::dvec3 direction{0, 0, -1};  ///< from the eye, view frame
+    glm::dvec3 illuminance{0};       ///< RGB lx, on a plane at the eye that faces the lamp
+};
+
+/// The fit of one function to one view, on the device.
+class ResidentScatter {
+public:
+    ResidentScatter(const Device&, const ScatterSettings&, const ImageAngles&);
+
+    /// A buffer of texels.
+    struct Texels {
+        VkBuffer buffer;
+        uint64_t bytes;
+    };
+    const ScatterSettings& settings() const { return settings_; }
+    const ImageAngles& image() const { return image_; }
+    int levels() const { return levels_; }
+    glm::ivec2 nodes() const { return nodes_; }
+    uint32_t node_texels() const;                ///< of the taps of one node
+    static uint32_t first_texel(int level);      ///< of a level's taps among them
+    Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node
+    Texels top() const { return top_texels_; }    ///< r32f, for each texel that gives those that take
+
+    /// Lamps whose light begins at a level, two texels each (shared/scatter.h).
+    std::vector<glm::vec4> lamps_of(int level, const std::vector<OutsideLamp>&) const;
+    /// Veiling luminance of the lamps that are too far outside for that, cd/m^2 RGB, for each texel of the top that takes.
+    std::vector<glm::vec4> far_veil(const std::vector<OutsideLamp>&) const;
+
+private:
+    /// Where a lamp's light begins, 1 .. levels, and its place, px; nothing where it is far or behind the eye.
+    struct Entry {
+        int level;
+        glm::dvec2 pixels, tangents;
+    };
+    std::optional<Entry> entry_of(const OutsideLamp&) const;
+
+    ScatterSettings settings_;
+    ImageAngles image_;
+    EyeScatter psf_;
+    int levels_ = 1;
+    glm::ivec2 nodes_{2};
+    Arena arena_;
+    OwnedBuffer taps_, top_;
+    Texels taps_texels_{}, top_texels_{};
+};
+
+/// Keeps the fit of the last view, since most frames have the same.
+class ScatterCache {
+public:
+    explicit ScatterCache(const Device& device) : device_(&device) {}
+    const ResidentScatter& at(const ScatterSettings&, const View&);
+
+private:
+    const Device* device_;
+    std::optional<ResidentScatter> fit_;
+};
+
+}  // namespace vesper

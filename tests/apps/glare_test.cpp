@@ -1,0 +1,128 @@
+// Glare as people run it: lamps beside a picture, what is reported, what is refused. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "io/hdr_image.h"
+#include "perception/glare.h"
+#include "support/exr_files.h"
+#include "support/program.h"
+
+namespace vesper::test {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+class GlareProgram : public ProgramTest {
+protected:
+    void write(const std::string& name, const std::string& text) { std::ofstream(folder / name) << text; }
+    std::string header(const std::string& name, const std::string& key) {
+        for (const auto& [k, value] : read_exr(folder / name).header)
+            if (k == key) return value;
+        return "none";
+    }
+    /// A value of a CSV file, by column and line; the first line is the heading.
+    std::string cell(const std::string& name, const std::string& column, size_t line) {
+        std::istringstream lines(read_text(folder / name));
+        std::vector<std::vector<std::string>> rows;
+        for (std::string text; std::getline(lines, text);) {
+            rows.emplace_back();
+            std::istringstream row(text);
+            for (std::string value; std::getline(row, value, ',');) rows.back().push_back(value);
+        }
+        for (size_t i = 0; line < rows.size() && i < rows[0].size(); ++i)
+            if (rows[0][i] == column) return rows[line].at(i);
+        return "none";
+    }
+    /// A lamp of 20 cd, ten metres ahead and `aside` metres to the right.
+    void write_lamp(double aside) {
+        write("lamp.gltf", R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],)"
+                           R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":20}]}},)"
+                           R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],)"
+                           R"("nodes":[{"name":"eye","camera":0},{"name":"lamp, old","translation":[)" + std::to_string(aside) +
+                               R"(,0,-10],"extensions":{"KHR_lights_punctual":{"light":0}}}],)"
+                               R"("extras":{"vesper":{"version":1,"openings":[{"light":0,"width_m":0.1,"height_m":0.1}]}}})");
+    }
+};
+
+// A black picture and a lamp 10 degrees beside its middle: what is shown is the veil.
+TEST_F(GlareProgram, ALampElsewhereVeilsABlackPicture) {
+    write_layout(folder / "black.exr", {64, 40, std::vector<float>(size_t{3} * 64 * 40, 0), 0, {}}, {});
+    write("lamps.csv", "azimuth,elevation,lux\n# beside and below\n10, 0, 5\n0,-40,1\r\n\n");
+    ASSERT_EQ(run("tonemap black.exr --fov 8 --glare cie --age 60 --iris 1 --lamps lamps.csv --operator linear --linear-max 10 --display-peak 100 --display-black 0.001 -o out.exr"), 0) << said;
+    const HdrImage shown = read_hdr_image(folder / "out.exr");
+    const EyeScatter psf([](double theta) { return cie_total_glare(theta, {60, 1}); });
+    for (const int column : {3, 32, 60}) {
+        const double x = (column + 0.5 - 32) / 20 * std::tan(4 / kDegrees), y = (20.5 - 20) / 20 * std::tan(4 / kDegrees);
+        const double theta = std::acos((x * std::sin(10 / kDegrees) + std::cos(10 / kDegrees)) / std::sqrt(1 + x * x + y * y)) * kDegrees;
+        const double other = std::acos((y * std::sin(40 / kDegrees) + std::cos(40 / kDegrees)) / std::sqrt(1 + x * x + y * y)) * kDegrees;
+        const double veil = 5 * psf(theta) + psf(other);
+        // 7 %: the pyramid's own error; most of it is less.
+        EXPECT_NEAR(shown.rgb[size_t(3 * (20 * 64 + column))] / (0.001 + 99.999 * veil / 10), 1, 0.07) << column;
+    }
+    EXPECT_EQ(header("out.exr", "vesper:glare"), "cie");
+    EXPECT_EQ(header("out.exr", "vesper:glare:age"), "60");
+    const double e = 5 * std::cos(10 / kDegrees), below = std::cos(40 / kDegrees);
+    EXPECT_NEAR(std::stod(header("out.exr", "vesper:glare:veil")), e * cie_general_glare(10, {60, 1}) + below * cie_general_glare(40, {60, 1}), 1e-6);
+}
+
+TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {
+    for (const double aside : {0.5, 12.0}) {
+        write_lamp(aside);
+        ASSERT_EQ(run("render lamp.gltf --size 80x50 --glare cie --log log.csv --glare-sources lamps.csv --target 0.45,0.4,0.1,0.2 -o a.exr -o a.png"), 0) << said;
+        const double square = 100 + aside * aside;
+        EXPECT_EQ(cell("lamps.csv", "lamp", 1), "lamp  old") << "no comma of its own";
+        EXPECT_NEAR(std::stod(cell("lamps.csv", "candela", 1)), 20, 1e-4);
+        EXPECT_NEAR(std::stod(cell("lamps.csv", "lux", 1)), 20 / square, 1e-4 * 20 / square);
+        EXPECT_NEAR(std::stod(cell("lamps.csv", "azimuth", 1)), std::atan(aside / 10) * kDegrees, 1e-3);
+        EXPECT_EQ(cell("lamps.csv", "inside", 1), aside < 1 ? "1.000" : "0.000");
+        // Seen or not, the veil is that of the lamp.
+        const double theta = std::atan(aside / 10) * kDegrees, want = 20 / square * std::cos(theta / kDegrees) * cie_general_glare(theta, {23, 0.5});
+        // 5 %: a pixel is 0.57 degrees, and the light is taken to come from its middle.
+        EXPECT_NEAR(std::stod(cell("log.csv", "veil", 1)) / want, 1, 0.05) << aside;
+        EXPECT_EQ(header("a.exr", "vesper:glare:veil").substr(0, 6), cell("log.csv", "veil", 1).substr(0, 6));
+        EXPECT_NE(cell("log.csv", "visibility", 1), "none");
+    }
+}
+
+TEST_F(GlareProgram, EveryModelRuns) {
+    write_lamp(0.3);
+    for (const char* glare : {"none", "ldr", "cie", "spencer", "spencer --pupil scotopic", "cie --age 70 --iris 0"})
+        EXPECT_EQ(run("render lamp.gltf --size 33x21 -o a.png --glare " + std::string(glare)), 0) << said;
+    ASSERT_EQ(run("render lamp.gltf --size 33x21 --plan --glare cie"), 0) << said;
+    for (const char* pass : {"scatter up 1", "scatter top", "scatter down 0"}) EXPECT_NE(printed.find(pass), std::string::npos) << pass;
+}
+
+TEST_F(GlareProgram, RefusesInOneLine) {
+    write_lamp(0);
+    write("words.csv", "1,2,bright\n");
+    write("two.csv", "0,0,1\n5,5\n");
+    write("four.csv", "0,0,1,2\n");
+    write("far.csv", "0,95,1\n");
+    write("dark.csv", "0,5,-1\n");
+    expect_refused("render lamp.gltf -o a.png --glare cie --operator ldr", {"ldr"});
+    for (const char* name : {"words.csv", "four.csv", "far.csv", "dark.csv"}) expect_refused("render lamp.gltf -o a.png --glare cie --lamps " + std::string(name), {name, "line 1"});
+    expect_refused("render lamp.gltf -o a.png --glare cie --lamps two.csv", {"two.csv", "line 2"});
+    expect_refused("render lamp.gltf -o a.png --lamps none.csv", {"none.csv"});
+    expect_refused("render lamp.gltf --log two.csv --lamps two.csv", {"two.csv"});
+}
+
+// The worked road example: TI of 15.0 % (lane 2, R3), calculated and off a picture.
+TEST_F(GlareProgram, ThresholdIncrementOfTheRoadIsThatOfItsPicture) {
+    ASSERT_EQ(run("road '" VESPER_SOURCE_DIR "/data/road/worked-example.json' --render a.png --json a.json"), 0) << said;
+    const auto json = nlohmann::json::parse(read_text(folder / "a.json"));
+    double worst = 0, seen = 0;
+    for (const auto& observer : json["observers"]) {
+        const double calculated = observer["threshold_increment_percent"], rendered = observer["rendered"]["threshold_increment_percent"];
+        EXPECT_NEAR(rendered, calculated, 1);
+        worst = std::max(worst, calculated), seen = std::max(seen, rendered);
+    }
+    EXPECT_NEAR(worst, 15, 0.2);
+    EXPECT_NEAR(seen, 15, 1);
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -5,7 +5,7 @@
 
 // Adds up the lamps whose illuminance is smooth over a block of pixels (shared/gather.h), one block per invocation, leaves the
 // others on the block's list, and puts the block in its class. Smooth is what the polynomial through 3 x 3 nodes
-// meets, within the tolerance, at four points between them.
+// meets, within the tolerance, at four pixels between them.
 
 #include "normal.glsl"
 #include "shared/gather.h"
@@ -32,12 +32,15 @@ layout(push_constant, scalar) uniform Push { GatherPush push; };
 #include "road.glsl"
 
 const uint kNodes = 9u, kPoints = 13u;             // nodes, then the points between
+const float kBetween = 5.0 / 7.0;                  // of the way from the middle to an outer node: the next pixel
 const float kHalf = 0.5 * float(kBlockSize - 1u);  // px, from the middle of a block to its outer nodes
 const float kWidestCone = 0.35;                    // rad
 const float kMostTilt = 3e-4, kMostLift = 2e-4;    // of a plane's pixels: rad; and of their distance from the eye
 
 bool drawn, paved, glossy, retro;  // whether anything, some road, some specular lobe, some sheet is drawn
-bool plane;                        // whether all of it is one plane of one kind that lamps can be added up on
+bool plane;                        // whether all of it is one plane of one kind that lamps can be added up on;
+float tilt, lift;                  // how far its pixels are off that, rad and m
+uint slices;                       // that its pixels are in, a bit for each
 vec3 normal;
 vec3 points[kPoints];              // m
 Road roads[kPoints];
@@ -47,7 +50,7 @@ vec3 sum[kNodes];                  // see shared/gather.h
 // Where a node or point is, from -1 to 1 between the outer nodes.
 vec2 unit_of(uint k) {
     if (k < kNodes) return vec2(float(k % 3u), float(k / 3u)) - 1.0;
-    return vec2(float((k - kNodes) % 2u), float((k - kNodes) / 2u)) - 0.5;
+    return (vec2(float((k - kNodes) % 2u), float((k - kNodes) / 2u)) - 0.5) * (2.0 * kBetween);
 }
 
 vec3 ray_of(vec2 pixel) { return vec3(push.view.grid.ray_scale * (pixel + 0.5) + push.view.grid.ray_offset, -1.0); }
@@ -55,7 +58,7 @@ vec3 ray_of(vec2 pixel) { return vec3(push.view.grid.ray_scale * (pixel + 0.5) +
 void look_at_block(uvec2 corner) {
     const uvec2 end = min(corner + kBlockSize, push.size);
     float kind = 0.0, away = 0.0;
-    drawn = false, paved = false, glossy = false, retro = false, plane = true;
+    drawn = false, paved = false, glossy = false, retro = false, plane = true, tilt = 0.0, lift = 0.0, slices = 0u;
     for (uint y = corner.y; y < end.y; ++y)
         for (uint x = corner.x; x < end.x; ++x) {
             const vec4 surface = imageLoad(surface_image, ivec2(x, y));
@@ -70,9 +73,12 @@ void look_at_block(uvec2 corner) {
             normal = first ? n : normal;
             away = first ? dot(n, position) : away;
             kind = first ? metallic : kind;
-            const vec3 tilt = n - normal;
-            plane = plane && (!here || (metallic == kind && dot(tilt, tilt) <= kMostTilt * kMostTilt &&
-                                        abs(dot(normal, position) - away) <= kMostLift * surface.z));
+            const float tilted = distance(n, normal), lifted = abs(dot(normal, position) - away);
+            plane = plane && (!here || (metallic == kind && tilted <= kMostTilt && lifted <= kMostLift * surface.z));
+            tilt = here ? max(tilt, tilted) : tilt;
+            lift = here ? max(lift, lifted) : lift;
+            const float slice = log2(here ? surface.z : 1.0) * push.view.grid.slice_scale + push.view.grid.slice_bias;
+            slices |= here ? 1u << uint(clamp(slice, 0.0, float(push.view.grid.slices) - 1.0)) : 0u;
         }
     plane = plane && drawn && !glossy && !retro;
     const vec2 middle = vec2(corner) + kHalf;
@@ -89,7 +95,7 @@ void look_at_block(uvec2 corner) {
 // The value of the polynomial at a point between the nodes.
 float between(float value[kPoints], uint k) {
     const bool left = unit_of(k).x < 0.0, top = unit_of(k).y < 0.0;
-    const float near = 0.375, middle = 0.75, far = -0.125;  // Lagrange's weights half a step from a node towards the next
+    const float near = 0.5 * kBetween * (1.0 + kBetween), middle = 1.0 - kBetween * kBetween, far = -0.5 * kBetween * (1.0 - kBetween);  // Lagrange
     float row[3];
     [[unroll]] for (uint j = 0u; j < 3u; ++j)
         row[j] = (left ? near : far) * value[3u * j] + middle * value[3u * j + 1u] + (left ? far : near) * value[3u * j + 2u];
@@ -97,19 +103,19 @@ float between(float value[kPoints], uint k) {
 }
 
 // How wide a cone of directions may be, as an angle from its axis, rad, for the points to show all that is in it: a beam is not narrower than
-// that; a map's cells lie as densely as points do; and a lamp is not so near that its peak fits between them.
+// that; points lie in every cell of a map; and a lamp is not so near that its peak fits between them.
 float widest_cone(Lamp lamp, bool cone) {
     float beam = kPi;
     if (cone) beam = lamp.lobe_a > 0.0 ? arccos(clamp(-lamp.lobe_b / lamp.lobe_a, -1.0, 1.0)) : kPi;
     if (!cone && kPowers != 0u) beam = inversesqrt(max(lamp.lobe_a, 0.1));  // where cos^n is still exp(-1/2)
-    if (!cone && kMaps != 0u) beam = lamp.measured ? 4.0 / max(abs(lamp.grid.x), abs(lamp.grid.z)) : beam;
+    if (!cone && kMaps != 0u) beam = lamp.measured ? 2.0 / max(abs(lamp.grid.x), abs(lamp.grid.z)) : beam;
     return min(0.5 * beam, kWidestCone);
 }
 
 // Adds a lamp if it is smooth over the plane. Returns whether it stays on the list.
 bool remains(Lamp lamp, bool cone) {
     float value[kPoints];
-    bool all_count = true, none_counts = true;
+    bool all_count = true, none_counts = true, even = true;
     float least = 1e30, nearest = 0.0;  // the inverse of a distance
     [[unroll]] for (uint k = 0u; k < kPoints; ++k) {
         const vec3 to = lamp.position - points[k];
@@ -122,16 +128,25 @@ bool remains(Lamp lamp, bool cone) {
         if (kRoads != 0u) weight = paved ? road_coefficient(roads[k], to, inverse, normal_light) : weight;
         value[k] = facing * weight;
         all_count = all_count && counts_here;
-        none_counts = none_counts && !counts_here;
+        // Where it is dark a beam may still reach in between the points.
+        none_counts = none_counts && (normal_light <= 0.0 || (relative > 0.0 && 2.0 * facing * (paved ? 1.0 : normal_light) < push.view.threshold));
+        // Light that grazes sees the least unevenness.
+        even = even && 2.0 * (tilt + lift * inverse) <= push.tolerance * normal_light;
         least = min(least, value[k]);
         nearest = max(nearest, inverse);
     }
     float error = 0.0;
     [[unroll]] for (uint k = kNodes; k < kPoints; ++k) error = max(error, abs(between(value, k) - value[k]));
     const bool resolved = radius * nearest <= widest_cone(lamp, cone);
-    const bool taken = resolved && all_count && error <= push.tolerance * least;
+    const bool taken = resolved && even && all_count && error <= push.tolerance * least;
     [[unroll]] for (uint k = 0u; k < kNodes; ++k) sum[k] += lamp.colour * (taken ? value[k] : 0.0);
     return !(taken || (resolved && none_counts));
+}
+
+// Whether an entry is for all pixels of the block. A block of many slices lists a lamp several times, for different pixels.
+bool covers(uint entry) {
+    const uint of_entry = (2u << (entry >> kLastSliceShift)) - (1u << (entry >> kFirstSliceShift & 31u));
+    return (slices & ~of_entry) == 0u;
 }
 
 // Gathers a block's lamps. Returns whether any is left on its list.
@@ -144,14 +159,14 @@ bool gather(uint block) {
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {
             const uint entry = imageLoad(entries, first + i).r;
-            if (!remains(fetch(entry & light_bits, true, maps_from), true)) continue;
+            if (covers(entry) && !remains(fetch(entry & light_bits, true, maps_from), true)) continue;
             imageStore(entries, first + kept_cones, uvec4(entry));
             ++kept_cones;
         }
     if (kPowers != 0u || kMaps != 0u)
         for (int i = 0; i < int(others); ++i) {
             const uint entry = imageLoad(entries, last - i).r;
-            if (!remains(fetch(entry & light_bits, false, maps_from), false)) continue;
+            if (covers(entry) && !remains(fetch(entry & light_bits, false, maps_from), false)) continue;
             imageStore(entries, last - kept_others, uvec4(entry));
             ++kept_others;
         }

@@ -33,6 +33,8 @@ Blocks add_blocks(FrameGraph& graph, const Kernels& kernels, const GBuffer& g, c
     const Groups grid = cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
     const glm::uvec2 pixels{view.extent.width, view.extent.height};
     const uint32_t count = grid.x * grid.y, variant = frame_variant(clusters);
+    if ((count + shared::kBlocksPerGroup - 1) / shared::kBlocksPerGroup > kernels.most_groups())
+        throw Error("an image of " + std::to_string(view.extent.width) + " x " + std::to_string(view.extent.height) + " has more blocks than the device can shade in one dispatch");
     const auto words = [&](const char* name, uint64_t number) { return graph.transient(name, buffer_shape(number * kWord, kWords)); };
     const Blocks blocks{.columns = grid.x,
                         .count = count,

@@ -45,6 +45,8 @@ Kernels::Kernels(const Device& device)
       composite_rows(device.is_cpu() ? 4 : 1),
       device_(device) {}
 
+uint32_t Kernels::most_groups() const { return device_.limits().maxComputeWorkGroupCount[0]; }
+
 const Kernel& Kernels::select(uint32_t variant) const {
     variant &= kPowers | kMaps;
     const auto found = select_.find(variant);

@@ -57,6 +57,8 @@ struct Kernels {
 
     explicit Kernels(const Device& device);
 
+    uint32_t most_groups() const;  ///< workgroups of a dispatch along x
+
 private:
     const Device& device_;
     mutable std::map<uint32_t, Kernel> shade_, select_, gather_, adapt_, bright_;

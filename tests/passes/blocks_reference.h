@@ -72,13 +72,18 @@ inline double polynomial(const Block& block, const OfPlace& f, dvec2 place) {
     return sum;
 }
 
-/// The largest error of the polynomial at the four points between nodes, relative to the least value at nodes and points.
+/// The four pixels next to the corner nodes, towards the middle: where the polynomial is compared.
+inline std::array<dvec2, 4> between_nodes(const Block& block) {
+    const dvec2 first = dvec2(block.corner) + 0.5;
+    return {first + dvec2(1, 1), first + dvec2(6, 1), first + dvec2(1, 6), first + dvec2(6, 6)};
+}
+
+/// The largest error of the polynomial there, relative to the least value at nodes and these pixels.
 inline double roughness_of(const Block& block, const OfPlace& f) {
     double error = 0, least = 1e300;
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) least = std::min(least, f(node(block, i, j)));
-    for (const dvec2 between : {dvec2(0.5, 0.5), dvec2(1.5, 0.5), dvec2(0.5, 1.5), dvec2(1.5, 1.5)}) {
-        const dvec2 place = dvec2(block.corner) + 0.5 + 3.5 * between;
+    for (const dvec2 place : between_nodes(block)) {
         error = std::max(error, std::abs(polynomial(block, f, place) - f(place)));
         least = std::min(least, f(place));
     }
@@ -93,13 +98,12 @@ inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, c
         return ray * (plane.away / glm::dot(plane.normal, ray));
     };
     double radius = 0, nearest = 1e300;
-    for (int j = 0; j < 5; ++j)
-        for (int i = 0; i < 5; ++i) {
-            if (i % 2 != j % 2) continue;
-            const dvec3 p = point(dvec2(block.corner) + 0.5 + 1.75 * dvec2(i, j));
-            radius = std::max(radius, glm::distance(p, point(node(block, 1, 1))));
-            nearest = std::min(nearest, glm::distance(p, dvec3(light.position)));
-        }
+    const auto look_at = [&](dvec2 place) {
+        radius = std::max(radius, glm::distance(point(place), point(node(block, 1, 1))));
+        nearest = std::min(nearest, glm::distance(point(place), dvec3(light.position)));
+    };
+    for (int n = 0; n < 9; ++n) look_at(node(block, n % 3, n / 3));
+    for (const dvec2 place : between_nodes(block)) look_at(place);
     double beam = std::numbers::pi;
     if (kind == LightKind::Cone && light.lobe_a > 0) beam = std::acos(std::clamp(-double(light.lobe_b) / light.lobe_a, -1.0, 1.0));
     if (kind == LightKind::Power) beam = 1 / std::sqrt(std::max(double(light.lobe_a), 0.1));

@@ -21,14 +21,14 @@ TEST(BlocksReference, ThePolynomialMeetsItsNodesAndEveryQuadratic) {
         for (int i = 0; i < 3; ++i) EXPECT_NEAR(polynomial(block, exponential, node(block, i, j)) / exponential(node(block, i, j)), 1, 1e-12);
 }
 
-// t (t - 1) (t - 2), zero at the nodes 0, 1, 2, is 0.375 and -0.375 halfway between them.
+// t (t - 1) (t - 2) is zero at the nodes 0, 1, 2; at 2/7 and 12/7 it is 120/343 and -120/343.
 TEST(BlocksReference, RoughnessIsTheErrorBetweenNodes) {
     const Block block{{0, 0}, {}, {}};
     const OfPlace cubic = [](dvec2 p) {
         const double t = (p.x - 0.5) / 3.5;
         return 2 + t * (t - 1) * (t - 2);
     };
-    EXPECT_NEAR(roughness_of(block, cubic), 0.375 / (2 - 0.375), 1e-12);
+    EXPECT_NEAR(roughness_of(block, cubic), (120 / 343.0) / (2 - 120 / 343.0), 1e-12);
 }
 
 TEST(BlocksReference, ABlockIsWhatIsDrawnInIt) {

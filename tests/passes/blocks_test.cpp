@@ -13,7 +13,7 @@
 namespace vesper::test {
 namespace {
 
-constexpr float kTolerance = 2e-3f;
+constexpr float kTolerance = 1e-3f;
 
 /// A road of some kind 1.2 m under the eye between walls at 8 m, sky above 20 m; and, in squares here and there, what makes other classes.
 Surfaces canyon(VkExtent2D extent, float road_kind = 0, bool mixed = true, bool sheets = false) {
@@ -56,8 +56,8 @@ struct Gathered {
     std::vector<glm::vec4> sums;
 
     uint32_t listed(uint32_t block) const { return counts[2 * block] + counts[2 * block + 1]; }
-    std::set<uint32_t> lights(uint32_t block) const {
-        std::set<uint32_t> all;
+    std::multiset<uint32_t> lights(uint32_t block) const {
+        std::multiset<uint32_t> all;
         const size_t first = size_t(block) * blocks.capacity;
         for (uint32_t i = 0; i < counts[2 * block]; ++i) all.insert(entries[first + i] & ((1u << shared::kFirstSliceShift) - 1));
         for (uint32_t i = 0; i < counts[2 * block + 1]; ++i) all.insert(entries[first + blocks.capacity - 1 - i] & ((1u << shared::kFirstSliceShift) - 1));
@@ -73,11 +73,11 @@ struct Gathered {
     }
 };
 
-Gathered gather(PassRig& rig, const Surfaces& s, const LightList& list, float tolerance = kTolerance) {
+Gathered gather(PassRig& rig, const Surfaces& s, const LightList& list, float tolerance = kTolerance, float far = 0) {
     FrameGraph graph;
     const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
     const GBuffer g = upload(graph, s);
-    const Clusters c = add_clusters(graph, rig.kernels(), list, no_maps(graph), view, {});
+    const Clusters c = add_clusters(graph, rig.kernels(), list, no_maps(graph), view, {.far = far});
     Gathered got;
     got.blocks = add_blocks(graph, rig.kernels(), g, c, view, tolerance);
     got.cluster = c.push;
@@ -93,16 +93,21 @@ Gathered gather(PassRig& rig, const Surfaces& s, const LightList& list, float to
 // A lamp is on the list, or in the sums, or gives nothing; and it is in the sums exactly where it is smooth.
 TEST(Blocks, EveryLampIsListedOrAddedUp) {
     PassRig rig;
-    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {203, 131}}) {
-        SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
+    using Case = std::pair<VkExtent2D, float>;  // px; m, where geometry ends: near, and slices are thin
+    for (const auto& [extent, far] : {Case{{1, 1}, 0.0f}, {{7, 5}, 0.0f}, {{33, 9}, 0.0f}, {{203, 131}, 0.0f}, {{203, 131}, 60.0f}}) {
+        SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", far " + std::to_string(far));
         const Surfaces s = canyon(extent);
         const LightList list = street_lamps({20, 20, 0}, 300, extent.width);
-        const Gathered got = gather(rig, s, list);
-        uint32_t planes = 0, taken = 0;
+        const Gathered got = gather(rig, s, list, kTolerance, far);
+        uint32_t planes = 0, taken = 0, sliced = 0;
         for (uint32_t b = 0; b < got.blocks.count; ++b) {
             const reference::Block block = block_of(s, b % got.blocks.columns, b / got.blocks.columns);
             const auto plane = reference::plane_of(block, got.cluster.grid);
-            const std::set<uint32_t> listed = got.lights(b);
+            const std::multiset<uint32_t> listed = got.lights(b);
+            std::set<uint32_t> slices;
+            for (const reference::SurfaceTexel& t : block.texels) slices.insert(reference::slice_of(got.cluster.grid, t.surface.z));
+            const bool many = slices.size() > 3;  // a lamp is listed several times and may not be added up
+            sliced += plane && many ? 1 : 0;
             glm::dvec3 expected[9]{};
             bool doubtful = false;
             for (uint32_t l = 0; plane && l < list.lamps(); ++l) {
@@ -113,7 +118,7 @@ TEST(Blocks, EveryLampIsListedOrAddedUp) {
                 const bool smooth = roughness < kTolerance && is_resolved(1);
                 const bool close = std::abs(roughness - kTolerance) < 0.01 * kTolerance || is_resolved(0.999) != is_resolved(1.001);
                 doubtful = doubtful || close;
-                EXPECT_FALSE(smooth && !close && listed.contains(l)) << "block " << b << ", lamp " << l << " of roughness " << roughness;
+                EXPECT_FALSE(smooth && !close && !many && listed.contains(l)) << "block " << b << ", lamp " << l << " of roughness " << roughness;
                 if (listed.contains(l) || !smooth) continue;
                 ++taken;
                 for (int n = 0; n < 9; ++n) expected[n] += e(reference::node(block, n % 3, n / 3)) * glm::dvec3(list.lights[l].colour);
@@ -124,6 +129,7 @@ TEST(Blocks, EveryLampIsListedOrAddedUp) {
                 for (int c = 0; c < 3; ++c)  // 1e-4: positions on planes seen at grazing angles, in floats
                     EXPECT_NEAR(got.sum(b, n % 3, n / 3)[c], expected[n][c], 1e-4 * expected[n][c] + 1e-6) << "block " << b << ", node " << n;
         }
+        if (far > 0) { EXPECT_GT(sliced, 0u); }
         if (extent.width > 100) {
             EXPECT_GT(planes, got.blocks.count / 3);
             EXPECT_GT(taken, planes) << "hardly anything was added up";
@@ -163,16 +169,35 @@ TEST(Blocks, ANegativeToleranceAddsUpNothing) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// A polynomial is wrong by at most the tolerance at four points; anywhere else, a cubic term may be 1.03 times that.
+// A polynomial is wrong by at most the tolerance at four pixels, by 1.1 times that at any other where light is cubic, and by 3.5 times
+// where it has a kink, as at the edge of a ramp; of many lamps hardly any has one in a given block.
 TEST(Blocks, ShadingWithSumsIsShadingLampByLamp) {
     PassRig rig;
     const Surfaces s = canyon({333, 211});
     const LightList list = street_lamps({60, 60, 1}, 300, 7);
+    for (const float far : {0.0f, 60.0f}) {
+        const Shot gathered = shade(rig, s, list, {.far = far}, {}), one_by_one = shade(rig, s, list, {.far = far}, {.gather_tolerance = -1});
+        EXPECT_TRUE(same_light("gathered", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.2 * kTolerance, 1e-7})) << far;
+        EXPECT_NE(gathered.pixels, one_by_one.pixels) << "nothing was added up";
+        const Shot again = shade(rig, s, list, {.far = far}, {});
+        EXPECT_EQ(gathered.pixels, again.pixels) << "blocks come in any order, pictures may not tell";
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Ground that waves by 0.01 degrees under headlamps a hand above it: at 80 m the waves change light by percents.
+TEST(Blocks, LightThatGrazesUnevenGroundIsShadedLampByLamp) {
+    PassRig rig;
+    Surfaces s = canyon({333, 211}, 0, false);
+    for (size_t i = 0; i < s.surface.size(); ++i) {
+        const double x = double(s.pixel(i).x), y = double(s.pixel(i).y);
+        if (reference::octahedral_decode(glm::dvec2(s.surface[i])).y > 0.9)
+            s.surface[i] = glm::vec4(glm::vec2(reference::octahedral_encode(glm::normalize(glm::dvec3(0, 1, 2e-4 * std::sin(0.5 * y + 0.1 * x))))), s.surface[i].z, 1);
+    }
+    LightList list = street_lamps({2, 0, 0}, 1);
+    for (int i = 0; i < 2; ++i) list.lights[size_t(i)] = {{float(i) - 0.5f, -1.0f, -90}, 1e4f, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
     const Shot gathered = shade(rig, s, list, {}, {}), one_by_one = shade(rig, s, list, {}, {.gather_tolerance = -1});
-    EXPECT_TRUE(same_light("gathered", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.1 * kTolerance, 1e-7}));
-    EXPECT_NE(gathered.pixels, one_by_one.pixels) << "nothing was added up";
-    const Shot again = shade(rig, s, list, {}, {});
-    EXPECT_EQ(gathered.pixels, again.pixels) << "blocks come in any order, pictures may not tell";
+    EXPECT_TRUE(same_light("uneven", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.6 * kTolerance, 1e-7}));
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -189,7 +214,7 @@ TEST(Blocks, WhatIsNoNumberStaysInItsPixel) {
     const Shot got = shade(rig, s, list, {}, {});
     for (size_t i = 0; i < got.pixels.size(); ++i)
         for (int c = 0; c < 3 && !spoiled.contains(i); ++c)  // its block is shaded lamp by lamp now
-            EXPECT_NEAR(got.pixels[i][c], clean.pixels[i][c], 1.1 * kTolerance * std::abs(clean.pixels[i][c]) + 1e-7) << "pixel " << i;
+            EXPECT_NEAR(got.pixels[i][c], clean.pixels[i][c], 1.2 * kTolerance * std::abs(clean.pixels[i][c]) + 1e-7) << "pixel " << i;
     EXPECT_EQ(rig.complaints(), "");
 }
 

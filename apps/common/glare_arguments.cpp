@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/luminance.h"
 #include "tone_arguments.h"
 
 namespace vesper {
@@ -26,8 +27,6 @@ constexpr Named kNames[]{{"veil", &GlareReport::veil},           {"road_veil", &
                          {"glare_lux", &GlareReport::illuminance}, {"target", &GlareReport::target},
                          {"around", &GlareReport::around},       {"target_veil", &GlareReport::target_veil},
                          {"visibility", &GlareReport::visibility}};
-
-double luminance(glm::dvec3 rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/luminance.h"
 #include "renderer.h"
 #include "resident/road_view.h"
 #include "scene/road_scene.h"
@@ -92,7 +93,7 @@ GlareReport read_glare(const RoadLayout& road, const RoadObserver& observer, Ren
     const Frame frame = renderer.render({}, view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
     std::vector<DazzlingLight> beside;
     for (const OutsideLamp& lamp : frame.outside)
-        if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z) beside.push_back({lamp.direction, glm::dot(lamp.illuminance, glm::dvec3(0.2126, 0.7152, 0.0722))});
+        if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z) beside.push_back({lamp.direction, luminance(lamp.illuminance)});
     const ImageAngles image = angles_of(view);
     const double average = observer.average_luminance / road.maintenance_factor;
     const glm::dvec2 sight = image.pixels_at({0, 0}) / glm::dvec2(image.width, image.height);

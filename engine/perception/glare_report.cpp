@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/luminance.h"
 #include "perception/visibility.h"
 #include "photometry/road.h"
 
@@ -41,7 +42,7 @@ public:
     Pixels(const ImageAngles& image, std::span<const float> rgba) : image_(image), rgba_(rgba), pixel_(image.pixel()) {}
     double luminance(int x, int y) const {
         const float* p = &rgba_[4 * (size_t(y) * size_t(image_.width) + size_t(x))];
-        const double value = 0.2126 * double(p[0]) + 0.7152 * double(p[1]) + 0.0722 * double(p[2]);
+        const double value = vesper::luminance(dvec3(p[0], p[1], p[2]));
         return std::isfinite(value) ? value : 0;
     }
     /// From the eye; z is -1.

@@ -8,6 +8,7 @@ time             the tone chain of vesper against pfstmo_reinhard02 and OpenCV's
 
 import argparse
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -228,9 +229,9 @@ def vesper_chain(comparison, source, operator):
     text = run([comparison.vesper, "tonemap", f"{frames}/%d.exr", "--operator", operator, "--stats", "-o", f"{comparison.folder}/shown%d.png"]).decode()
     least = {}
     for line in text.splitlines():
-        if line.startswith("  "):
-            name, value = line.rsplit(None, 1)
-            least[name.strip()] = min(float(value), least.get(name.strip(), float("inf")))
+        if timed := re.fullmatch(r"  (\S.*?) {2,}([0-9.]+)", line):
+            name, value = timed.groups()
+            least[name] = min(float(value), least.get(name, float("inf")))
     passes = {name: value for name, value in least.items() if name != "picture" and not name.startswith("read ")}
     return sum(passes.values())
 

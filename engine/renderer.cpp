@@ -71,15 +71,13 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     const bool ldr = settings.tone_operator == Operator::Ldr;
     LightList lights = light_list(lights_, maps_, frame, view);
     if (ldr) set_to_one(lights, settings.ldr_reference_distance);
-    const SourceList sources = source_list(sources_, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
+    SourceList sources = source_list(sources_, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
 
     ChainInputs given{.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = nullptr, .outside = {}};
-    std::vector<GlareSource> dazzling;
     if (!ldr) {
         if (settings.glare == Glare::Scatter) given.scatter = &scatter_.at(settings.scatter, view);
         given.outside = settings.lamps_elsewhere;
-        dazzling = glare_sources(sources_, frame, view);
-        for (const GlareSource& source : dazzling)
+        for (const GlareSource& source : sources.dazzling)
             if (source.inside < 1) given.outside.push_back({source.direction, (1 - source.inside) * source.illuminance});
     }
 
@@ -97,7 +95,7 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     result.lights = uint32_t(lights.lights.size());
     result.sources = uint32_t(sources.sources.size());
     result.far = declared.far;
-    result.glare_sources = std::move(dazzling);
+    if (!ldr) result.glare_sources = std::move(sources.dazzling);
     result.outside = std::move(given.outside);
     result.host_times.declare = declared_after;
     result.milliseconds = milliseconds;

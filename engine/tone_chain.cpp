@@ -22,7 +22,7 @@ Resource bring_back(FrameGraph& graph, const std::string& name, Resource from, u
 ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource rendered, const View& view, const ToneChainSettings& settings, const ChainInputs& given, Outputs outputs) {
     const OperatorInfo& op = operator_info(settings.tone_operator);
     uint32_t tone = op.form | (settings.tone.colour_loss ? shared::kToneColourLoss : 0) | (settings.tone.purkinje ? shared::kTonePurkinje : 0) |
-                          (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0);
+                    (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0);
     // What the eye adapts to and the histogram counts is what falls on the retina.
     const Resource scene = given.scatter ? add_scatter(graph, kernels, rendered, *given.scatter, given.outside) : rendered;
     const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent, settings.tone.log_epsilon);

@@ -7,6 +7,7 @@
 // others on the block's list, and puts the block in its class. Smooth is what the polynomial through 3 x 3 nodes
 // meets, within the tolerance, at four pixels between them.
 
+#include "blocks.glsl"
 #include "normal.glsl"
 #include "shared/gather.h"
 #include "shared/retro.h"
@@ -53,8 +54,6 @@ vec2 unit_of(uint k) {
     return (vec2(float((k - kNodes) % 2u), float((k - kNodes) / 2u)) - 0.5) * (2.0 * kBetween);
 }
 
-vec3 ray_of(vec2 pixel) { return vec3(push.view.grid.ray_scale * (pixel + 0.5) + push.view.grid.ray_offset, -1.0); }
-
 void look_at_block(uvec2 corner) {
     const uvec2 end = min(corner + kBlockSize, push.size);
     float kind = 0.0, away = 0.0;
@@ -64,7 +63,7 @@ void look_at_block(uvec2 corner) {
             const vec4 surface = imageLoad(surface_image, ivec2(x, y));
             const float metallic = imageLoad(reflectance_image, ivec2(x, y)).a;
             const bool here = surface.z > 0.0, first = here && !drawn;
-            const vec3 n = decode_normal(surface.xy), position = ray_of(vec2(x, y)) * surface.z;
+            const vec3 n = decode_normal(surface.xy), position = pixel_ray(push.view.grid, vec2(x, y)) * surface.z;
             const bool road = kRoads != 0u && metallic <= kRoadKind;
             drawn = drawn || here;
             paved = paved || (here && road);
@@ -77,13 +76,12 @@ void look_at_block(uvec2 corner) {
             plane = plane && (!here || (metallic == kind && tilted <= kMostTilt && lifted <= kMostLift * surface.z));
             tilt = here ? max(tilt, tilted) : tilt;
             lift = here ? max(lift, lifted) : lift;
-            const float slice = log2(here ? surface.z : 1.0) * push.view.grid.slice_scale + push.view.grid.slice_bias;
-            slices |= here ? 1u << uint(clamp(slice, 0.0, float(push.view.grid.slices) - 1.0)) : 0u;
+            slices |= slice_bit(push.view.grid, surface.z);
         }
     plane = plane && drawn && !glossy && !retro;
     const vec2 middle = vec2(corner) + kHalf;
     [[unroll]] for (uint k = 0u; k < kPoints; ++k) {
-        const vec3 ray = ray_of(middle + kHalf * unit_of(k));
+        const vec3 ray = pixel_ray(push.view.grid, middle + kHalf * unit_of(k));
         const float depth = away / dot(normal, ray);
         plane = plane && depth > 0.0 && depth < 1e6;  // a block at the horizon looks past the plane
         points[k] = ray * depth;
@@ -144,29 +142,26 @@ bool remains(Lamp lamp, bool cone) {
 }
 
 // Whether an entry is for all pixels of the block. A block of many slices lists a lamp several times, for different pixels.
-bool covers(uint entry) {
-    const uint of_entry = (2u << (entry >> kLastSliceShift)) - (1u << (entry >> kFirstSliceShift & 31u));
-    return (slices & ~of_entry) == 0u;
-}
+bool covers(uint entry) { return (slices & ~slices_of(entry)) == 0u; }
 
 // Gathers a block's lamps. Returns whether any is left on its list.
 bool gather(uint block) {
     const int counts = int(2u * block), first = int(block * push.capacity), last = first + int(push.capacity) - 1;
     const uint cones = imageLoad(block_counts, counts).r, others = imageLoad(block_counts, counts + 1).r;
-    const uint maps_from = push.view.lights.cones + push.view.lights.powers, light_bits = (1u << kFirstSliceShift) - 1u;
+    const uint maps_from = push.view.lights.cones + push.view.lights.powers;
     if (!plane || cones == kAllLights || push.tolerance < 0.0) return cones + others != 0u || push.tolerance < 0.0;
     int kept_cones = 0, kept_others = 0;
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {
             const uint entry = imageLoad(entries, first + i).r;
-            if (covers(entry) && !remains(fetch(entry & light_bits, true, maps_from), true)) continue;
+            if (covers(entry) && !remains(fetch(light_of(entry), true, maps_from), true)) continue;
             imageStore(entries, first + kept_cones, uvec4(entry));
             ++kept_cones;
         }
     if (kPowers != 0u || kMaps != 0u)
         for (int i = 0; i < int(others); ++i) {
             const uint entry = imageLoad(entries, last - i).r;
-            if (covers(entry) && !remains(fetch(entry & light_bits, false, maps_from), false)) continue;
+            if (covers(entry) && !remains(fetch(light_of(entry), false, maps_from), false)) continue;
             imageStore(entries, last - kept_others, uvec4(entry));
             ++kept_others;
         }

@@ -8,9 +8,9 @@
 // normals tells which lights are behind every surface. What is left out gives nothing to any pixel of the block. A few
 // slices of depth at a time share their boxes, so that a light listed in several of them is taken once.
 
+#include "blocks.glsl"
 #include "normal.glsl"
 #include "reach.glsl"
-#include "shared/shade.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;  // the blocks of a tile, whose lists they share
 
@@ -32,19 +32,12 @@ const uint kTogether = 3u;     // slices that share a box
 vec3 position_low, position_high, normal_low, normal_high;
 bool matt;  // all of what is drawn in the slices
 
-// The slice of a pixel as a bit; 0 where nothing is drawn.
-uint slice_bit(float depth) {
-    const ClusterGrid grid = push.view.grid;
-    const float at = clamp(log2(depth) * grid.slice_scale + grid.slice_bias, 0.0, float(grid.slices) - 1.0);
-    return depth > 0.0 ? 1u << uint(at) : 0u;
-}
-
 // Bits of all slices that the block has pixels in.
 uint occupied_slices(uvec2 corner) {
     const uvec2 end = min(corner + kBlockSize, push.size);
     uint occupied = 0u;
     for (uint y = corner.y; y < end.y; ++y)
-        for (uint x = corner.x; x < end.x; ++x) occupied |= slice_bit(imageLoad(surface_image, ivec2(x, y)).z);
+        for (uint x = corner.x; x < end.x; ++x) occupied |= slice_bit(push.view.grid, imageLoad(surface_image, ivec2(x, y)).z);
     return occupied;
 }
 
@@ -57,8 +50,8 @@ void bound_slices(uvec2 corner, uint slices) {
     for (uint y = corner.y; y < end.y; ++y) {
         for (uint x = corner.x; x < end.x; ++x) {
             const vec4 surface = imageLoad(surface_image, ivec2(x, y));
-            const bool here = (slice_bit(surface.z) & slices) != 0u;
-            const vec3 position = vec3(grid.ray_scale * (vec2(x, y) + 0.5) + grid.ray_offset, -1.0) * surface.z;
+            const bool here = (slice_bit(grid, surface.z) & slices) != 0u;
+            const vec3 position = pixel_ray(grid, vec2(x, y)) * surface.z;
             const vec3 normal = decode_normal(surface.xy);
             matt = matt && (!here || surface.w >= 1.0);
             position_low = here ? min(position_low, position) : position_low;
@@ -153,7 +146,7 @@ void main() {
             const bool cone = light < push.view.lights.cones;
             if (!lights_block(light)) continue;
             const uint at = cone ? cones : push.capacity - 1u - others;
-            if (cones + others < push.capacity) imageStore(entries, int(base + at), uvec4(light | first << kFirstSliceShift | last << kLastSliceShift));
+            if (cones + others < push.capacity) imageStore(entries, int(base + at), uvec4(entry_of(light, first, last)));
             others += cone ? 0u : 1u;
             cones += cone ? 1u : 0u;
         }

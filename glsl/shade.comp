@@ -9,6 +9,7 @@
 // Every block of pixels has a list of lights, of which its pixels take those for their own slice, and the sum of others
 // (shared/gather.h). A dispatch does the blocks of one class, side by side in workgroups, whatever their places in the image.
 
+#include "blocks.glsl"
 #include "normal.glsl"
 #include "shared/photometry.h"
 #include "shared/gather.h"
@@ -43,7 +44,7 @@ layout(push_constant, scalar) uniform Push { ShadePush push; };
 #include "road.glsl"
 
 vec3 position[kRows], normal[kRows], toward_eye[kRows];
-uint slice_bit[kRows];        // 0: nothing is drawn
+uint in_slice[kRows];         // a bit; 0: nothing is drawn
 vec3 sum[kRows];              // with kGlossy or kRetro luminance, cd/m^2 RGB; otherwise what `diffuse` makes luminance
 
 const bool kShiny = kGlossy != 0u || kRetro != 0u;
@@ -93,7 +94,7 @@ void add_lamp(Lamp lamp, uint slices, bool cone) {
         const float normal_light = dot(normal[r], to) * inverse;
         const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone);
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
-        const bool counts_here = facing * max(normal_light, least_cosine[r]) >= push.threshold && (slice_bit[r] & slices) != 0u;
+        const bool counts_here = facing * max(normal_light, least_cosine[r]) >= push.threshold && (in_slice[r] & slices) != 0u;
         const bool road = kRoads != 0u && roads[r].tan_cells > 0.0;
         float weight = max(normal_light, 0.0);
         if (kRoads != 0u) weight = road && normal_light > 0.0 ? road_coefficient(roads[r], to, inverse, normal_light) : weight;
@@ -132,9 +133,8 @@ List list_of(uint block) {
 
 void add_entry(List list, uint at, uint number, bool cone) {
     const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
-    const uint light = list.all_of_them ? number : entry & ((1u << kFirstSliceShift) - 1u);
-    const uint slices = (2u << (entry >> kLastSliceShift)) - (1u << (entry >> kFirstSliceShift & 31u));
-    add_lamp(fetch(light, cone, push.lights.cones + push.lights.powers), list.all_of_them ? ~0u : slices, cone);
+    const uint light = list.all_of_them ? number : light_of(entry);
+    add_lamp(fetch(light, cone, push.lights.cones + push.lights.powers), list.all_of_them ? ~0u : slices_of(entry), cone);
 }
 
 void add_lamps(List list) {
@@ -203,9 +203,8 @@ void main() {
         const vec4 reflectance = imageLoad(reflectance_image, ivec2(pixel));
         const bool drawn = surface.z > 0.0 && all(lessThan(pixel, push.size));
         const float depth = drawn ? surface.z : 1.0;
-        const float slice = log2(depth) * push.grid.slice_scale + push.grid.slice_bias;
-        slice_bit[r] = drawn ? 1u << uint(clamp(slice, 0.0, float(push.grid.slices) - 1.0)) : 0u;
-        position[r] = vec3(push.grid.ray_scale * (vec2(pixel) + 0.5) + push.grid.ray_offset, -1.0) * depth;
+        in_slice[r] = drawn ? slice_bit(push.grid, depth) : 0u;
+        position[r] = pixel_ray(push.grid, vec2(pixel)) * depth;
         normal[r] = decode_normal(surface.xy);
         toward_eye[r] = normalize(-position[r]);
         base[r] = reflectance.rgb;
@@ -229,7 +228,7 @@ void main() {
         const uvec2 pixel = first + uvec2(0u, r);
         const vec3 reflected = (kShiny ? sum[r] : sum[r] * diffuse[r]) + ambient[r];
         const vec3 emission = min(imageLoad(scene_image, ivec2(pixel)).rgb, vec3(push.emission_limit));
-        const vec3 luminance = slice_bit[r] == 0u ? push.sky : reflected + emission;
+        const vec3 luminance = in_slice[r] == 0u ? push.sky : reflected + emission;
         if (there && all(lessThan(pixel, push.size))) imageStore(scene_image, ivec2(pixel), vec4(luminance, 1.0));
     }
 }

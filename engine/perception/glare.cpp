@@ -57,9 +57,13 @@ SpencerWeights spencer_weights(SpencerState state) {
     return {0.282, 0.478, 0.207, 0.033};
 }
 
+double spencer_smooth_glare(double t, const SpencerWeights& w) {
+    return w.core * spencer_core(t) + w.corona * spencer_corona(t) + w.bloom * spencer_bloom(t);
+}
+
 double spencer_glare(double t, SpencerState state, double nanometres) {
     const SpencerWeights w = spencer_weights(state);
-    return w.core * spencer_core(t) + w.corona * spencer_corona(t) + w.bloom * spencer_bloom(t) + w.halo * spencer_halo(t, nanometres);
+    return spencer_smooth_glare(t, w) + w.halo * spencer_halo(t, nanometres);
 }
 
 namespace {

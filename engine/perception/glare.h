@@ -35,6 +35,8 @@ struct SpencerWeights {
     double core, corona, bloom, halo;
 };
 SpencerWeights spencer_weights(SpencerState);
+/// The weighted parts but the halo, which has colours.
+double spencer_smooth_glare(double theta, const SpencerWeights&);
 /// The sum of the weighted parts.
 double spencer_glare(double theta, SpencerState, double nanometres = 568);
 

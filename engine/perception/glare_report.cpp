@@ -47,10 +47,7 @@ public:
     }
     /// From the eye; z is -1.
     dvec3 towards(int x, int y) const { return {image_.at(dvec2(x, y) + 0.5), -1}; }
-    double solid_angle(dvec3 towards) const {
-        const double square = glm::dot(towards, towards);
-        return pixel_.x * pixel_.y / (square * std::sqrt(square));
-    }
+    double solid_angle(dvec3 towards) const { return pixel_.x * pixel_.y * steradians_per_area(dvec2(towards)); }
 
 private:
     const ImageAngles& image_;
@@ -79,7 +76,7 @@ void report_target(const ImageAngles& image, const Pixels& pixels, const std::ve
     report.around = around.value();
     report.target_veil = veils_of(lights, glm::normalize(dvec3(middle, -1)), question.eye).general;
     const dvec2 span = border * image.pixel();
-    const double steradians = span.x * span.y / std::pow(1 + glm::dot(middle, middle), 1.5);
+    const double steradians = span.x * span.y * steradians_per_area(middle);
     Target seen{.age = question.eye.age};
     seen.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegrees * 60;  // of a disc as large
     if (report.around + report.target_veil > 0) report.visibility = visibility_level(report.target + report.target_veil, report.around + report.target_veil, seen);

@@ -65,8 +65,7 @@ std::vector<double> far_weights(const EyeScatter& psf, const ImageAngles& image,
     for (int y = -1; y <= count.y; ++y)
         for (int x = -1; x <= count.x; ++x) {
             const dvec2 p = first + texel * dvec2(x, y);
-            const double square = 1 + glm::dot(p, p);
-            seen.push_back(psf(degrees_between(to, p)) * -texel.x * texel.y / (square * std::sqrt(square)));
+            seen.push_back(psf(degrees_between(to, p)) * -texel.x * texel.y * steradians_per_area(p));
         }
     const double sharpening = 5.0 / 12 * (1 - std::exp2(-2 * levels));
     std::vector<double> weights;
@@ -274,6 +273,11 @@ std::vector<float> top_matrix(const EyeScatter& psf, const ScatterFit& fit, cons
 dvec2 ImageAngles::at(dvec2 p) const { return {low.x + p.x * pixel().x, high.y - p.y * pixel().y}; }
 dvec2 ImageAngles::pixels_at(dvec2 t) const { return {(t.x - low.x) / pixel().x, (high.y - t.y) / pixel().y}; }
 
+double steradians_per_area(dvec2 t) {
+    const double square = 1 + glm::dot(t, t);
+    return 1 / (square * std::sqrt(square));
+}
+
 double degrees_between(dvec2 a, dvec2 b) {
     const dvec2 d = b - a;
     const double cross = a.x * b.y - a.y * b.x;
@@ -301,10 +305,7 @@ double light_from(const EyeScatter& psf, dvec2 to, dvec2 from, dvec2 half) {
     constexpr std::array<double, 3> nodes{-0.7745966692414834, 0, 0.7745966692414834}, weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
     const dvec2 away = glm::abs(to - from) / half;
     const double distance = std::max(away.x, away.y);  // 1 at the edge
-    const auto seen = [&](dvec2 p) {
-        const double square = 1 + glm::dot(p, p);
-        return psf(degrees_between(to, p)) / (square * std::sqrt(square));
-    };
+    const auto seen = [&](dvec2 p) { return psf(degrees_between(to, p)) * steradians_per_area(p); };
     if (distance > 12) return seen(from) * 4 * half.x * half.y;
     const int parts = distance < 3 ? 6 : distance < 6 ? 2 : 1;
     double sum = 0;

@@ -25,6 +25,8 @@ struct ImageAngles {
     bool operator==(const ImageAngles&) const = default;
 };
 
+/// Solid angle of the plane at a point over its area, sr: cos^3 of the angle to its middle.
+double steradians_per_area(glm::dvec2 tangents);
 /// Angle between two points of the plane, degrees.
 double degrees_between(glm::dvec2 a, glm::dvec2 b);
 /// Part of the light of a point that is scattered into a rectangle of the plane about it, `half` wide to either side.

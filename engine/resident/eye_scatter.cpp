@@ -45,9 +45,7 @@ std::vector<float> transposed(const std::vector<float>& matrix, size_t rows) {
 
 EyeScatter eye_scatter(const ScatterSettings& settings) {
     if (settings.model == ScatterSettings::Model::Cie) return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
-    return EyeScatter([w = spencer_weights(settings.state)](double theta) {
-        return w.core * spencer_core(theta) + w.corona * spencer_corona(theta) + w.bloom * spencer_bloom(theta);
-    });
+    return EyeScatter([w = spencer_weights(settings.state)](double theta) { return spencer_smooth_glare(theta, w); });
 }
 
 ImageAngles angles_of(const View& view) {
@@ -89,7 +87,7 @@ std::vector<glm::vec4> ResidentScatter::lamps_of(int level, const std::vector<Ou
         if (!entry || entry->level != level) continue;
         // Luminance of a pixel there, times the part of a texel that the pixel is.
         const dvec2 pixel = image_.pixel();
-        const double solid_angle = pixel.x * pixel.y / std::pow(1 + glm::dot(entry->tangents, entry->tangents), 1.5);
+        const double solid_angle = pixel.x * pixel.y * steradians_per_area(entry->tangents);
         texels.emplace_back(entry->pixels / std::exp2(level), 0, 0);
         texels.emplace_back(lamp.illuminance / (solid_angle * std::exp2(2 * level)), 0);
     }

@@ -21,6 +21,17 @@
 #include "shaders/sources.comp.inc"
 
 namespace vesper {
+namespace {
+
+// The kernel of a variant, made when it is first asked for.
+template <class Variant, class Make>
+const Kernel& once(std::map<Variant, Kernel>& made, const Variant& variant, const Make& make) {
+    const auto found = made.find(variant);
+    return found != made.end() ? found->second : made.emplace(variant, make()).first->second;
+}
+
+}  // namespace
+
 // A CPU device fetches a light once for eight pixels and works on rows of 32; a GPU on squares, a pixel each.
 Kernels::Kernels(const Device& device)
     : cluster(device, "cluster.comp", cluster_comp),
@@ -48,53 +59,42 @@ Kernels::Kernels(const Device& device)
 uint32_t Kernels::most_groups() const { return device_.limits().maxComputeWorkGroupCount[0]; }
 
 const Kernel& Kernels::select(uint32_t variant) const {
-    variant &= kPowers | kMaps;
-    const auto found = select_.find(variant);
-    if (found != select_.end()) return found->second;
-    Kernel kernel(device_, "select.comp", select_comp, {variant & kPowers ? 1u : 0u, variant & kMaps ? 1u : 0u});
-    return select_.emplace(variant, std::move(kernel)).first->second;
+    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
+    return once(select_, variant & (kPowers | kMaps), [&] { return Kernel(device_, "select.comp", select_comp, {has(kPowers), has(kMaps)}); });
 }
 
 const Kernel& Kernels::gather(uint32_t variant) const {
-    variant &= kCones | kPowers | kMaps | kRoads;
-    const auto found = gather_.find(variant);
-    if (found != gather_.end()) return found->second;
     const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
-    Kernel kernel(device_, "gather.comp", gather_comp, {has(kCones), has(kPowers), has(kMaps), has(kRoads)});
-    return gather_.emplace(variant, std::move(kernel)).first->second;
+    return once(gather_, variant & (kCones | kPowers | kMaps | kRoads),
+                [&] { return Kernel(device_, "gather.comp", gather_comp, {has(kCones), has(kPowers), has(kMaps), has(kRoads)}); });
 }
 
 const Kernel& Kernels::shade(uint32_t variant) const {
-    const auto found = shade_.find(variant);
-    if (found != shade_.end()) return found->second;
     const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
-    Kernel kernel(device_, "shade.comp", shade_comp,
-                  {shade_group.width, shade_group.height, shade_rows, has(kEveryLight), has(kCones), has(kPowers), has(kMaps), has(kListed),
-                   has(kGathered), has(kGlossy), has(kRoads), has(kRetro)});
-    return shade_.emplace(variant, std::move(kernel)).first->second;
+    return once(shade_, variant, [&] {
+        return Kernel(device_, "shade.comp", shade_comp,
+                      {shade_group.width, shade_group.height, shade_rows, has(kEveryLight), has(kCones), has(kPowers), has(kMaps), has(kListed),
+                       has(kGathered), has(kGlossy), has(kRoads), has(kRetro)});
+    });
 }
 
 const Kernel& Kernels::adapt(uint32_t model) const {
-    const auto found = adapt_.find(model);
-    return found != adapt_.end() ? found->second : adapt_.emplace(model, Kernel(device_, "adapt.comp", adapt_comp, {model})).first->second;
+    return once(adapt_, model, [&] { return Kernel(device_, "adapt.comp", adapt_comp, {model}); });
 }
 
 const Kernel& Kernels::bright(uint32_t tone) const {
-    const auto found = bright_.find(tone);
-    return found != bright_.end() ? found->second : bright_.emplace(tone, Kernel(device_, "bright.comp", bright_comp, {tone})).first->second;
+    return once(bright_, tone, [&] { return Kernel(device_, "bright.comp", bright_comp, {tone}); });
 }
 
 const Kernel& Kernels::bands(const BandsVariant& variant) const {
-    const auto found = bands_.find(variant);
-    return found != bands_.end() ? found->second : bands_.emplace(variant, Kernel(device_, "bands.comp", bands_comp, {variant.tone, variant.topmost, variant.finest})).first->second;
+    return once(bands_, variant, [&] { return Kernel(device_, "bands.comp", bands_comp, {variant.tone, variant.topmost, variant.finest}); });
 }
 
 const Kernel& Kernels::composite(const CompositeVariant& variant) const {
-    const auto found = composite_.find(variant);
-    if (found != composite_.end()) return found->second;
-    const std::initializer_list<uint32_t> constants{variant.tone, variant.luminance_glare, variant.ldr_glare, composite_rows, variant.primaries};
-    Kernel kernel = variant.light ? Kernel(device_, "display_light.comp", display_light_comp, constants) : Kernel(device_, "composite.comp", composite_comp, constants);
-    return composite_.emplace(variant, std::move(kernel)).first->second;
+    return once(composite_, variant, [&] {
+        const std::initializer_list<uint32_t> constants{variant.tone, variant.luminance_glare, variant.ldr_glare, composite_rows, variant.primaries};
+        return variant.light ? Kernel(device_, "display_light.comp", display_light_comp, constants) : Kernel(device_, "composite.comp", composite_comp, constants);
+    });
 }
 
 }  // namespace vesper

@@ -159,22 +159,13 @@ SourceSet placed_sources(const Scene& scene) {
     return set;
 }
 
-std::vector<GlareSource> glare_sources(const SourceSet& set, const SceneFrame& frame, const View& view) {
-    std::vector<GlareSource> sources;
-    for (const auto& [light, node] : set.lamps) {
-        const Seen seen = look_at(light, set.distributions, view.world_to_view * frame.world[node], view);
-        if (!(seen.candela > 0) || !std::isfinite(seen.luminance) || !(seen.to_eye.z > 0)) continue;
-        const dvec3 illuminance = seen.candela / (seen.distance * seen.distance) * dvec3(light.colour);
-        sources.push_back({node, -seen.to_eye, seen.distance, seen.candela, illuminance, part_inside(seen, view)});
-    }
-    return sources;
-}
-
 SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View& view, std::optional<float> white) {
     SourceList list;
     std::vector<Touched> touched;
     for (const auto& [light, node] : set.lamps) {
         const Seen seen = look_at(light, set.distributions, view.world_to_view * frame.world[node], view);
+        if (seen.candela > 0 && std::isfinite(seen.luminance) && seen.to_eye.z > 0)
+            list.dazzling.push_back({node, -seen.to_eye, seen.distance, seen.candela, seen.candela / (seen.distance * seen.distance) * dvec3(light.colour), part_inside(seen, view)});
         if (seen.outline.vertices.empty()) continue;
         const glm::vec3 c = light.colour;
         const double largest = std::max({c.r, c.g, c.b, 1e-6f});

@@ -26,14 +26,6 @@ constexpr double kHousing = 0.25;
 /// lowered by as much: so their light moves from pixel to pixel without a step, and its centre is where the lamp is.
 constexpr double kSmallest = 0.5;
 
-/// Outlines in the image, and which squares of kSourceTile px they touch.
-struct SourceList {
-    std::vector<shared::Source> sources;
-    std::vector<glm::vec2> outline;    ///< px from the source's origin, x right and y down, of positive area
-    std::vector<glm::uvec4> tiles;     ///< column, row, first entry, entries; row by row
-    std::vector<uint32_t> entries;     ///< a source, ascending in a tile, and kCoversTile
-};
-
 /// A lamp as it dazzles: what of its light arrives at the eye, where nothing stands between them.
 struct GlareSource {
     uint32_t node;               ///< of the scene, that carries it
@@ -43,8 +35,15 @@ struct GlareSource {
     glm::dvec3 illuminance;      ///< RGB lx, on a plane at the eye that faces the lamp
     double inside;               ///< part of its light that lies within the picture, 0 .. 1
 };
-/// Those before the eye, in the order of the scene.
-std::vector<GlareSource> glare_sources(const SourceSet& set, const SceneFrame& frame, const View& view);
+
+/// Outlines in the image, and which squares of kSourceTile px they touch.
+struct SourceList {
+    std::vector<shared::Source> sources;
+    std::vector<glm::vec2> outline;    ///< px from the source's origin, x right and y down, of positive area
+    std::vector<glm::uvec4> tiles;     ///< column, row, first entry, entries; row by row
+    std::vector<uint32_t> entries;     ///< a source, ascending in a tile, and kCoversTile
+    std::vector<GlareSource> dazzling; ///< all lamps before the eye, in the order of the scene
+};
 
 /// The openings a view sees, with the luminance L = I(towards the eye) / projected area, I / d^2 being what arrives at
 /// the eye. `white` is what the largest component of each is instead: the LDR baseline.

@@ -1,0 +1,17 @@
+// Pixels of a view, the slices they are in, and the entries of blocks (shared/shade.h).
+
+#include "shared/shade.h"
+
+// From the eye through the middle of a pixel; z is -1.
+vec3 pixel_ray(ClusterGrid grid, vec2 pixel) { return vec3(grid.ray_scale * (pixel + 0.5) + grid.ray_offset, -1.0); }
+
+// The slice of a depth as a bit; 0 where nothing is drawn.
+uint slice_bit(ClusterGrid grid, float depth) {
+    const float at = clamp(log2(depth) * grid.slice_scale + grid.slice_bias, 0.0, float(grid.slices) - 1.0);
+    return depth > 0.0 ? 1u << uint(at) : 0u;
+}
+
+uint entry_of(uint light, uint first_slice, uint last_slice) { return light | first_slice << kFirstSliceShift | last_slice << kLastSliceShift; }
+uint light_of(uint entry) { return entry & ((1u << kFirstSliceShift) - 1u); }
+// A bit for each.
+uint slices_of(uint entry) { return (2u << (entry >> kLastSliceShift)) - (1u << (entry >> kFirstSliceShift & 31u)); }

@@ -1,5 +1,5 @@
 // Every pass of the frame: its inputs, its output, its settings. SPDX-License-Identifier: MIT
-// Pixels count from the top left. RGB is linear Rec. 709; luminance is 0.2126 R + 0.7152 G + 0.0722 B.
+// Pixels count from the top left. RGB is linear Rec. 709; luminance is 0.212639 R + 0.715169 G + 0.072192 B.
 #pragma once
 
 #include <algorithm>

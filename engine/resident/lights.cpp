@@ -32,6 +32,8 @@ void place_map(shared::Light& light, const LightMaps::Intensities& map, glm::vec
     }
     light.start -= glm::dot(light.start, light.pole) * light.pole;
     light.start = unit(glm::vec4(light.start, 0), glm::vec3(-light.pole.y, light.pole.x, 0));
+    // The axis of the envelope is that of the map, also where a node is sheared.
+    if (map.goniometry != Goniometry::CGamma) light.axis = light.start;
     const double sign = glm::dot(glm::cross(light.start, light.pole), turn) < 0 ? -1 : 1;  // of a mirrored node
     const glm::dvec2 scale = 1.0 / map.step;
     light.grid = {float(sign * scale.x), float(1 - map.low.x * scale.x), float(scale.y), float(1 - map.low.y * scale.y)};

@@ -15,10 +15,7 @@ Renderer::Renderer(Device& device, const Scene& scene)
       maps_(light_maps(scene)),
       map_arena_(device),
       map_texels_(upload_texels(device, maps_.texels)),
-      ambient_illuminance_(scene.ambient_illuminance),
-      sky_luminance_(scene.sky_luminance),
-      ambient_colour_(scene.ambient_colour),
-      sky_colour_(scene.sky_colour),
+      ambient_{scene.ambient_illuminance * scene.ambient_colour, scene.sky_luminance * scene.sky_colour},
       scatter_(device),
       executor_(device) {
     maps_.texels = std::vector<glm::vec4>();  // the device has them
@@ -46,10 +43,11 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
     clustering.far = resident_.farthest_depth(frame, view.world_to_view);
     ShadeSettings shading{.all_lights = settings.all_lights};
     if (ldr || settings.paper_lambert) shading.lambert = 1;
+    const AmbientLight ambient = frame.ambient.value_or(ambient_);
     if (ldr)
         shading.emission_limit = 1;
     else
-        shading.ambient = ambient_illuminance_ * ambient_colour_, shading.sky = sky_luminance_ * sky_colour_;
+        shading.ambient = ambient.illuminance, shading.sky = ambient.sky;
 
     const GBuffer surfaces = add_gbuffer(graph, resident_, frame, view);
     const MapTexels maps{map_texels_.in(graph, "maps"), maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};

@@ -1,0 +1,70 @@
+#include "session.h"
+
+#include "drive_file.h"
+
+namespace vesper {
+
+Session::Session(Device& device, SessionOptions options)
+    : options_(std::move(options)),
+      scenery_(options_.scene),
+      settings_(options_.settings),
+      world_(std::make_unique<World>(scenery_.world(), options_.seed)),
+      actors_(world_->actors()),
+      renderer_(std::make_unique<Renderer>(device, scenery_.scene())),
+      recorder_(std::make_unique<DriveRecorder>(start())) {}
+
+Session::~Session() = default;
+
+DriveStart Session::start() const { return {options_.scene, options_.seed, options_.time_step, settings_.values()}; }
+
+void Session::step(const DriverInput& input) {
+    input_ = input;
+    world_->step(input, options_.time_step);
+    actors_ = world_->actors();
+    const VehicleState& me = world_->driver();
+    recorder_->add({.kind = DriveEvent::Kind::Step, .input = input, .pose = {me.position.x, me.position.y, me.yaw, me.speed}, .name = {}, .value = {}});
+}
+
+void Session::restart() {
+    world_ = std::make_unique<World>(scenery_.world(), options_.seed);
+    actors_ = world_->actors();
+    input_ = {};
+    rendered_.reset();
+    renderer_->reset_adaptation();
+    if (recording())
+        recorder_->add({.kind = DriveEvent::Kind::Restart, .name = {}, .value = {}});
+    else
+        recorder_ = std::make_unique<DriveRecorder>(start());
+}
+
+void Session::set(const std::string& name, const std::string& value) {
+    settings_.set(name, value);
+    recorder_->add({.kind = DriveEvent::Kind::Set, .name = name, .value = value});
+}
+
+View Session::view(VkExtent2D extent) const { return scenery_.view(scenery_.frame(actors_, settings_), actors_, settings_, extent); }
+
+Frame Session::render(VkExtent2D extent, Outputs outputs) { return render(view(extent), outputs); }
+
+Frame Session::render(const View& view, Outputs outputs) {
+    eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0;
+    Frame frame = renderer_->render(settings_.render(), view, scenery_.frame(actors_, settings_), float(eye_step_), outputs);
+    rendered_ = world_->steps();
+    eye_ = frame.eye;
+    recorder_->add({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
+    return frame;
+}
+
+void Session::use(Device& device) {
+    renderer_.reset();
+    renderer_ = std::make_unique<Renderer>(device, scenery_.scene());
+    if (rendered_) renderer_->set_eye(eye_);
+}
+
+void Session::record(const std::filesystem::path& file) { recorder_->open(file); }
+
+void Session::stop_recording() { recorder_->close(); }
+
+bool Session::recording() const { return recorder_->is_open(); }
+
+}  // namespace vesper

@@ -15,14 +15,8 @@ VehicleControls steer_along(const Lane& lane, const VehicleState& s, const Vehic
 
     VehicleControls c;
     c.angle = std::atan2(2 * p.wheelbase() * sideways, distance);
-    // What follows in the next seconds decides how fast a curve may be taken.
     CarFollowing following = a.following;
-    following.speed = std::min(following.speed, lane.speed());
-    for (double t = 0; t <= 4; t += 0.5) {
-        const double at = here.s + ahead * (t + 0.5);
-        const double curvature = std::abs(lane.at(at + 2).yaw - lane.at(at - 2).yaw) / 4;
-        if (curvature > 1e-6) following.speed = std::min(following.speed, std::sqrt(a.lateral_acceleration / curvature));
-    }
+    following.speed = lane.speed_at(here.s);
     const double wanted = idm_acceleration(following, s.speed, gap, closing);
     const double drag = p.rolling * p.mass * 9.81 + 0.5 * p.air_density * p.drag_area * s.speed * s.speed;
     const double force = p.mass * wanted + drag, most = std::min(p.drive_force, p.power / std::max(std::abs(s.speed), 1.0));

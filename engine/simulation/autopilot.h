@@ -10,8 +10,7 @@ namespace vesper {
 struct AutopilotSettings {
     CarFollowing following;
     double preview = 0.9;            ///< looks so far ahead, s
-    double least_preview = 5;        ///< but at least so far, m
-    double lateral_acceleration = 2; ///< wanted at most in a curve, m/s^2
+    double least_preview = 4;        ///< but at least so far, m
 };
 
 /// What to do with a leader `gap` m ahead that is approached by `closing` m/s (no leader: an infinite gap). Steers to a point of

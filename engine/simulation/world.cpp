@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 
@@ -15,7 +16,7 @@ constexpr double kPatience = 1;             // between thoughts of changing lane
 constexpr double kBraking = 0.7;            // deceleration beyond which the pedal is pressed, m/s^2: engines alone give about this
 constexpr double kWalkerReach = 1.2;        // beyond the edge of a lane a walker counts as on it, m
 constexpr double kGapSeconds = 6;           // before walkers go, nobody may be nearer in time (HCM: critical gaps of 5 to 7 s for two lanes)
-constexpr double kQueue = 12;               // between cars that come in anew, m
+constexpr double kQueue = 12;              // between cars that come in anew, m
 // MOBIL (Kesting, Treiber and Helbing 2007): what others lose counts for so much, the gain must be so much, and nobody behind may
 // have to brake harder, m/s^2.
 constexpr double kPoliteness = 0.2, kGain = 0.2, kSafe = 3;
@@ -31,12 +32,15 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
     }
     for (const Walker& walker : d.walkers) {
         if (walker.path >= d.paths.size()) throw Error("walker " + walker.node + ": there is no such path");
-        walks_.push_back({.wait = walker.wait});
+        walks_.push_back({.s = walker.s, .wait = walker.wait, .under_way = walker.s > 0});
     }
     for (const Lane& path : d.paths) {
+        constexpr double kStep = 0.1;  // m
         std::vector<glm::dvec3> points;
-        for (double s = 0; s <= path.length(); s += 0.25) points.push_back(path.at(path.length() - s).position);
+        for (double s = 0; s <= path.length(); s += kStep) points.push_back(path.at(path.length() - s).position);
         back_.emplace_back(path.name(), points, path.width(), path.speed());
+        crossings_.emplace_back();
+        for (size_t lane = 0; lane < d.lanes.size(); ++lane) find_crossings(path, lane);
     }
     driver_lane_ = d.driver_lane;
     const Lane::Place start = d.lanes[driver_lane_].at(d.driver_s);
@@ -44,6 +48,19 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
     driver_.yaw = start.yaw;
     driver_.speed = d.driver_speed;
     occupy();
+}
+
+// Where a path is nearer to a lane than before and after; a loop may be crossed twice.
+void World::find_crossings(const Lane& path, size_t index) {
+    const Lane& lane = description_->lanes[index];
+    Lane::Beside last, before;
+    last.distance = before.distance = kInfinite;
+    for (double s = 0; s <= path.length() + 0.5; s += 0.5) {
+        const glm::dvec3 at = path.at(s).position;
+        const Lane::Beside here = lane.beside({at.x, at.z});
+        if (last.distance < 1 && last.distance <= before.distance && last.distance <= here.distance) crossings_.back().push_back({index, last.s});
+        before = last, last = here;
+    }
 }
 
 double World::draw(double low, double high) { return low + (high - low) * double(random_() >> 11) * 0x1p-53; }
@@ -54,7 +71,9 @@ void World::occupy() {
     for (size_t i = 0; i < cars_.size(); ++i) {
         const Car& car = cars_[i];
         occupants_.push_back({car.lane, car.s, car.speed, d.cars[i].length / 2, int(i)});
-        if (car.change < 1) occupants_.push_back({car.from, car.s, car.speed, d.cars[i].length / 2, int(i)});
+        if (car.change >= 1) continue;
+        const glm::dvec3 at = place_of(i).position;
+        occupants_.push_back({car.from, d.lanes[car.from].beside({at.x, at.z}).s, car.speed, d.cars[i].length / 2, int(i)});
     }
     for (size_t lane = 0; lane < d.lanes.size(); ++lane) {
         const Lane& l = d.lanes[lane];
@@ -62,14 +81,14 @@ void World::occupy() {
         if (me.distance < (l.width() + d.vehicle.width) / 2 - 0.4) {
             const Lane::Place there = l.at(me.s);
             const double along = driver_.speed * std::cos(driver_.yaw - there.yaw);
-            occupants_.push_back({lane, me.s, along, d.vehicle.length / 2, -1});
+            occupants_.push_back({lane, me.s, along, d.vehicle.length / 2, kDriver});
         }
         for (size_t w = 0; w < walks_.size(); ++w) {
             if (!walks_[w].under_way) continue;
             const size_t path = d.walkers[w].path;
             const glm::dvec3 at = (walks_[w].back ? back_ : d.paths)[path].at(walks_[w].s).position;
             const Lane::Beside there = l.beside({at.x, at.z});
-            if (there.distance < l.width() / 2 + kWalkerReach && there.s > 0 && there.s < l.length()) occupants_.push_back({lane, there.s, 0, 1, -1});
+            if (there.distance < l.width() / 2 + kWalkerReach && there.s > 0 && there.s < l.length()) occupants_.push_back({lane, there.s, 0, 1, kWalker});
         }
     }
 }
@@ -77,9 +96,9 @@ void World::occupy() {
 World::Neighbour World::ahead(size_t lane, double s, double half_length, int self) const {
     Neighbour best{kInfinite, 0};
     for (const Occupant& o : occupants_) {
-        if (o.lane != lane || (self >= 0 && o.car == self) || o.s <= s) continue;
-        const double gap = o.s - s - o.half_length - half_length;
-        if (gap < best.gap) best = {gap, o.speed};
+        if (o.lane != lane || o.who == self) continue;
+        const double away = description_->lanes[lane].ahead(s, o.s);
+        if (away >= 0 && away - o.half_length - half_length < best.gap) best = {away - o.half_length - half_length, o.speed};
     }
     return best;
 }
@@ -87,17 +106,22 @@ World::Neighbour World::ahead(size_t lane, double s, double half_length, int sel
 World::Neighbour World::behind(size_t lane, double s, double half_length, int self) const {
     Neighbour best{kInfinite, 0};
     for (const Occupant& o : occupants_) {
-        if (o.lane != lane || o.car == self || o.s > s) continue;
-        const double gap = s - o.s - o.half_length - half_length;
-        if (gap < best.gap) best = {gap, o.speed};
+        if (o.lane != lane || o.who == self) continue;
+        const double away = description_->lanes[lane].ahead(o.s, s);
+        if (away >= 0 && away - o.half_length - half_length < best.gap) best = {away - o.half_length - half_length, o.speed};
     }
     return best;
 }
 
 double World::follow(const Car& car, size_t lane, double half_length, int self) const {
     CarFollowing p = description_->autopilot.following;
-    p.speed = description_->lanes[lane].speed() * car.wish;
-    const Neighbour next = ahead(lane, car.s, half_length, self);
+    double s = car.s;
+    if (lane != car.lane) {
+        const glm::dvec3 at = place_of(size_t(self)).position;
+        s = description_->lanes[lane].beside({at.x, at.z}).s;
+    }
+    p.speed = description_->lanes[lane].speed_at(s) * car.wish;
+    const Neighbour next = ahead(lane, s, half_length, self);
     return idm_acceleration(p, car.speed, next.gap, car.speed - next.speed);
 }
 
@@ -105,18 +129,25 @@ void World::consider_change(size_t index) {
     Car& car = cars_[index];
     const WorldDescription& d = *description_;
     const double half = d.cars[index].length / 2;
+    const Lane::Place place = d.lanes[car.lane].at(car.s);
     const double here = follow(car, car.lane, half, int(index));
     for (const int other : {d.lanes[car.lane].left, d.lanes[car.lane].right}) {
         if (other < 0) continue;
-        const size_t lane = size_t(other);
-        const Neighbour next = ahead(lane, car.s, half, int(index)), last = behind(lane, car.s, half, int(index));
+        const size_t number = size_t(other);
+        const Lane& lane = d.lanes[number];
+        const Lane::Beside there = lane.beside({place.position.x, place.position.z});
+        // Only where the lanes run beside one another, now and after the change.
+        const double later = car.speed * kChangeSeconds;
+        const auto parallel = [&](double s, double t) { return std::abs(std::remainder(lane.at(there.s + s).yaw - d.lanes[car.lane].at(car.s + t).yaw, 2 * std::numbers::pi)) < 0.02; };
+        if (there.distance > 1.5 * lane.width() || !parallel(0, 0) || !parallel(later, later)) continue;
+        const Neighbour next = ahead(number, there.s, half, int(index)), last = behind(number, there.s, half, int(index));
         if (next.gap < 4 || last.gap < 4) continue;
         CarFollowing p = d.autopilot.following;
-        p.speed = d.lanes[lane].speed();
+        p.speed = lane.speed_at(there.s);
         const double yields = std::isinf(last.gap) ? 0 : idm_acceleration(p, last.speed, last.gap, last.speed - car.speed);
         const double undisturbed = std::isinf(last.gap) ? 0 : idm_acceleration(p, last.speed, last.gap + next.gap + 2 * half, last.speed - next.speed);
-        if (yields < -kSafe || follow(car, lane, half, int(index)) - here < kGain + kPoliteness * (undisturbed - yields)) continue;
-        car.from = car.lane, car.lane = lane, car.change = 0;
+        if (yields < -kSafe || follow(car, number, half, int(index)) - here < kGain + kPoliteness * (undisturbed - yields)) continue;
+        car.from = car.lane, car.lane = number, car.s = there.s, car.change = 0, car.offset = there.offset;
         return;
     }
 }
@@ -139,6 +170,10 @@ void World::move_cars(double seconds) {
         if (car.patience <= 0 && car.change >= 1 && car.speed > 3) consider_change(i), car.patience = kPatience;
         const double length = d.lanes[car.lane].length();
         if (car.s <= length) continue;
+        if (d.lanes[car.lane].closed()) {
+            car.s -= length;
+            continue;
+        }
         // Comes in anew, behind whoever waits there.
         double s = 0;
         for (size_t k = 0; k < cars_.size(); ++k)
@@ -147,20 +182,15 @@ void World::move_cars(double seconds) {
     }
 }
 
-bool World::way_is_free(const Lane& path) const {
-    const WorldDescription& d = *description_;
-    for (const Occupant& o : occupants_) {
-        const Lane& lane = d.lanes[o.lane];
-        // Where the path crosses the lane.
-        double crossing = -1, nearest = kInfinite;
-        for (double s = 0; s <= path.length(); s += 0.5) {
-            const glm::dvec3 at = path.at(s).position;
-            const Lane::Beside there = lane.beside({at.x, at.z});
-            if (there.distance < nearest) nearest = there.distance, crossing = there.s;
+bool World::way_is_free(size_t path) const {
+    for (const Crossing& crossing : crossings_[path])
+        for (const Occupant& o : occupants_) {
+            if (o.lane != crossing.lane || o.who == kWalker) continue;
+            const Lane& lane = description_->lanes[o.lane];
+            const bool passing = lane.ahead(crossing.s, o.s) < 4 && lane.ahead(crossing.s, o.s) >= 0;
+            const double gap = lane.ahead(o.s, crossing.s);
+            if (passing || (gap >= 0 && gap < 6) || (gap >= 0 && o.speed > 0.5 && gap < o.speed * kGapSeconds)) return false;
         }
-        const double gap = crossing - o.s;
-        if (nearest < 1 && gap > -4 && gap < std::max(6.0, o.speed * kGapSeconds) && (o.speed > 0.5 || gap < 0)) return false;
-    }
     return true;
 }
 
@@ -172,7 +202,7 @@ void World::move_walkers(double seconds) {
         walk.speed = 0;
         if (!walk.under_way) {
             walk.wait -= seconds;
-            if (walk.wait <= 0 && way_is_free(path)) walk.under_way = true;
+            if (walk.wait <= 0 && way_is_free(d.walkers[i].path)) walk.under_way = true;
             continue;
         }
         walk.speed = path.speed();
@@ -188,7 +218,7 @@ void World::move_driver(const DriverInput& input, double seconds) {
     VehicleControls controls;
     if (input.autopilot) {
         const Lane& lane = d.lanes[driver_lane_];
-        const Neighbour next = ahead(driver_lane_, lane.beside(driver_.position).s + 1e-6, p.length / 2, -1);
+        const Neighbour next = ahead(driver_lane_, lane.beside(driver_.position).s, p.length / 2, kDriver);
         controls = steer_along(lane, driver_, p, d.autopilot, next.gap, driver_.speed - next.speed);
     } else {
         controls = {input.steering * p.largest_angle, input.reverse ? -input.throttle : input.throttle, input.brake};
@@ -216,18 +246,15 @@ void World::step(const DriverInput& input, double seconds) {
     occupy();
 }
 
-glm::dvec3 World::place_of(size_t index, double& yaw, double& slope) const {
+Lane::Place World::place_of(size_t index) const {
     const Car& car = cars_[index];
-    const Lane::Place to = description_->lanes[car.lane].at(car.s);
-    yaw = to.yaw, slope = to.slope;
-    if (car.change >= 1) return to.position;
-    const glm::dvec3 from = description_->lanes[car.from].at(car.s).position;
+    Lane::Place place = description_->lanes[car.lane].at(car.s);
+    if (car.change >= 1) return place;
     // A quintic: no jerk at either end.
-    const double t = car.change, part = t * t * t * (10 + t * (6 * t - 15)), rate = 30 * t * t * (1 - t) * (1 - t) / kChangeSeconds;
-    const glm::dvec3 across = to.position - from;
-    const double left = across.x * -std::cos(to.yaw) + across.z * std::sin(to.yaw);
-    yaw += std::atan2(rate * left, std::max(car.speed, 3.0));
-    return from + part * across;
+    const double t = car.change, left = 1 - t * t * t * (10 + t * (6 * t - 15)), rate = 30 * t * t * (1 - t) * (1 - t) / kChangeSeconds;
+    place.position += car.offset * left * glm::dvec3(-std::cos(place.yaw), 0, std::sin(place.yaw));
+    place.yaw += std::atan2(-rate * car.offset, std::max(car.speed, 3.0));
+    return place;
 }
 
 std::vector<Actor> World::actors() const {
@@ -242,11 +269,10 @@ std::vector<Actor> World::actors() const {
                       lamps_of(input_.beam, input_.indicator, braking_, seconds_)});
     for (size_t i = 0; i < cars_.size(); ++i) {
         const Car& car = cars_[i];
-        double yaw = 0, slope = 0;
-        const glm::dvec3 at = place_of(i, yaw, slope);
-        const Indicator indicator = car.change >= 1 ? Indicator::None : int(car.lane) == d.lanes[car.from].left ? Indicator::Left : Indicator::Right;
+        const Lane::Place at = place_of(i);
+        const Indicator indicator = car.change >= 1 ? Indicator::None : car.offset < 0 ? Indicator::Left : Indicator::Right;
         // Cars flash out of step.
-        actors.push_back({d.cars[i].node, at, yaw, slope, 0, car.speed,
+        actors.push_back({d.cars[i].node, at.position, at.yaw, at.slope, 0, car.speed,
                           lamps_of(d.cars[i].beam, indicator, car.acceleration < -kBraking || car.speed < 0.1, seconds_ + 0.37 * double(i))});
     }
     for (size_t i = 0; i < walks_.size(); ++i) {

@@ -32,6 +32,7 @@ struct Walker {
     std::string node;
     size_t path = 0;   ///< index into WorldDescription::paths
     double wait = 5;   ///< before the first crossing, s; later waits are drawn
+    double s = 0;      ///< m of the path that are behind at the start; more than 0: under way
 };
 
 /// What is there before anything moves.
@@ -77,7 +78,7 @@ private:
     struct Car {
         double s = 0, speed = 0, acceleration = 0, wish = 1;  // wish: of the allowed speed
         size_t lane = 0, from = 0;                            // from: the lane it is leaving
-        double change = 1;                                    // 0 .. 1: part of the way from one to the other
+        double change = 1, offset = 0;                        // 0 .. 1: part of the way to `lane`, which began so far to its left, m
         double patience = 0;                                  // s until it thinks of changing again
     };
     struct Walk {
@@ -93,8 +94,9 @@ private:
     struct Occupant {  // somebody on a lane, of the last step
         size_t lane;
         double s, speed, half_length;
-        int car;  // index, -1: another
+        int who;  // index of a car, or one of these
     };
+    static constexpr int kDriver = -1, kWalker = -2;
 
     void occupy();
     Neighbour ahead(size_t lane, double s, double half_length, int self) const;
@@ -104,8 +106,9 @@ private:
     void consider_change(size_t index);
     void move_walkers(double seconds);
     void move_driver(const DriverInput&, double seconds);
-    bool way_is_free(const Lane& path) const;
-    glm::dvec3 place_of(size_t car, double& yaw, double& slope) const;
+    void find_crossings(const Lane& path, size_t lane);
+    bool way_is_free(size_t path) const;
+    Lane::Place place_of(size_t car) const;
     double draw(double low, double high);
 
     std::shared_ptr<const WorldDescription> description_;
@@ -113,6 +116,11 @@ private:
     std::vector<Car> cars_;
     std::vector<Walk> walks_;
     std::vector<Lane> back_;  // paths the other way
+    struct Crossing {
+        size_t lane;
+        double s;  // of the lane
+    };
+    std::vector<std::vector<Crossing>> crossings_;  // of each path
     VehicleState driver_;
     DriverInput input_;
     bool braking_ = false, touched_ = false;

@@ -19,11 +19,11 @@ glm::dvec3 point_of(const JsonValue& value) {
 }
 
 Lane lane_of(const JsonValue& value, double width, double speed) {
-    value.allow_only({"name", "points", "width_m", "speed_km_h", "left", "right"});
+    value.allow_only({"name", "points", "width_m", "speed_km_h", "closed", "left", "right"});
     std::vector<glm::dvec3> points;
     for (const JsonValue& point : value.at("points").elements()) points.push_back(point_of(point));
     try {
-        return {value.at("name").text(), std::move(points), value.number_or("width_m", width, 0.5, 20), value.number_or("speed_km_h", speed, 0.1, 300) / 3.6};
+        return {value.at("name").text(), std::move(points), value.number_or("width_m", width, 0.5, 20), value.number_or("speed_km_h", speed, 0.1, 300) / 3.6, value.boolean_or("closed", false)};
     } catch (const Error& error) {
         value.fail(error.what());
     }
@@ -62,8 +62,8 @@ void read_cars(const JsonValue& root, WorldDescription& world) {
                               .speed = car.number_or("speed_km_h", 0, 0, 300) / 3.6, .length = car.number_or("length_m", 4.4, 0.5, 50), .beam = beam_of(car)});
     }
     for (const JsonValue& walker : root.elements_of("walkers")) {
-        walker.allow_only({"node", "path", "wait_s"});
-        world.walkers.push_back({walker.at("node").text(), index_of(walker.at("path"), world.paths), walker.number_or("wait_s", 5, 0, 1e6)});
+        walker.allow_only({"node", "path", "wait_s", "at_m"});
+        world.walkers.push_back({walker.at("node").text(), index_of(walker.at("path"), world.paths), walker.number_or("wait_s", 5, 0, 1e6), walker.number_or("at_m", 0, 0, kFar)});
     }
 }
 

@@ -54,8 +54,8 @@ double Lane::ahead(double from, double to) const { return closed_ ? wrapped(to -
 double Lane::speed_at(double s) const {
     s = wrapped(s);
     const size_t next = next_point(s);
-    const double t = std::clamp((s - starts_[next - 1]) / (starts_[next] - starts_[next - 1]), 0.0, 1.0);
-    return speeds_[next - 1] + t * (speeds_[next] - speeds_[next - 1]);
+    const double left = std::max(starts_[next] - s, 0.0);
+    return std::min(std::max(speeds_[next - 1], speeds_[next]), std::sqrt(speeds_[next] * speeds_[next] + 2 * kEase * left));
 }
 
 Lane::Place Lane::at(double s) const {

@@ -28,7 +28,8 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
     if (d.driver_lane >= d.lanes.size()) throw Error("the driver's lane is none of the " + std::to_string(d.lanes.size()) + " there are");
     for (const TrafficCar& car : d.cars) {
         if (car.lane >= d.lanes.size()) throw Error("car " + car.node + ": there is no such lane");
-        cars_.push_back({.s = car.s, .speed = car.speed, .wish = draw(0.9, 1.05), .lane = car.lane, .from = car.lane, .patience = draw(0, kPatience)});
+        const double drawn = draw(0.9, 1.05);
+        cars_.push_back({.s = car.s, .speed = car.speed, .wish = car.wish > 0 ? car.wish : drawn, .lane = car.lane, .from = car.lane, .patience = draw(0, kPatience)});
     }
     for (const Walker& walker : d.walkers) {
         if (walker.path >= d.paths.size()) throw Error("walker " + walker.node + ": there is no such path");

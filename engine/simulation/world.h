@@ -24,6 +24,7 @@ struct TrafficCar {
     double s = 0;            ///< of its middle along the lane at the start, m
     double speed = 0;        ///< m/s
     double length = 4.4;     ///< m
+    double wish = 0;         ///< wanted speed, part of what the lane allows; 0: drawn, 0.9 .. 1.05
     Beam beam = Beam::Low;
 };
 

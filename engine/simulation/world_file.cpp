@@ -57,9 +57,9 @@ Beam beam_of(const JsonValue& car) {
 
 void read_cars(const JsonValue& root, WorldDescription& world) {
     for (const JsonValue& car : root.elements_of("cars")) {
-        car.allow_only({"node", "lane", "at_m", "speed_km_h", "length_m", "beam"});
+        car.allow_only({"node", "lane", "at_m", "speed_km_h", "length_m", "beam", "wish"});
         world.cars.push_back({.node = car.at("node").text(), .lane = index_of(car.at("lane"), world.lanes), .s = car.number_or("at_m", 0, -kFar, kFar),
-                              .speed = car.number_or("speed_km_h", 0, 0, 300) / 3.6, .length = car.number_or("length_m", 4.4, 0.5, 50), .beam = beam_of(car)});
+                              .speed = car.number_or("speed_km_h", 0, 0, 300) / 3.6, .length = car.number_or("length_m", 4.4, 0.5, 50), .wish = car.number_or("wish", 0, 0.05, 2), .beam = beam_of(car)});
     }
     for (const JsonValue& walker : root.elements_of("walkers")) {
         walker.allow_only({"node", "path", "wait_s", "at_m"});

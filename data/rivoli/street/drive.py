@@ -39,12 +39,13 @@ TURNS = ((4.2, 14.0), (7.2, 12.0))  # of either lane at both ends: radius, and l
 START = -205.0
 CARS = (
     (0, -1, -262.0, 50), (0, -1, -150.0, 45), (0, -1, -60.0, 45), (0, -1, 40.0, 40),
-    (1, -1, -222.0, 44), (1, -1, -296.0, 46), (1, -1, -390.0, 46), (1, -1, -100.0, 45), (1, -1, 20.0, 40),
+    (1, -1, -238.0, 36), (1, -1, -310.0, 40), (1, -1, -390.0, 46), (1, -1, -100.0, 45), (1, -1, 20.0, 40),
     (0, 1, -300.0, 48), (0, 1, -378.0, 48), (0, 1, -452.0, 46), (0, 1, -120.0, 45),
     (1, 1, -330.0, 45), (1, 1, -412.0, 45), (1, 1, -500.0, 44), (1, 1, -180.0, 45),
 )  # fmt: skip
 FORGOTTEN = 10  # has not dipped
-WALKS = ((WALK_Z, 13.0), (CROSSINGS[4], 0.0), (CROSSINGS[5], 0.0), (CROSSINGS[3], 0.0))  # z, m already walked
+WISHES = {0: 1.0, 4: 0.68, 5: 0.8, 6: 0.85}  # of the allowed speed, where it is not drawn
+WALKS = ((WALK_Z, 11.7), (CROSSINGS[4], 0.0), (CROSSINGS[5], 0.0), (CROSSINGS[3], 0.0))  # z, m already walked
 
 
 def build_drive():
@@ -165,6 +166,8 @@ def drive_world(parked):
         x = LANE_CENTRES[lane] * (1 if heading < 0 else -1)
         cars.append({"node": f"car_traffic_{k:03d}", "lane": names[lane], "at_m": _along(loops[lane], x, z), "speed_km_h": speed})
     cars[FORGOTTEN]["beam"] = "high"
+    for k, wish in WISHES.items():
+        cars[k]["wish"] = wish
     y = PAVEMENT_Y
     paths = [
         {"name": f"crossing {k}", "points": [[10.4, y, z], [KERB_X, y, z], [KERB_X - 0.2, 0, z], [0.2 - KERB_X, 0, z], [-KERB_X, y, z], [-10.4, y, z]]}

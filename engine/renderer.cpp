@@ -47,13 +47,14 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
     if (ldr)
         shading.emission_limit = 1;
     else
-        shading.ambient = ambient.illuminance, shading.sky = ambient.sky;
+        shading.ambient = frame.tunnels.empty() ? ambient.illuminance : glm::vec3(0), shading.sky = ambient.sky;
 
     const GBuffer surfaces = add_gbuffer(graph, resident_, frame, view);
     const MapTexels maps{map_texels_.in(graph, "maps"), maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};
     const Clusters clusters = add_clusters(graph, kernels_, lights, maps, view, clustering);
     if (retro_ && !ldr) shading.retro = retro_.in(graph, "retroreflection");
     Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
+    if (!frame.tunnels.empty() && !ldr) scene = add_daylight(graph, kernels_, surfaces, scene, frame.tunnels, view, ambient.illuminance, shading.lambert);
     if (sky_ && !ldr) {
         const Resource sky = sky_.in(graph, "sky map");
         scene = add_sky(graph, kernels_, surfaces, scene, sky, sky_sharp_side_, view, shading.lambert);

@@ -13,7 +13,7 @@ namespace vesper {
 /// What the command line says; windows and the headless program take from it what concerns them.
 struct DriveArguments {
     std::string scene, device, size = "1680x1050";
-    std::string record, replay, video, log;
+    std::string record, replay, video, log, channels;
     std::vector<std::string> probes;
     bool headless = false, autopilot = false;
     double seconds = 20;  ///< of a drive without a window, s

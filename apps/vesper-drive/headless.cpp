@@ -86,13 +86,14 @@ public:
         if (ldr && exr_) throw Error("--video " + arguments_.video + ": the ldr operator has no luminances to write");
         return {.display = film_ || (names_ && !exr_), .scene = exr_ || (!log_.empty() && !ldr)};
     }
-    void take(unsigned index, const Session& session, const View& view, const Frame& frame, double fps) {
+    /// `shown`: the picture; `logged`: what the log says of it, seen by `view`.
+    void take(unsigned index, const Session& session, const View& view, const ToneMapped& shown, const Frame& logged, double fps) {
         const Display& display = session.settings().render().display;
         if (film_ && !video_) video_ = std::make_unique<Video>(arguments_.video, extent_.width, extent_.height, fps, display);
-        if (video_) video_->add(frame.display);
-        if (names_ && !exr_) write_codes(names_->at(index), frame, display);
-        if (names_ && exr_) write_exr(names_->at(index), extent_.width, extent_.height, frame.scene, header(session, frame));
-        if (!log_.empty()) log_ += drive_log_row(index, session, view, frame, probes_);
+        if (video_) video_->add(shown.display);
+        if (names_ && !exr_) write_codes(names_->at(index), shown, display);
+        if (names_ && exr_) write_exr(names_->at(index), extent_.width, extent_.height, shown.scene, header(session, shown, logged.lights));
+        if (!log_.empty()) log_ += drive_log_row(index, session, view, logged, probes_);
     }
     void finish() {
         if (video_) video_->finish();
@@ -100,12 +101,12 @@ public:
     }
 
 private:
-    Header header(const Session& session, const Frame& frame) const {
+    Header header(const Session& session, const ToneMapped& frame, uint32_t lights) const {
         Header made{{"vesper:version", VESPER_VERSION},
                     {"vesper:scene", session.scenery().scene().name},
                     {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
                     {"vesper:seconds", digits(session.world().seconds())},
-                    {"vesper:lights", std::to_string(frame.lights)}};
+                    {"vesper:lights", std::to_string(lights)}};
         const Header tone = describe_tone(session.settings().render(), frame);
         made.insert(made.end(), tone.begin(), tone.end());
         return made;
@@ -120,10 +121,31 @@ private:
     std::string log_;
 };
 
+// One picture of all channels; the log is of the one that is looked at.
+void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, double fps) {
+    Wall wall = session.render(channels, outlet.outputs(session));
+    Frame& logged = wall.channels[channels.gaze];
+    double device = 0;
+    for (const Frame& channel : wall.channels)
+        for (const Timing& timing : channel.timings) device += timing.milliseconds;
+    logged.curve = wall.shown.curve, logged.eye = wall.shown.eye, logged.histogram = wall.shown.histogram;
+    logged.timings = wall.shown.timings;
+    logged.timings.push_back({.pass = "channels", .milliseconds = device});
+    outlet.take(index, session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), wall.shown, logged, fps);
+}
+
+VkExtent2D extent_of(const Channels& channels) {
+    VkExtent2D extent{0, 0};
+    for (const ScreenChannel& c : channels.screens) extent = {extent.width + c.extent.width, std::max(extent.height, c.extent.height)};
+    return extent;
+}
+
 }  // namespace
 
 void run_headless(const DriveArguments& a) {
-    const VkExtent2D extent = parse_size(a.size);
+    std::optional<Channels> channels;
+    if (!a.channels.empty()) channels = read_channels(a.channels);
+    const VkExtent2D extent = channels ? extent_of(*channels) : parse_size(a.size);
     Outlet outlet(a, extent);
     SessionOptions options{.scene = a.scene, .seed = a.seed, .settings = a.settings};
     std::vector<DriveEvent> events;
@@ -164,8 +186,13 @@ void run_headless(const DriveArguments& a) {
             }
             case DriveEvent::Kind::Frame: {
                 if (!outlet.wanted()) break;
-                const View view = session.view(extent);
-                outlet.take(index++, session, view, session.render(view, outlet.outputs(session)), fps);
+                if (channels) {
+                    take_wall(outlet, index++, session, *channels, fps);
+                } else {
+                    const View view = session.view(extent);
+                    const Frame frame = session.render(view, outlet.outputs(session));
+                    outlet.take(index++, session, view, frame, frame, fps);
+                }
                 progress.step();
                 break;
             }

@@ -180,6 +180,7 @@ SceneFrame Scenery::frame(const std::vector<Actor>& actors, const DriveSettings&
         const glm::vec3 light = float(outside) * glm::vec3(colour_of_temperature(daylight_temperature(*settings.sun())));
         made.ambient->illuminance += light;
         made.ambient->sky += light / std::numbers::pi_v<float>;
+        made.tunnels = tunnels_;
     }
     for (const Lamp& lamp : lamps_) {
         const auto factor = settings.lamps().find(lamp.name);

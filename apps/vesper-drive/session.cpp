@@ -10,6 +10,7 @@ Session::Session(Device& device, SessionOptions options)
       settings_(options_.settings),
       world_(std::make_unique<World>(scenery_.world(), options_.seed)),
       actors_(world_->actors()),
+      device_(&device),
       renderer_(std::make_unique<Renderer>(device, scenery_.scene())),
       recorder_(std::make_unique<DriveRecorder>(start())) {}
 
@@ -31,6 +32,7 @@ void Session::restart() {
     input_ = {};
     rendered_.reset();
     renderer_->reset_adaptation();
+    if (wall_) wall_->reset_adaptation();
     if (recording())
         recorder_->add({.kind = DriveEvent::Kind::Restart, .name = {}, .value = {}});
     else
@@ -46,19 +48,39 @@ View Session::view(VkExtent2D extent) const { return scenery_.view(scenery_.fram
 
 Frame Session::render(VkExtent2D extent, Outputs outputs) { return render(view(extent), outputs); }
 
-Frame Session::render(const View& view, Outputs outputs) {
-    eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0;
-    Frame frame = renderer_->render(settings_.render(), view, scenery_.frame(actors_, settings_), float(eye_step_), outputs);
+void Session::begin_frame() { eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0; }
+
+void Session::end_frame(const shared::EyeState& eye) {
     rendered_ = world_->steps();
-    eye_ = frame.eye;
+    eye_ = eye;
     recorder_->add({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
+}
+
+Frame Session::render(const View& view, Outputs outputs) {
+    begin_frame();
+    Frame frame = renderer_->render(settings_.render(), view, scenery_.frame(actors_, settings_), float(eye_step_), outputs);
+    end_frame(frame.eye);
     return frame;
 }
 
+Wall Session::render(const Channels& channels, Outputs outputs) {
+    if (!wall_) wall_ = std::make_unique<ChannelRenderer>(*device_);
+    begin_frame();
+    Wall wall = wall_->render(*renderer_, channels, settings_.render(), view({1, 1}), scenery_.frame(actors_, settings_), float(eye_step_), outputs);
+    end_frame(wall.shown.eye);
+    return wall;
+}
+
 void Session::use(Device& device) {
+    const bool had_wall = wall_ != nullptr;
+    wall_.reset();
     renderer_.reset();
+    device_ = &device;
     renderer_ = std::make_unique<Renderer>(device, scenery_.scene());
     if (rendered_) renderer_->set_eye(eye_);
+    if (!had_wall) return;
+    wall_ = std::make_unique<ChannelRenderer>(device);
+    if (rendered_) wall_->set_eye(eye_);
 }
 
 void Session::record(const std::filesystem::path& file) { recorder_->open(file); }

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "channels.h"
 #include "gpu/device.h"
 #include "settings.h"
 #include "simulation/world.h"
@@ -68,6 +69,8 @@ public:
     Frame render(VkExtent2D, Outputs);
     /// The same of another view.
     Frame render(const View&, Outputs);
+    /// All channels of this moment, seen by one eye. Not to be mixed with frames of one view: each way has an eye of its own.
+    Wall render(const Channels&, Outputs);
     /// Seconds that passed for the eye before the last frame.
     double eye_step() const { return eye_step_; }
     Renderer& renderer() { return *renderer_; }
@@ -82,6 +85,8 @@ public:
 
 private:
     DriveStart start() const;
+    void begin_frame();
+    void end_frame(const shared::EyeState&);
 
     SessionOptions options_;
     Scenery scenery_;
@@ -89,7 +94,9 @@ private:
     std::unique_ptr<World> world_;
     std::vector<Actor> actors_;
     DriverInput input_;
+    Device* device_;
     std::unique_ptr<Renderer> renderer_;
+    std::unique_ptr<ChannelRenderer> wall_;  // made when first asked for
     std::optional<uint64_t> rendered_;  // steps at the last frame
     shared::EyeState eye_{};
     double eye_step_ = 0;

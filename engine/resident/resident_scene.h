@@ -9,6 +9,7 @@
 #include "gpu/memory.h"
 #include "resident/textures.h"
 #include "scene/scene.h"
+#include "scene/tunnel.h"
 
 namespace vesper {
 
@@ -23,6 +24,7 @@ struct SceneFrame {
     std::vector<glm::mat4> world;         ///< per node, see world_transforms
     std::vector<float> dimming;           ///< per node, factor on the intensity of its lamp, >= 0; empty: 1 everywhere
     std::optional<AmbientLight> ambient;  ///< in place of the scene's
+    std::vector<Tunnel> tunnels;          ///< that it does not reach into
 
     float dimming_of(uint32_t node) const { return dimming.empty() ? 1 : dimming[node]; }
 };

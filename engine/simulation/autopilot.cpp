@@ -5,9 +5,9 @@
 
 namespace vesper {
 
-VehicleControls steer_along(const Lane& lane, const VehicleState& s, const VehicleParameters& p, const AutopilotSettings& a, double gap, double closing) {
+VehicleControls steer_along(const Course& lane, const VehicleState& s, const VehicleParameters& p, const AutopilotSettings& a, double gap, double closing) {
     const glm::dvec2 rear = s.position - p.rear_axle * s.forward();
-    const Lane::Beside here = lane.beside(rear);
+    const Course::Beside here = lane.beside(rear);
     const double ahead = std::max(a.least_preview, a.preview * std::abs(s.speed));
     const glm::dvec3 aim = lane.at(here.s + ahead).position;
     const glm::dvec2 to = glm::dvec2(aim.x, aim.z) - rear;

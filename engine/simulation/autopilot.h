@@ -2,7 +2,7 @@
 #pragma once
 
 #include "simulation/car_following.h"
-#include "simulation/lane.h"
+#include "simulation/course.h"
 #include "simulation/vehicle.h"
 
 namespace vesper {
@@ -15,6 +15,6 @@ struct AutopilotSettings {
 
 /// What to do with a leader `gap` m ahead that is approached by `closing` m/s (no leader: an infinite gap). Steers to a point of
 /// the lane ahead (pure pursuit, Coulter 1992) and follows as car_following.h says.
-VehicleControls steer_along(const Lane&, const VehicleState&, const VehicleParameters&, const AutopilotSettings&, double gap, double closing);
+VehicleControls steer_along(const Course&, const VehicleState&, const VehicleParameters&, const AutopilotSettings&, double gap, double closing);
 
 }  // namespace vesper

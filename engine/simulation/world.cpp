@@ -35,7 +35,7 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
         if (walker.path >= d.paths.size()) throw Error("walker " + walker.node + ": there is no such path");
         walks_.push_back({.s = walker.s, .wait = walker.wait, .under_way = walker.s > 0});
     }
-    for (const Lane& path : d.paths) {
+    for (const Course& path : d.paths) {
         constexpr double kStep = 0.1;  // m
         std::vector<glm::dvec3> points;
         for (double s = 0; s <= path.length(); s += kStep) points.push_back(path.at(path.length() - s).position);
@@ -44,7 +44,7 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
         for (size_t lane = 0; lane < d.lanes.size(); ++lane) find_crossings(path, lane);
     }
     driver_lane_ = d.driver_lane;
-    const Lane::Place start = d.lanes[driver_lane_].at(d.driver_s);
+    const Course::Place start = d.lanes[driver_lane_].at(d.driver_s);
     driver_.position = {start.position.x, start.position.z};
     driver_.yaw = start.yaw;
     driver_.speed = d.driver_speed;
@@ -52,13 +52,13 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
 }
 
 // Where a path is nearer to a lane than before and after; a loop may be crossed twice.
-void World::find_crossings(const Lane& path, size_t index) {
-    const Lane& lane = description_->lanes[index];
-    Lane::Beside last, before;
+void World::find_crossings(const Course& path, size_t index) {
+    const Course& lane = description_->lanes[index];
+    Course::Beside last, before;
     last.distance = before.distance = kInfinite;
     for (double s = 0; s <= path.length() + 0.5; s += 0.5) {
         const glm::dvec3 at = path.at(s).position;
-        const Lane::Beside here = lane.beside({at.x, at.z});
+        const Course::Beside here = lane.beside({at.x, at.z});
         if (last.distance < 1 && last.distance <= before.distance && last.distance <= here.distance) crossings_.back().push_back({index, last.s});
         before = last, last = here;
     }
@@ -77,10 +77,10 @@ void World::occupy() {
         occupants_.push_back({car.from, d.lanes[car.from].beside({at.x, at.z}).s, car.speed, d.cars[i].length / 2, int(i)});
     }
     for (size_t lane = 0; lane < d.lanes.size(); ++lane) {
-        const Lane& l = d.lanes[lane];
-        const Lane::Beside me = l.beside(driver_.position);
+        const Course& l = d.lanes[lane];
+        const Course::Beside me = l.beside(driver_.position);
         if (me.distance < (l.width() + d.vehicle.width) / 2 - 0.4) {
-            const Lane::Place there = l.at(me.s);
+            const Course::Place there = l.at(me.s);
             const double along = driver_.speed * std::cos(driver_.yaw - there.yaw);
             occupants_.push_back({lane, me.s, along, d.vehicle.length / 2, kDriver});
         }
@@ -88,7 +88,7 @@ void World::occupy() {
             if (!walks_[w].under_way) continue;
             const size_t path = d.walkers[w].path;
             const glm::dvec3 at = (walks_[w].back ? back_ : d.paths)[path].at(walks_[w].s).position;
-            const Lane::Beside there = l.beside({at.x, at.z});
+            const Course::Beside there = l.beside({at.x, at.z});
             if (there.distance < l.width() / 2 + kWalkerReach && there.s > 0 && there.s < l.length()) occupants_.push_back({lane, there.s, 0, 1, kWalker});
         }
     }
@@ -130,13 +130,13 @@ void World::consider_change(size_t index) {
     Car& car = cars_[index];
     const WorldDescription& d = *description_;
     const double half = d.cars[index].length / 2;
-    const Lane::Place place = d.lanes[car.lane].at(car.s);
+    const Course::Place place = d.lanes[car.lane].at(car.s);
     const double here = follow(car, car.lane, half, int(index));
     for (const int other : {d.lanes[car.lane].left, d.lanes[car.lane].right}) {
         if (other < 0) continue;
         const size_t number = size_t(other);
-        const Lane& lane = d.lanes[number];
-        const Lane::Beside there = lane.beside({place.position.x, place.position.z});
+        const Course& lane = d.lanes[number];
+        const Course::Beside there = lane.beside({place.position.x, place.position.z});
         // Only where the lanes run beside one another, now and after the change.
         const double later = car.speed * kChangeSeconds;
         const auto parallel = [&](double s, double t) { return std::abs(std::remainder(lane.at(there.s + s).yaw - d.lanes[car.lane].at(car.s + t).yaw, 2 * std::numbers::pi)) < 0.02; };
@@ -187,7 +187,7 @@ bool World::way_is_free(size_t path) const {
     for (const Crossing& crossing : crossings_[path])
         for (const Occupant& o : occupants_) {
             if (o.lane != crossing.lane || o.who == kWalker) continue;
-            const Lane& lane = description_->lanes[o.lane];
+            const Course& lane = description_->lanes[o.lane];
             const bool passing = lane.ahead(crossing.s, o.s) < 4 && lane.ahead(crossing.s, o.s) >= 0;
             const double gap = lane.ahead(o.s, crossing.s);
             if (passing || (gap >= 0 && gap < 6) || (gap >= 0 && o.speed > 0.5 && gap < o.speed * kGapSeconds)) return false;
@@ -199,7 +199,7 @@ void World::move_walkers(double seconds) {
     const WorldDescription& d = *description_;
     for (size_t i = 0; i < walks_.size(); ++i) {
         Walk& walk = walks_[i];
-        const Lane& path = (walk.back ? back_ : d.paths)[d.walkers[i].path];
+        const Course& path = (walk.back ? back_ : d.paths)[d.walkers[i].path];
         walk.speed = 0;
         if (!walk.under_way) {
             walk.wait -= seconds;
@@ -218,7 +218,7 @@ void World::move_driver(const DriverInput& input, double seconds) {
     const VehicleParameters& p = d.vehicle;
     VehicleControls controls;
     if (input.autopilot) {
-        const Lane& lane = d.lanes[driver_lane_];
+        const Course& lane = d.lanes[driver_lane_];
         const Neighbour next = ahead(driver_lane_, lane.beside(driver_.position).s, p.length / 2, kDriver);
         controls = steer_along(lane, driver_, p, d.autopilot, next.gap, driver_.speed - next.speed);
     } else {
@@ -226,7 +226,7 @@ void World::move_driver(const DriverInput& input, double seconds) {
         // The lane that one is in is the one that the autopilot would take over.
         double nearest = kInfinite;
         for (size_t lane = 0; lane < d.lanes.size(); ++lane) {
-            const Lane::Beside there = d.lanes[lane].beside(driver_.position);
+            const Course::Beside there = d.lanes[lane].beside(driver_.position);
             const bool along = std::cos(driver_.yaw - d.lanes[lane].at(there.s).yaw) > 0;
             if (along && there.distance < nearest) nearest = there.distance, driver_lane_ = lane;
         }
@@ -247,9 +247,9 @@ void World::step(const DriverInput& input, double seconds) {
     occupy();
 }
 
-Lane::Place World::place_of(size_t index) const {
+Course::Place World::place_of(size_t index) const {
     const Car& car = cars_[index];
-    Lane::Place place = description_->lanes[car.lane].at(car.s);
+    Course::Place place = description_->lanes[car.lane].at(car.s);
     if (car.change >= 1) return place;
     // A quintic: no jerk at either end.
     const double t = car.change, left = 1 - t * t * t * (10 + t * (6 * t - 15)), rate = 30 * t * t * (1 - t) * (1 - t) / kChangeSeconds;
@@ -261,8 +261,8 @@ Lane::Place World::place_of(size_t index) const {
 std::vector<Actor> World::actors() const {
     const WorldDescription& d = *description_;
     std::vector<Actor> actors;
-    const Lane& lane = d.lanes[driver_lane_];
-    const Lane::Place ground = lane.at(lane.beside(driver_.position).s);
+    const Course& lane = d.lanes[driver_lane_];
+    const Course::Place ground = lane.at(lane.beside(driver_.position).s);
     const double middle = (d.vehicle.front_axle - d.vehicle.rear_axle) / 2;
     const glm::dvec2 origin = driver_.position + middle * driver_.forward();
     actors.push_back({d.driver_node, {origin.x, ground.position.y, origin.y}, driver_.yaw,
@@ -270,7 +270,7 @@ std::vector<Actor> World::actors() const {
                       lamps_of(input_.beam, input_.indicator, braking_, seconds_)});
     for (size_t i = 0; i < cars_.size(); ++i) {
         const Car& car = cars_[i];
-        const Lane::Place at = place_of(i);
+        const Course::Place at = place_of(i);
         const Indicator indicator = car.change >= 1 ? Indicator::None : car.offset < 0 ? Indicator::Left : Indicator::Right;
         // Cars flash out of step.
         actors.push_back({d.cars[i].node, at.position, at.yaw, at.slope, 0, car.speed,
@@ -278,7 +278,7 @@ std::vector<Actor> World::actors() const {
     }
     for (size_t i = 0; i < walks_.size(); ++i) {
         const Walk& walk = walks_[i];
-        const Lane::Place at = (walk.back ? back_ : d.paths)[d.walkers[i].path].at(walk.s);
+        const Course::Place at = (walk.back ? back_ : d.paths)[d.walkers[i].path].at(walk.s);
         actors.push_back({.node = d.walkers[i].node, .position = at.position, .yaw = at.yaw, .speed = walk.speed});
     }
     return actors;

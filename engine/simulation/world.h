@@ -12,7 +12,7 @@
 #include "simulation/autopilot.h"
 #include "simulation/barrier.h"
 #include "simulation/driver.h"
-#include "simulation/lane.h"
+#include "simulation/course.h"
 #include "simulation/vehicle.h"
 
 namespace vesper {
@@ -38,8 +38,8 @@ struct Walker {
 
 /// What is there before anything moves.
 struct WorldDescription {
-    std::vector<Lane> lanes;
-    std::vector<Lane> paths;         ///< of walkers, from kerb to kerb and a little beyond; their speed is that of walking
+    std::vector<Course> lanes;
+    std::vector<Course> paths;         ///< of walkers, from kerb to kerb and a little beyond; their speed is that of walking
     std::vector<Barrier> barriers;
     std::vector<TrafficCar> cars;
     std::vector<Walker> walkers;
@@ -107,16 +107,16 @@ private:
     void consider_change(size_t index);
     void move_walkers(double seconds);
     void move_driver(const DriverInput&, double seconds);
-    void find_crossings(const Lane& path, size_t lane);
+    void find_crossings(const Course& path, size_t lane);
     bool way_is_free(size_t path) const;
-    Lane::Place place_of(size_t car) const;
+    Course::Place place_of(size_t car) const;
     double draw(double low, double high);
 
     std::shared_ptr<const WorldDescription> description_;
     std::mt19937_64 random_;
     std::vector<Car> cars_;
     std::vector<Walk> walks_;
-    std::vector<Lane> back_;  // paths the other way
+    std::vector<Course> back_;  // paths the other way
     struct Crossing {
         size_t lane;
         double s;  // of the lane

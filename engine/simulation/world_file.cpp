@@ -18,7 +18,7 @@ glm::dvec3 point_of(const JsonValue& value) {
     return {xyz[0].number(-kFar, kFar), xyz[1].number(-kFar, kFar), xyz[2].number(-kFar, kFar)};
 }
 
-Lane lane_of(const JsonValue& value, double width, double speed) {
+Course lane_of(const JsonValue& value, double width, double speed) {
     value.allow_only({"name", "points", "width_m", "speed_km_h", "closed", "left", "right"});
     std::vector<glm::dvec3> points;
     for (const JsonValue& point : value.at("points").elements()) points.push_back(point_of(point));
@@ -29,13 +29,13 @@ Lane lane_of(const JsonValue& value, double width, double speed) {
     }
 }
 
-std::vector<Lane> lanes_of(const JsonValue& root, const char* key, double width, double speed) {
-    std::vector<Lane> lanes;
+std::vector<Course> lanes_of(const JsonValue& root, const char* key, double width, double speed) {
+    std::vector<Course> lanes;
     for (const JsonValue& value : root.elements_of(key)) lanes.push_back(lane_of(value, width, speed));
     return lanes;
 }
 
-size_t index_of(const JsonValue& name, const std::vector<Lane>& lanes) {
+size_t index_of(const JsonValue& name, const std::vector<Course>& lanes) {
     for (size_t i = 0; i < lanes.size(); ++i)
         if (lanes[i].name() == name.text()) return i;
     name.fail("there is no lane " + one_line(name.text()));
@@ -118,7 +118,7 @@ WorldFile read_world(const std::filesystem::path& path) {
     file.by_day = names_of(root, "lit_by_day");
     for (const JsonValue& tunnel : root.elements_of("tunnels")) {
         tunnel.allow_only({"from", "to", "width_m", "height_m"});
-        file.tunnels.push_back({point_of(tunnel.at("from")), point_of(tunnel.at("to")), tunnel.at("width_m").number(0.5, 100), tunnel.at("height_m").number(0.5, 100)});
+        file.tunnels.push_back({glm::vec3(point_of(tunnel.at("from"))), glm::vec3(point_of(tunnel.at("to"))), float(tunnel.at("width_m").number(0.5, 100)), float(tunnel.at("height_m").number(0.5, 100))});
         if (glm::distance(file.tunnels.back().from, file.tunnels.back().to) < 0.1) tunnel.fail("must be longer than 0.1 m");
     }
     return file;

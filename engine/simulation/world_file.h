@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/tunnel.h"
 #include "simulation/world.h"
 
 namespace vesper {
@@ -12,12 +13,6 @@ namespace vesper {
 /// Which lamps of vehicles are what, by the names of their rules in the photometry file.
 struct LampRoles {
     std::vector<std::string> low, high, tail, brake, left, right;
-};
-
-/// Where daylight comes in from the ends only: what lies in the box is lit through its two portals.
-struct Tunnel {
-    glm::dvec3 from{0}, to{0};  ///< middle of the floor at either end, m
-    double width = 0, height = 0;  ///< m
 };
 
 struct WorldFile {

@@ -16,16 +16,16 @@ namespace {
 
 constexpr double kStep = 1.0 / 60, kPi = std::numbers::pi;
 
-Lane straight(double length, double speed = 50 / 3.6) { return {"straight", {{0, 0, 0}, {0, 0, -length}}, 3, speed}; }
+Course straight(double length, double speed = 50 / 3.6) { return {"straight", {{0, 0, 0}, {0, 0, -length}}, 3, speed}; }
 
-Lane circle(double radius, int points = 360) {
+Course circle(double radius, int points = 360) {
     std::vector<glm::dvec3> round;
     for (int i = 0; i < points; ++i) round.push_back({radius * std::cos(2 * kPi * i / points), 1, -radius * std::sin(2 * kPi * i / points)});
     return {"circle", round, 3, 20, true};
 }
 
 // The driver stands on another lane, out of the way.
-std::shared_ptr<WorldDescription> one_lane(Lane lane) {
+std::shared_ptr<WorldDescription> one_lane(Course lane) {
     auto d = std::make_shared<WorldDescription>();
     d->lanes.push_back(std::move(lane));
     d->lanes.emplace_back("away", std::vector<glm::dvec3>{{500, 0, 0}, {500, 0, 100}}, 3, 10);
@@ -33,43 +33,43 @@ std::shared_ptr<WorldDescription> one_lane(Lane lane) {
     return d;
 }
 
-TEST(Lane, AStraightOneIsItsLine) {
-    const Lane lane = straight(100);
+TEST(Course, AStraightOneIsItsLine) {
+    const Course lane = straight(100);
     EXPECT_EQ(lane.length(), 100);
     EXPECT_EQ(lane.at(30).position, glm::dvec3(0, 0, -30));
     EXPECT_EQ(lane.at(130).position, glm::dvec3(0, 0, -130));
-    const Lane::Beside left = lane.beside({-2, -40});
+    const Course::Beside left = lane.beside({-2, -40});
     EXPECT_NEAR(left.s, 40, 1e-12);
     EXPECT_NEAR(left.offset, 2, 1e-12);
     EXPECT_NEAR(lane.beside({3, 10}).s, -10, 1e-12);
-    EXPECT_THROW(Lane("x", {{0, 0, 0}}, 3, 10), Error);
-    EXPECT_THROW(Lane("x", {{0, 0, 0}, {0, 5, 0}}, 3, 10), Error);
+    EXPECT_THROW(Course("x", {{0, 0, 0}}, 3, 10), Error);
+    EXPECT_THROW(Course("x", {{0, 0, 0}, {0, 5, 0}}, 3, 10), Error);
 }
 
-TEST(Lane, ACircleCloses) {
+TEST(Course, ACircleCloses) {
     const double radius = 20;
-    const Lane lane = circle(radius);
+    const Course lane = circle(radius);
     EXPECT_NEAR(lane.length(), 2 * kPi * radius, 0.01);
     for (double s = -50; s < 300; s += 7.3) {
-        const Lane::Place place = lane.at(s);
+        const Course::Place place = lane.at(s);
         const double angle = s / lane.length() * 2 * kPi;
         EXPECT_NEAR(place.position.x, radius * std::cos(angle), 0.01) << s;
         EXPECT_NEAR(std::remainder(place.yaw - angle, 2 * kPi), 0, 0.01) << s;  // it begins towards -Z, and turns left
     }
     EXPECT_NEAR(lane.ahead(lane.length() - 5, 5), 10, 1e-9);
     // Curves are taken with 2 m/s^2 across.
-    EXPECT_NEAR(lane.speed_at(33), std::sqrt(Lane::kCurve * radius), 0.05);
+    EXPECT_NEAR(lane.speed_at(33), std::sqrt(Course::kCurve * radius), 0.05);
 }
 
-TEST(Lane, SlowsDownBeforeACurve) {
+TEST(Course, SlowsDownBeforeACurve) {
     std::vector<glm::dvec3> points{{0, 0, 200}};
     for (int i = 0; i <= 45; ++i) points.push_back({-10 + 10 * std::cos(i * kPi / 90), 0, -10 * std::sin(i * kPi / 90)});
     points.push_back(points.back() + glm::dvec3(-100, 0, -100));
-    const Lane lane("bend", points, 3, 20);
-    const double bend = std::sqrt(Lane::kCurve * 10);
+    const Course lane("bend", points, 3, 20);
+    const double bend = std::sqrt(Course::kCurve * 10);
     EXPECT_NEAR(lane.speed_at(204), bend, 0.1);
     EXPECT_EQ(lane.speed_at(0), 20);
-    for (double s = 0; s < 199; s += 1) EXPECT_LE(lane.speed_at(s) * lane.speed_at(s), lane.speed_at(s + 1) * lane.speed_at(s + 1) + 2 * Lane::kEase * 1.01 + 1e-9);
+    for (double s = 0; s < 199; s += 1) EXPECT_LE(lane.speed_at(s) * lane.speed_at(s), lane.speed_at(s + 1) * lane.speed_at(s + 1) + 2 * Course::kEase * 1.01 + 1e-9);
 }
 
 // Treiber, Hennecke and Helbing 2000: a free car accelerates with a, one at its gap of equilibrium keeps its speed.
@@ -118,10 +118,10 @@ TEST(World, TheAutopilotKeepsToItsLane) {
     World world(d, 1);
     for (int i = 0; i < 60 * 60; ++i) {
         world.step({.autopilot = true}, kStep);
-        const Lane::Beside beside = d->lanes[0].beside(world.driver().position);
+        const Course::Beside beside = d->lanes[0].beside(world.driver().position);
         ASSERT_LT(beside.distance, 0.5) << i * kStep << " s";
     }
-    EXPECT_NEAR(world.driver().speed, std::sqrt(Lane::kCurve * 30), 0.7);
+    EXPECT_NEAR(world.driver().speed, std::sqrt(Course::kCurve * 30), 0.7);
 }
 
 TEST(World, IsTheSameEveryTimeAndHangsOnItsSeed) {

@@ -1,4 +1,4 @@
-#include "simulation/lane.h"
+#include "simulation/course.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace vesper {
 
-Lane::Lane(std::string name, std::vector<glm::dvec3> points, double width, double speed, bool closed)
+Course::Course(std::string name, std::vector<glm::dvec3> points, double width, double speed, bool closed)
     : name_(std::move(name)), points_(std::move(points)), width_(width), speed_(speed), closed_(closed) {
     if (points_.size() < 2) throw Error("lane " + name_ + ": at least two points are needed");
     if (closed_) points_.push_back(points_.front());
@@ -45,20 +45,20 @@ Lane::Lane(std::string name, std::vector<glm::dvec3> points, double width, doubl
     }
 }
 
-double Lane::wrapped(double s) const { return closed_ ? s - length() * std::floor(s / length()) : s; }
+double Course::wrapped(double s) const { return closed_ ? s - length() * std::floor(s / length()) : s; }
 
-size_t Lane::next_point(double s) const { return size_t(std::upper_bound(starts_.begin() + 1, starts_.end() - 1, s) - starts_.begin()); }
+size_t Course::next_point(double s) const { return size_t(std::upper_bound(starts_.begin() + 1, starts_.end() - 1, s) - starts_.begin()); }
 
-double Lane::ahead(double from, double to) const { return closed_ ? wrapped(to - from) : to - from; }
+double Course::ahead(double from, double to) const { return closed_ ? wrapped(to - from) : to - from; }
 
-double Lane::speed_at(double s) const {
+double Course::speed_at(double s) const {
     s = wrapped(s);
     const size_t next = next_point(s);
-    const double left = std::max(starts_[next] - s, 0.0);
-    return std::min(std::max(speeds_[next - 1], speeds_[next]), std::sqrt(speeds_[next] * speeds_[next] + 2 * kEase * left));
+    const double rest = std::max(starts_[next] - s, 0.0);
+    return std::min(std::max(speeds_[next - 1], speeds_[next]), std::sqrt(speeds_[next] * speeds_[next] + 2 * kEase * rest));
 }
 
-Lane::Place Lane::at(double s) const {
+Course::Place Course::at(double s) const {
     s = wrapped(s);
     const size_t next = next_point(s);
     const glm::dvec3 from = points_[next - 1], to = points_[next];
@@ -66,7 +66,7 @@ Lane::Place Lane::at(double s) const {
     return {from + t * (to - from), yaws_[next - 1] + turn * (yaws_[next] - yaws_[next - 1]), std::atan2(to.y - from.y, length)};
 }
 
-Lane::Beside Lane::beside(glm::dvec2 point) const {
+Course::Beside Course::beside(glm::dvec2 point) const {
     Beside best;
     best.distance = std::numeric_limits<double>::infinity();
     for (size_t i = 1; i < points_.size(); ++i) {

@@ -9,7 +9,7 @@
 namespace vesper {
 
 /// The middle of a lane in the direction of traffic.
-class Lane {
+class Course {
 public:
     /// A place on a lane.
     struct Place {
@@ -25,7 +25,7 @@ public:
     };
 
     /// A closed lane goes on from its last point to its first. Throws Error.
-    Lane(std::string name, std::vector<glm::dvec3> points, double width, double speed, bool closed = false);
+    Course(std::string name, std::vector<glm::dvec3> points, double width, double speed, bool closed = false);
 
     const std::string& name() const { return name_; }
     double width() const { return width_; }  ///< m

@@ -72,17 +72,14 @@ DriveSettings::Values read_values(const JsonValue& object) {
 
 // A file whose program ended early: up to its last whole line, and closed.
 std::vector<uint8_t> completed(std::vector<uint8_t> text, bool& was_complete) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
-    was_complete = text.size() >= 2 && text[text.size() - 1] == '}' && text[text.size() - 2] == ']';
-    if (was_complete) return text;
-    text.push_back('\n');
-    // A line is whole when the next has begun or a newline followed; the last may have been cut short.
     const auto parses = [](const std::vector<uint8_t>& candidate) { return json::accept(candidate.begin(), candidate.end()); };
-    for (int tries = 0; tries < 2 && !text.empty(); ++tries) {
+    was_complete = parses(text);
+    if (was_complete) return text;
+    // The last line may have been cut short.
+    for (int tries = 0; tries < 2; ++tries) {
         std::vector<uint8_t> candidate = text;
         for (const char c : {']', '}'}) candidate.push_back(uint8_t(c));
         if (parses(candidate)) return candidate;
-        text.pop_back();
         while (!text.empty() && text.back() != '\n') text.pop_back();
     }
     return text;

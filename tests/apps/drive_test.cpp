@@ -32,10 +32,16 @@ std::vector<Frame> play(Session& session, const std::vector<DriveEvent>& events)
     return frames;
 }
 
-double mean_luminance(const Frame& frame) {
+// Mean luminance of the road 8 to 20 m ahead, cd/m^2.
+double road_luminance(const Frame& frame) {
     double sum = 0;
-    for (size_t i = 0; i < frame.scene.size(); i += 4) sum += luminance(glm::dvec3(frame.scene[i], frame.scene[i + 1], frame.scene[i + 2]));
-    return sum / (double(frame.scene.size()) / 4);
+    int pixels = 0;
+    for (uint32_t y = 58; y < 70; ++y)
+        for (uint32_t x = 70; x < 95; ++x, ++pixels) {
+            const float* p = &frame.scene[4 * (size_t(y) * kSize.width + x)];
+            sum += luminance(glm::dvec3(p[0], p[1], p[2]));
+        }
+    return sum / pixels;
 }
 
 // Steering, pedals, lamps, cameras, operators and frames at uneven times, as a window makes them.
@@ -90,7 +96,6 @@ TEST(Drive, AReplayHasTheSameBytes) {
         EXPECT_EQ(std::memcmp(&again[i].eye, &driven[i].eye, sizeof(shared::EyeState)), 0) << "frame " << i;
     }
     EXPECT_NE(driven[1].display, driven[2].display);
-    EXPECT_EQ(driven.back().display, driven.front().display) << "after the restart, but for settings";
 }
 
 // Whatever the place where a program ended: all whole lines are there.
@@ -155,12 +160,12 @@ TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
     const Frame dark = session.render(kSize, outputs);
     EXPECT_EQ(dark.lights, 0u);
     EXPECT_EQ(high.lights, low.lights + 2);  // of the driver's car
-    EXPECT_GT(mean_luminance(low), 1.2 * mean_luminance(dark));
-    EXPECT_GT(mean_luminance(high), mean_luminance(low));
+    EXPECT_GT(road_luminance(low), 2 * road_luminance(dark));
+    EXPECT_GT(road_luminance(high), road_luminance(low));
     // They go with the car: the road before it stays lit.
     session.set("lamp:low beam", "1");
     for (int i = 0; i < 120; ++i) session.step({.beam = Beam::Low, .autopilot = true});
-    EXPECT_GT(mean_luminance(session.render(kSize, outputs)), 1.2 * mean_luminance(dark));
+    EXPECT_GT(road_luminance(session.render(kSize, outputs)), 2 * road_luminance(dark));
 }
 
 TEST(Drive, EveryCameraSeesTheStreet) {

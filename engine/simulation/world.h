@@ -71,7 +71,7 @@ public:
     const VehicleState& driver() const { return driver_; }
     const WorldDescription& description() const { return *description_; }
     size_t driver_lane() const { return driver_lane_; }  ///< the one the autopilot keeps to
-    bool touched() const { return touched_; }            ///< a kerb or a car in the last step
+    bool touched() const { return touched_; }            ///< a barrier in the last step
     /// The driver's car first, then traffic, then walkers, in the order of the description.
     std::vector<Actor> actors() const;
 

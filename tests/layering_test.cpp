@@ -29,6 +29,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"scene", {"base", "io", "photometry", "perception"}},
     {"simulation", {"base", "io", "photometry", "perception", "scene"}},
     {"gpu", {"base"}},
+    {"window", {"base", "gpu", "glsl"}},
     {"graph", {"base", "gpu"}},
     {"resident", {"base", "photometry", "perception", "scene", "gpu", "glsl"}},
     {"passes", {"base", "photometry", "perception", "scene", "gpu", "graph", "resident", "glsl"}},

@@ -5,6 +5,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "picture_arguments.h"
+#include "windowed.h"
 
 namespace vesper {
 namespace {
@@ -17,6 +18,7 @@ void check(DriveArguments& a) {
     files.reads(a.scene);
     files.reads(a.replay);
     files.reads(a.channels);
+    files.reads(a.controllers);
     files.writes("--record", a.record);
     files.writes("--log", a.log);
 }
@@ -39,12 +41,21 @@ void add_drive(CLI::App& program) {
     program.add_option("--channels", a->channels, "Headless: a file of views of the driver's eye, on screens side by side (docs/simulator.md)");
     program.add_option("--seed", a->seed, "Of everything that is drawn by lot")->capture_default_str();
     program.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    program.add_option("--window", a->window, "WIDTHxHEIGHT of the window, px")->capture_default_str();
+    program.add_option("--fullscreen", a->full_screen, "Fill a monitor, counted from 0")->expected(0, 1)->default_str("0")->check(CLI::NonNegativeNumber);
+    program.add_option("--vsync", a->vsync, "wait for the refresh; latest: the newest picture at each; off: at once")->check(CLI::IsMember({"wait", "latest", "off"}))->capture_default_str();
+    program.add_option("--limit", a->limit, "Pictures a second at most (default: as many as there can be)")->check(between(1.0, 1000.0));
+    program.add_option("--scaling", a->scaling, "Pictures of another size than the window: fit it, or repeat whole pixels")->check(CLI::IsMember({"fit", "whole"}))->capture_default_str();
+    program.add_option("--controllers", a->controllers, "What axes and buttons of wheels and gamepads mean (docs/simulator.md)");
     DriveSettings::add_options(program);
     program.callback([a, &program] {
         a->settings = DriveSettings::given(program);
         check(*a);
-        if (!a->headless) throw Error("this build has no window: give --headless");
-        run_headless(*a);
+        a->size_given = program.count("--size") > 0;
+        if (a->headless)
+            run_headless(*a);
+        else
+            run_windowed(*a);
     });
 }
 

@@ -20,6 +20,12 @@ struct DriveArguments {
     double fps = 0;       ///< of films, 1/s; 0: the recording's own frames, or 30
     uint64_t seed = 1;
     DriveSettings::Values settings;
+
+    // Of a window.
+    std::string window = "1280x800", vsync = "wait", scaling = "fit", controllers;
+    int full_screen = -1;     ///< the monitor to fill; -1: none
+    double limit = 0;         ///< pictures a second at most; 0: none
+    bool size_given = false;  ///< pictures are of `size`, not of the window's
 };
 
 void add_drive(CLI::App& program);

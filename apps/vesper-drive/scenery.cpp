@@ -149,10 +149,20 @@ void Scenery::find_lamps(const LampRoles& roles, const std::vector<std::string>&
     }
 }
 
-std::vector<std::string> Scenery::lamp_names() const {
-    std::set<std::string> names;
-    for (const Lamp& lamp : lamps_) names.insert(lamp.name);
-    return {names.begin(), names.end()};
+std::vector<LampGroup> Scenery::lamp_groups() const {
+    std::map<std::string, LampGroup> groups;
+    for (const Lamp& lamp : lamps_) {
+        const Light& light = scene_.lights[scene_.nodes[lamp.node].light];
+        if (light.kind == Light::Kind::Directional) continue;  // has no intensity
+        const double largest = light.kind == Light::Kind::Measured ? largest_intensity(scene_.distributions[light.distribution]) : 1;
+        LampGroup& group = groups[lamp.name];
+        group.name = lamp.name;
+        ++group.lamps, group.candela = std::max(group.candela, double(light.intensity) * largest);
+    }
+    std::vector<LampGroup> sorted;
+    for (auto& [name, group] : groups)
+        if (group.candela > 0) sorted.push_back(std::move(group));
+    return sorted;
 }
 
 bool Scenery::shines(const Lamp& lamp, const std::vector<Actor>& actors, bool bright) const {

@@ -11,6 +11,13 @@
 
 namespace vesper {
 
+/// Lamps of one name.
+struct LampGroup {
+    std::string name;
+    size_t lamps = 0;
+    double candela = 0;  ///< the largest intensity of any of them, as the scene has it
+};
+
 /// A scene that is driven in. The animations of the file do not play: what moves is the world's.
 class Scenery {
 public:
@@ -21,8 +28,8 @@ public:
     const Scene& scene() const { return scene_; }
     const std::shared_ptr<const WorldDescription>& world() const { return world_; }
     const std::vector<std::string>& notes() const { return notes_; }
-    /// Names of the lamps there are, for "lamp:NAME" settings, sorted.
-    std::vector<std::string> lamp_names() const;
+    /// The lamps there are by name, as "lamp:NAME" settings have them, sorted.
+    std::vector<LampGroup> lamp_groups() const;
 
     /// Where everything stands and how it is lit, with the actors of a World of `world()`.
     SceneFrame frame(const std::vector<Actor>&, const DriveSettings&) const;

@@ -146,7 +146,8 @@ TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
     Device device({.select = ""});
     Session session(device, {.scene = kWorld, .settings = {}});
     const Outputs outputs{.display = false, .scene = true};
-    const auto lamps = session.scenery().lamp_names();
+    std::vector<std::string> lamps;
+    for (const LampGroup& group : session.scenery().lamp_groups()) lamps.push_back(group.name);
     for (const char* name : {"street lamp", "low beam", "high beam", "brake lamp", "tunnel lamp", "left front indicator"}) EXPECT_TRUE(std::find(lamps.begin(), lamps.end(), name) != lamps.end()) << name;
     for (const std::string& lamp : lamps)
         if (lamp != "low beam" && lamp != "high beam") session.set("lamp:" + lamp, "0");

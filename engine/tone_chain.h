@@ -30,6 +30,9 @@ struct Outputs {
     bool display = true;  ///< codes
     bool scene = false;   ///< luminance
     bool light = false;   ///< luminance of the display, without its limits
+    /// Only `scene`, but as it falls on the retina, with what the eye scatters; no eye adapts and nothing is shown. For several
+    /// pictures of one eye.
+    bool retina = false;
 };
 
 /// What the chain leaves for the host. Resources that were not asked for are none.

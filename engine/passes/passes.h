@@ -111,6 +111,12 @@ Resource add_shading(FrameGraph&, const Kernels&, const GBuffer&, const Clusters
 Resource add_sky(FrameGraph&, const Kernels&, const GBuffer&, Resource scene, Resource sky, uint32_t sharp_side, const View&,
                  float lambert);
 
+/// Adds light from everywhere, `illuminance` (RGB lx) on any surface in the open, to shaded luminance, in place: E rho lambert. What
+/// lies in a tunnel gets what of it comes through the tunnel's ends, without what its walls send on. For days: ShadeSettings::ambient,
+/// which is the same light without tunnels, is then none.
+Resource add_daylight(FrameGraph&, const Kernels&, const GBuffer&, Resource scene, const std::vector<Tunnel>&, const View&,
+                      glm::vec3 illuminance, float lambert);
+
 /// Adds to the scene image, in place, the lamps of `list` seen directly: their luminance times the part of each pixel that
 /// their outline covers, exactly, where no `surface` (GBuffer::surface) lies before them. However small a lamp is, the sum
 /// over the image of luminance times solid angle is I / d^2. Without anything to see there is no pass.

@@ -8,6 +8,7 @@
 #include "shaders/cluster.comp.inc"
 #include "shaders/colours.comp.inc"
 #include "shaders/composite.comp.inc"
+#include "shaders/daylight.comp.inc"
 #include "shaders/display_light.comp.inc"
 #include "shaders/gather.comp.inc"
 #include "shaders/histogram.comp.inc"
@@ -38,6 +39,7 @@ Kernels::Kernels(const Device& device)
       shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{32, 8}),
       shade_rows(device.is_cpu() ? 8 : 1),
       sky(device, "sky.comp", sky_comp, {shade_group.width, shade_group.height, shade_rows}),
+      daylight(device, "daylight.comp", daylight_comp, {shade_group.width, shade_group.height, shade_rows}),
       sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),

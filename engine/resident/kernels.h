@@ -24,6 +24,7 @@ struct Kernels {
     const Kernel& gather(uint32_t variant) const;
     const Kernel& shade(uint32_t variant) const;
     Kernel sky;
+    Kernel daylight;
     Kernel sources;
     Kernel pyramid_first, pyramid;
     Kernel colours;

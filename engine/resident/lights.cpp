@@ -58,12 +58,13 @@ LightList light_list(const std::vector<PlacedLight>& lights, const LightMaps& ma
     for (const PlacedLight& placed : lights) {
         const Light& light = placed.light;
         const bool measured = light.kind == Light::Kind::Measured;
-        if (!(light.intensity > 0) || (measured && !(maps.intensities.at(light.distribution).largest > 0))) continue;
+        const float intensity = light.intensity * frame.dimming_of(placed.node);
+        if (!(intensity > 0) || (measured && !(maps.intensities.at(light.distribution).largest > 0))) continue;
         const glm::mat4 m = view.world_to_view * frame.world[placed.node];
         const glm::vec3 x = unit(m[0], {1, 0, 0}), y = unit(m[1], {0, 0, -1}), z = unit(m[2], {0, 1, 0});
         const bool power = light.kind == Light::Kind::CosinePower;
         const glm::vec2 lobe = power ? glm::vec2(light.exponent, 0) : glm::vec2(cone_ramp(light));
-        shared::Light made{.position = glm::vec3(m[3]), .intensity = light.intensity, .axis = -z, .lobe_a = lobe.x,
+        shared::Light made{.position = glm::vec3(m[3]), .intensity = intensity, .axis = -z, .lobe_a = lobe.x,
                            .colour = light.colour, .lobe_b = lobe.y, .start = x, .map = -1, .pole = -z, .last_azimuth = 0, .grid = {}};
         if (measured) place_map(made, maps.intensities[light.distribution], x, y, z);
         list.lights.push_back(made);

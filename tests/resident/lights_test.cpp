@@ -78,5 +78,15 @@ TEST(Lights, TheAxisOfAMapIsWhereItsAnglesBegin) {
     }
 }
 
+TEST(Lights, AreDimmedNodeByNode) {
+    const Light point{.name = {}, .kind = Light::Kind::Point, .intensity = 10};
+    const SceneFrame frame{.world = std::vector<glm::mat4>(3, glm::mat4(1)), .dimming = {0.5f, 0, 1}};
+    const LightList list = light_list({{point, 0}, {point, 1}, {point, 2}}, {}, frame, View());
+    ASSERT_EQ(list.lights.size(), 2u);
+    EXPECT_EQ(list.counts.cones, 2u);
+    EXPECT_EQ(list.lights[0].intensity, 5);
+    EXPECT_EQ(list.lights[1].intensity, 10);
+}
+
 }  // namespace
 }  // namespace vesper

@@ -139,5 +139,27 @@ TEST(Lanes, KerbsLieBetweenRoadAndPavement) {
     EXPECT_NEAR(length, 200 + (46.5 + 53.5) * M_PI / 2, 0.1);
 }
 
+TEST(Lanes, OfTheRivoliStreet) {
+    const RoadNetwork network = read_opendrive(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.xodr");
+    EXPECT_TRUE(network.notes.empty());
+    const LaneGraph graph(network);
+    // The driver's lane of data/rivoli: x = 1.55 or 4.65, towards -Z from +120 to -320.
+    const auto place = graph.nearest({1.6, 0, 0});
+    ASSERT_TRUE(place);
+    EXPECT_NEAR(place->offset, -0.05, 1e-9);
+    EXPECT_NEAR(graph.lanes()[place->lane].speed_limit, 50 / 3.6, 1e-9);
+    double length = 0;
+    const auto first = graph.nearest({1.55, 0, 119});
+    const auto way = graph.long_route(first->lane);
+    for (const uint32_t lane : way) length += graph.lanes()[lane].length;
+    EXPECT_NEAR(length, 440, 1e-6);
+    EXPECT_NEAR(graph.pose(way.back(), 1e9).forward.z, -1, 1e-9);
+    const auto kerbs = graph.kerbs_near({4.65, 0, 0}, 4);
+    ASSERT_FALSE(kerbs.empty());
+    EXPECT_NEAR(graph.kerbs()[kerbs[0]].from.x, 8.3, 1e-9);
+    EXPECT_NEAR(graph.kerbs()[kerbs[0]].height, 0.12, 1e-9);
+    EXPECT_TRUE(graph.kerbs_near({4.65, 0, 56}, 4).empty()) << "a side street";
+}
+
 }  // namespace
 }  // namespace vesper

@@ -21,6 +21,11 @@ struct Placed {
 
 bool contains(const std::string& text, const char* word) { return text.find(word) != text.npos; }
 
+/// What lies on the road, whatever height above it the file reserves.
+bool is_flat(const std::string& kind) {
+    return contains(kind, "crosswalk") || contains(kind, "parkingspace") || contains(kind, "roadmark") || contains(kind, "stopline") || contains(kind, "patch");
+}
+
 std::string kind_of(const RoadObject& object) {
     std::string all = object.type + " " + object.subtype + " " + object.name;
     std::transform(all.begin(), all.end(), all.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -68,8 +73,8 @@ struct ObjectBuilder {
         if (at.radius > 0) return height > kFlat ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
         const double width = at.width > 0 ? at.width : pole ? 0.1 : 0, length = at.length > 0 ? at.length : pole ? 0.1 : 0;
         if (width <= 0 || length <= 0) return;
-        if (height > kFlat) return add_box(mesh, stuff, frame, length, width, height);
-        flat_rectangle(object, at, contains(kind, "stop") || contains(kind, "roadmark") || contains(kind, "mark"));
+        if (height > kFlat && !is_flat(kind)) return add_box(mesh, stuff, frame, length, width, height);
+        flat_rectangle(object, at, kind);
     }
 
     /// Paint, or a patch: on the surface, whatever it does.
@@ -99,12 +104,19 @@ struct ObjectBuilder {
         return {at.s + ds / (std::abs(stretch) > 0.1 ? stretch : 1), at.t + dt};
     }
 
-    void flat_rectangle(const RoadObject& object, const Placed& at, bool paint) {
-        const auto corner = [&](double u, double v) {
-            const glm::dvec2 p = road_place(object, at, u * at.length / 2, v * at.width / 2);
-            return on_surface(p.x, p.y, 0);
-        };
-        mesh.quad(paint ? Stuff::MarkWhite : Stuff::Shoulder, corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1));
+    void flat_rectangle(const RoadObject& object, const Placed& at, const std::string& kind) {
+        std::array<glm::dvec2, 4> places;  // rear right, front right, front left, rear left
+        for (size_t i = 0; i < 4; ++i) places[i] = road_place(object, at, (i == 1 || i == 2 ? 1 : -1) * at.length / 2, (i < 2 ? -1 : 1) * at.width / 2);
+        if (contains(kind, "crosswalk") && object.markings.empty()) return zebra({places.begin(), places.end()});
+        if (contains(kind, "parkingspace") && object.markings.empty()) return boundary({places.begin(), places.end()});
+        constexpr std::array<const char*, 4> kSides{"right", "front", "left", "rear"};
+        for (const ObjectMarking& marking : object.markings)
+            for (size_t i = 0; i < 4; ++i)
+                if (marking.side == kSides[i]) painted(places[i], places[(i + 1) % 4], marking);
+        if (!object.markings.empty()) return;
+        const bool paint = contains(kind, "stop") || contains(kind, "mark");
+        const auto corner = [&](size_t i) { return on_surface(places[i].x, places[i].y, 0); };
+        mesh.quad(paint ? Stuff::MarkWhite : Stuff::Shoulder, corner(0), corner(1), corner(2), corner(3));
     }
 
     glm::dvec2 corner_place(const RoadObject& object, const Placed& at, const ObjectCorner& corner) const {
@@ -154,13 +166,16 @@ struct ObjectBuilder {
         for (double t = middle - half + 0.5; t + 0.25 <= middle + half; t += 1) painted({low.x, t}, {high.x, t}, bar);
     }
 
+    void boundary(const std::vector<glm::dvec2>& places) {
+        for (size_t i = 0; i < places.size(); ++i) painted(places[i], places[(i + 1) % places.size()], {});
+    }
+
     void outlined(const RoadObject& object, const Placed& at, const ObjectOutline& outline) {
         const std::string kind = kind_of(object);
         std::vector<glm::dvec2> places;
         std::vector<glm::dvec3> bottoms, tops;
         double highest = 0;
-        // A crossing or a parking space is flat, whatever height of it the file reserves.
-        const bool flat = contains(kind, "crosswalk") || contains(kind, "parkingspace") || contains(kind, "roadmark") || contains(kind, "stopline") || contains(kind, "patch");
+        const bool flat = is_flat(kind);
         const BodyFrame frame = frame_of(object, at);
         for (const ObjectCorner& corner : outline.corners) {
             places.push_back(corner_place(object, at, corner));
@@ -178,10 +193,7 @@ struct ObjectBuilder {
         }
         if (!object.markings.empty()) return;
         if (contains(kind, "crosswalk")) return zebra(places);
-        if (contains(kind, "parkingspace")) {
-            for (size_t i = 0; i < places.size(); ++i) painted(places[i], places[(i + 1) % places.size()], {});
-            return;
-        }
+        if (contains(kind, "parkingspace")) return boundary(places);
         std::vector<glm::dvec3> corners;
         for (const glm::dvec2& p : places) corners.push_back(on_surface(p.x, p.y, 0));
         mesh.any_polygon(contains(kind, "mark") || contains(kind, "stop") ? Stuff::MarkWhite : contains(kind, "island") ? Stuff::Concrete : Stuff::Shoulder, corners,

@@ -64,7 +64,18 @@ std::vector<Row> rows_of(const StreetLampOptions& options, const Road& road, dou
     return {{options.side == Side::Auto ? !road.right_hand : options.side == Side::Left, 0.5}};
 }
 
-/// How far one can go up to here without turning back: where the file wants one lamp in the middle of short roads, none is needed.
+/// Whether a bridge is in the lamp's way.
+bool is_below_road(const RoadBuild& build, glm::dvec3 foot, double height) {
+    for (double up = 4; up < height + 4; up += 3) {
+        const glm::dvec3 at = build.network.to_world(foot + glm::dvec3(0, 0, up));
+        const auto place = build.lanes.nearest(at, 20, [&](const Lane& lane) { return is_driven(lane.type) && lane.poses.front().position.y > at.y - up + 3; });
+        if (!place) continue;
+        const LanePose pose = build.lanes.pose(place->lane, place->along);
+        if (std::abs(place->offset) < pose.width / 2 + 5 && pose.position.y > at.y - up + 3 && pose.position.y < at.y - up + height + 2) return true;
+    }
+    return false;
+}
+
 void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& options, size_t& count) {
     const double middle = road.length / 2;
     const LaneSection& section = road.sections[road.section_at(middle)];
@@ -80,7 +91,7 @@ void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& opt
             const int side = row.left ? 1 : -1;
             const double t = edge_of(road, here, side, s) + side * kVerge;
             BodyFrame frame = frame_at(road, s, t, 0);
-            if (is_on_road(build, frame.origin, 0.3)) continue;
+            if (is_on_road(build, frame.origin, 0.3) || is_below_road(build, frame.origin, height)) continue;
             // It stands on what is there: a pavement, or the ground.
             frame.origin.z = std::max(frame.origin.z - 0.3, std::min(frame.origin.z, build.ground.height(glm::dvec2(frame.origin))));
             if (++count > kMaxLamps) return;

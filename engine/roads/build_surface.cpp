@@ -13,6 +13,8 @@ constexpr double kStep = 0.02;      // m; higher edges get a face
 constexpr double kKerbWidth = 0.15;  // m of kerb stone
 constexpr double kLift = 0.003;     // m that driven lanes of junctions lie over what else is there
 constexpr double kInside = 0.1;     // m
+constexpr double kBridge = 2.5;     // m over the ground from which a road is a bridge
+constexpr double kDeck = 1;         // m
 
 /// Borders are hard, but the outermost one, where it is wide, is what files have for the verge.
 Stuff stuff_of(LaneType type, bool verge) {
@@ -50,30 +52,34 @@ struct SectionBuilder {
     const LaneSection& section = road.sections[cut.section];
     RoadMesh& mesh;
 
-    const RoadLane* beside(size_t lane, int step) const {
-        const auto at = static_cast<ptrdiff_t>(lane) + step;
-        return at >= 0 && at < static_cast<ptrdiff_t>(section.lanes.size()) ? &section.lanes[static_cast<size_t>(at)] : nullptr;
+    /// Whether the grass beside a road hangs over something: bridges have none.
+    bool hangs(const LaneEdges& a, const LaneEdges& b) const {
+        for (const glm::dvec3 p : {a.inner.position, a.outer.position, b.inner.position, b.outer.position, (a.inner.position + b.outer.position) / 2.0})
+            if (build.ground.height(glm::dvec2(p)) < p.z - kBridge) return true;
+        return false;
     }
 
-    /// Along one lane, from one station to the next.
-    void lane_piece(size_t l, size_t i) {
+    /// Along one lane, from one station to the next. Returns whether there is anything.
+    bool lane_piece(size_t l, size_t i) {
         const RoadLane& lane = section.lanes[l];
         const LaneEdges &a = cut.rows[i][l], &b = cut.rows[i + 1][l];
         const bool is_left = lane.id > 0, driven = is_driven(lane.type);
         const double width = glm::distance(a.inner.position, a.outer.position) + glm::distance(b.inner.position, b.outer.position);
-        if (width < 1e-3) return;
+        if (width < 1e-3) return false;
         if (!driven && road.junction != kNoRoad) {
             const glm::dvec3 middle = (a.inner.position + a.outer.position + b.inner.position + b.outer.position) / 4.0;
-            if (is_driven_over(build, cut.road, middle, kInside)) return;
+            if (is_driven_over(build, cut.road, middle, kInside)) return false;
         }
+        const Stuff stuff = stuff_of(lane.type, is_verge(section, lane, cut.stations[i]));
+        if (stuff == Stuff::Grass && hangs(a, b)) return false;
         const double lift = driven && road.junction != kNoRoad ? kLift : 0;
-        const auto part = [&](Stuff stuff, double from, double to, double lift_by) {
+        const auto part = [&](Stuff of, double from, double to, double lift_by) {
             const RoadPoint i0 = between(a.inner, a.outer, from), i1 = between(b.inner, b.outer, from);
             const RoadPoint o0 = between(a.inner, a.outer, to), o1 = between(b.inner, b.outer, to);
             if (is_left)
-                strip(mesh, stuff, i0, i1, o0, o1, lift_by);
+                strip(mesh, of, i0, i1, o0, o1, lift_by);
             else
-                strip(mesh, stuff, o0, o1, i0, i1, lift_by);
+                strip(mesh, of, o0, o1, i0, i1, lift_by);
         };
         // The inner edge's neighbour lies towards the centre.
         const size_t inner = is_left ? l + 1 : l - 1;
@@ -81,8 +87,9 @@ struct SectionBuilder {
         const double rise = std::max(glm::dot(a.inner.position - n0.outer.position, a.inner.up), glm::dot(b.inner.position - n1.outer.position, b.inner.up));
         const double stone = rise > kStep && lane.type != LaneType::Curb ? std::min(1.0, 2 * kKerbWidth / width) : 0;
         if (stone > 0) part(Stuff::Kerb, 0, stone, 0);
-        if (stone < 1) part(stuff_of(lane.type, is_verge(section, lane, cut.stations[i])), stone, 1, lift);
+        if (stone < 1) part(stuff, stone, 1, lift);
         step_face(n0.outer, n1.outer, a.inner, b.inner, is_left);
+        return true;
     }
 
     /// A vertical face where two edges that should meet have different heights: first the one nearer to the centre.
@@ -98,19 +105,28 @@ struct SectionBuilder {
             mesh.quad(Stuff::Kerb, low1.position, low0.position, high0.position, high1.position);
     }
 
-    /// From the outermost edge down into the ground.
-    void side(size_t i, bool is_left) {
-        const size_t l = is_left ? 0 : section.lanes.size() - 1;
-        const RoadPoint &a = cut.rows[i][l].outer, &b = cut.rows[i + 1][l].outer;
-        const auto foot = [&](const RoadPoint& p) {
-            const double ground = build.ground.height(glm::dvec2(p.position)) - 0.1;
-            return glm::dvec3(p.position.x, p.position.y, std::min(ground, p.position.z - 0.1));
-        };
-        const Stuff stuff = section.lanes[l].type == LaneType::Sidewalk || section.lanes[l].type == LaneType::Curb ? Stuff::Kerb : Stuff::Grass;
-        if (is_left)
-            mesh.quad(stuff, foot(b), foot(a), a.position, b.position);
-        else
-            mesh.quad(stuff, foot(a), foot(b), b.position, a.position);
+    /// From an edge down into the ground; the deck of a bridge ends before.
+    glm::dvec3 foot(const RoadPoint& p) const {
+        const double ground = build.ground.height(glm::dvec2(p.position));
+        const double z = ground < p.position.z - kBridge ? p.position.z - kDeck : std::min(ground, p.position.z) - 0.1;
+        return {p.position.x, p.position.y, z};
+    }
+
+    /// The sides of a piece between its outermost lanes, and what bridges show from below.
+    void sides(size_t first, size_t last, size_t i) {
+        const RoadPoint &l0 = cut.rows[i][first].outer, &l1 = cut.rows[i + 1][first].outer, &r0 = cut.rows[i][last].outer, &r1 = cut.rows[i + 1][last].outer;
+        const auto stuff = [&](size_t l) { return section.lanes[l].type == LaneType::Sidewalk || section.lanes[l].type == LaneType::Curb ? Stuff::Kerb : Stuff::Grass; };
+        const bool bridge = hangs(cut.rows[i][first], cut.rows[i + 1][first]) || hangs(cut.rows[i][last], cut.rows[i + 1][last]);
+        mesh.quad(bridge ? Stuff::Concrete : stuff(first), foot(l1), foot(l0), l0.position, l1.position);
+        mesh.quad(bridge ? Stuff::Concrete : stuff(last), foot(r0), foot(r1), r1.position, r0.position);
+        if (bridge) mesh.quad(Stuff::Concrete, foot(l0), foot(l1), foot(r1), foot(r0));
+    }
+
+    void pieces(size_t i) {
+        size_t first = section.lanes.size(), last = 0;
+        for (size_t l = 0; l < section.lanes.size(); ++l)
+            if (section.lanes[l].id == 0 || lane_piece(l, i)) first = std::min(first, l), last = l;
+        sides(first, last, i);
     }
 
     /// Across the road's own end, where nothing follows.
@@ -118,9 +134,6 @@ struct SectionBuilder {
         for (size_t l = 0; l < section.lanes.size(); ++l) {
             const LaneEdges& edges = cut.rows[i][l];
             const RoadPoint &right = section.lanes[l].id > 0 ? edges.inner : edges.outer, &left = section.lanes[l].id > 0 ? edges.outer : edges.inner;
-            const auto foot = [&](const RoadPoint& p) {
-                return glm::dvec3(p.position.x, p.position.y, std::min(build.ground.height(glm::dvec2(p.position)) - 0.1, p.position.z - 0.1));
-            };
             if (at_start)
                 mesh.quad(Stuff::Grass, foot(left), foot(right), right.position, left.position);
             else
@@ -128,12 +141,6 @@ struct SectionBuilder {
         }
     }
 };
-
-void end_of_section(const CutSection& cut, const RoadNetwork& network, const SectionBuilder&, std::vector<std::pair<bool, bool>>& ends) {
-    const Road& road = network.roads[cut.road];
-    ends.emplace_back(cut.section == 0 && road.predecessor.to == RoadLink::To::Nothing,
-                      cut.section + 1 == road.sections.size() && road.successor.to == RoadLink::To::Nothing);
-}
 
 }  // namespace
 
@@ -190,21 +197,17 @@ void build_surfaces(RoadBuild& build, const std::vector<CutSection>& cuts) {
     RoadMesh mesh(build.network);
     for (const CutSection& cut : cuts) {
         SectionBuilder builder{build, cut, build.network.roads[cut.road], build.network.roads[cut.road].sections[cut.section], mesh};
-        std::vector<std::pair<bool, bool>> ends;
-        end_of_section(cut, build.network, builder, ends);
         double begun = cut.stations.front();
         for (size_t i = 0; i + 1 < cut.stations.size(); ++i) {
-            for (size_t l = 0; l < builder.section.lanes.size(); ++l)
-                if (builder.section.lanes[l].id != 0) builder.lane_piece(l, i);
-            builder.side(i, true);
-            builder.side(i, false);
+            builder.pieces(i);
             if (cut.stations[i + 1] - begun > kPiece) {
                 mesh.place(build.scene, build.materials, "road " + builder.road.id);
                 begun = cut.stations[i + 1];
             }
         }
-        if (ends[0].first) builder.end(0, true);
-        if (ends[0].second) builder.end(cut.stations.size() - 1, false);
+        const Road& road = builder.road;
+        if (cut.section == 0 && road.predecessor.to == RoadLink::To::Nothing) builder.end(0, true);
+        if (cut.section + 1 == road.sections.size() && road.successor.to == RoadLink::To::Nothing) builder.end(cut.stations.size() - 1, false);
         mesh.place(build.scene, build.materials, "road " + builder.road.id);
     }
 }

@@ -12,6 +12,7 @@ constexpr double kPiece = 60;       // m of road in one mesh, short enough to be
 constexpr double kStep = 0.02;      // m; higher edges get a face
 constexpr double kKerbWidth = 0.15;  // m of kerb stone
 constexpr double kLift = 0.003;     // m that driven lanes of junctions lie over what else is there
+constexpr double kGrassDrop = 0.03; // m
 constexpr double kInside = 0.1;     // m
 constexpr double kBridge = 2.5;     // m over the ground from which a road is a bridge
 constexpr double kDeck = 1;         // m
@@ -72,7 +73,8 @@ struct SectionBuilder {
         }
         const Stuff stuff = stuff_of(lane.type, is_verge(section, lane, cut.stations[i]));
         if (stuff == Stuff::Grass && hangs(a, b)) return false;
-        const double lift = driven && road.junction != kNoRoad ? kLift : 0;
+        // Grass lies a little lower, so that where roads meet none of it shows through the lanes of another.
+        const double lift = stuff == Stuff::Grass ? -kGrassDrop : driven && road.junction != kNoRoad ? kLift : 0;
         const auto part = [&](Stuff of, double from, double to, double lift_by) {
             const RoadPoint i0 = between(a.inner, a.outer, from), i1 = between(b.inner, b.outer, from);
             const RoadPoint o0 = between(a.inner, a.outer, to), o1 = between(b.inner, b.outer, to);

@@ -96,6 +96,27 @@ void read_shapes(OpenDriveReader& reader, const XmlElement& holder, Road& road) 
     }
 }
 
+void read_strips(OpenDriveReader& reader, const XmlElement& surface, Road& road) {
+    const auto profile = [&](const XmlElement& holder, const char* name) {
+        const auto each = holder.child(name);
+        return each ? profile_of(reader, *each, "coefficients", "s", 0) : Profile{};
+    };
+    road.strips_offset = profile(surface, "tOffset");
+    for (const XmlElement& each : surface.children_of("surfaceStrips", "strip")) {
+        reader.count(each);
+        SurfaceStrip strip;
+        strip.id = each.integer("id", -1000, 1000);
+        if (strip.id == 0) each.fail("strips are numbered from 1 and -1 outwards");
+        strip.width = profile(each, "width"), strip.constant = profile(each, "constant"), strip.linear = profile(each, "linear");
+        strip.quadratic = profile(each, "quadratic"), strip.cubic = profile(each, "cubic");
+        // Strips that say no height of their own go on from the one inside.
+        const std::string mode = each.text_or("mode", strip.constant.parts.empty() ? "relative" : "independent");
+        strip.relative = mode == "relative";
+        road.strips.push_back(std::move(strip));
+    }
+    std::stable_sort(road.strips.begin(), road.strips.end(), [](const SurfaceStrip& a, const SurfaceStrip& b) { return std::abs(a.id) < std::abs(b.id); });
+}
+
 }  // namespace
 
 Profile profile_of(OpenDriveReader& reader, const XmlElement& element, std::string_view name, const char* s_name, double from) {
@@ -141,7 +162,7 @@ void read_profiles(OpenDriveReader& reader, const XmlElement& element, Road& roa
         road.superelevation = profile_of(reader, *holder, "superelevation", "s", 0);
         read_crossfall(reader, *holder, road);
         read_shapes(reader, *holder, road);
-        if (const auto surface = holder->child("crossSectionSurface")) reader.note_once(*surface, "crossSectionSurface is not read: the road is flat across");
+        if (const auto surface = holder->child("crossSectionSurface")) read_strips(reader, *surface, road);
     }
 }
 

@@ -110,6 +110,14 @@ struct RoadShape {
     std::vector<Cubic> parts;  ///< of t
 };
 
+/// A strip of a cross section (1.8): c + l t + q t^2 + k t^3 with t from its inner edge, to the left positive; all over s.
+struct SurfaceStrip {
+    int id = 0;             ///< 1, 2, ... to the left from the middle of the cross section, -1, -2, ... to the right
+    bool relative = false;  ///< begins as high as the strip inside it ends
+    Profile width;          ///< m; none: as far as there is road
+    Profile constant, linear, quadratic, cubic;
+};
+
 struct ObjectCorner {
     int id = 0;
     bool local = true;          ///< u, v, z in the object's frame; otherwise s, t, height above the road
@@ -170,6 +178,8 @@ struct Road {
     Profile elevation, superelevation, lane_offset;
     Profile crossfall_left, crossfall_right;  ///< rad, falling outwards where positive (before 1.6)
     std::vector<RoadShape> shapes;
+    Profile strips_offset;                    ///< t of the middle of the cross section
+    std::vector<SurfaceStrip> strips;         ///< from the middle outwards on either side
     std::vector<LaneSection> sections;
     std::vector<SpeedLimit> speeds;
     std::string type;                ///< of its first stretch: "town", "motorway", ...

@@ -17,9 +17,26 @@ double over(const std::vector<Cubic>& parts, double t) {
     return after == parts.begin() ? parts.front().at(parts.front().s) : (after - 1)->at(t);
 }
 
-/// Height of crossfall and shape above the tilted plane.
+double strip_height(const Road& road, double s, double t) {
+    const double from_middle = t - road.strips_offset.at(s), side = from_middle < 0 ? -1 : 1;
+    double left = std::abs(from_middle), height = 0;
+    for (const SurfaceStrip& strip : road.strips) {
+        if ((strip.id > 0) != (side > 0)) continue;
+        const double width = strip.width.parts.empty() ? left : std::clamp(strip.width.at(s), 0.0, left), u = side * width;
+        height = (strip.relative ? height : 0) + strip.constant.at(s) + u * (strip.linear.at(s) + u * (strip.quadratic.at(s) + u * strip.cubic.at(s)));
+        left -= width;
+        if (left <= 0) break;
+    }
+    return height;
+}
+
+bool is_curved_across(const Road& road) {
+    return !road.shapes.empty() || !road.strips.empty() || !road.crossfall_left.parts.empty() || !road.crossfall_right.parts.empty();
+}
+
+/// Height of crossfall, strips and shape above the tilted plane.
 double lateral_height(const Road& road, double s, double t) {
-    double height = 0;
+    double height = road.strips.empty() ? 0 : strip_height(road, s, t);
     if (t > 0 && !road.crossfall_left.parts.empty()) height -= t * std::tan(road.crossfall_left.at(s));
     if (t < 0 && !road.crossfall_right.parts.empty()) height += t * std::tan(road.crossfall_right.at(s));
     if (road.shapes.empty()) return height;
@@ -68,7 +85,7 @@ RoadPoint surface_point(const Road& road, double s, double t, double height) {
     RoadPoint point = reference_point(road, s);
     turn_across(point, road.superelevation.at(s));
     point.position += point.left * t + point.up * (height + lateral_height(road, s, t));
-    if (!road.shapes.empty() || !road.crossfall_left.parts.empty() || !road.crossfall_right.parts.empty()) {
+    if (is_curved_across(road)) {
         constexpr double kStep = 0.05;
         turn_across(point, std::atan((lateral_height(road, s, t + kStep) - lateral_height(road, s, t - kStep)) / (2 * kStep)));
     }
@@ -121,6 +138,8 @@ std::vector<double> road_stations(const Road& road, const LaneSection& section, 
     for (const Profile* profile : {&road.elevation, &road.superelevation, &road.lane_offset, &road.crossfall_left, &road.crossfall_right})
         add_breaks(breaks, *profile);
     for (const RoadShape& shape : road.shapes) breaks.push_back(shape.s);
+    for (const SurfaceStrip& strip : road.strips)
+        for (const Profile* profile : {&strip.width, &strip.constant, &strip.linear, &strip.quadratic, &strip.cubic}) add_breaks(breaks, *profile);
     for (const RoadLane& lane : section.lanes) {
         add_breaks(breaks, lane.width);
         add_breaks(breaks, lane.border);

@@ -3,13 +3,12 @@
 #include <fstream>
 #include <functional>
 
-#include <unistd.h>
-
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "roads/esmini_run.h"
 #include "roads/opendrive.h"
+#include "scene/scene_files.h"
 #include "support/shared_data.h"
 
 namespace vesper {
@@ -17,14 +16,8 @@ namespace {
 
 using Mode = LampEvent::Mode;
 
-/// A folder of small files that goes away again.
 class EsminiRuns : public testing::Test {
 protected:
-    void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() / ("vesper-esmini-" + std::to_string(::getpid()) + "-" + testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
     std::filesystem::path write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name, std::ios::binary) << text;
         return folder_ / name;
@@ -38,7 +31,7 @@ protected:
         }
         return "";
     }
-    std::filesystem::path folder_;
+    test::TempFolder folder_;
 };
 
 const std::string kHeader = "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_rot\n";

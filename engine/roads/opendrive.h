@@ -15,7 +15,7 @@ struct RoadLimits {
     size_t elements = 8'000'000;  ///< geometries, lanes, widths, marks, objects and signals together
     double road_length = 1e6;     ///< m, of one
     double total_length = 5e6;    ///< m, of all
-    double lane_width = 1000;     ///< m, of one lane
+    double lane_width = 1000;     ///< m, of one lane, and of all of one side
     double height = 1e5;          ///< m, above or below 0
     double turns = 1e4;           ///< rad, that one geometry may turn
 };

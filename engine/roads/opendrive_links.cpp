@@ -59,7 +59,15 @@ void check_extent(OpenDriveReader& reader, const XmlElement& element, const Road
         if (!(std::abs(z) <= reader.limits.height))
             element.fail("road '" + road.id + "' is " + std::to_string(z) + " m high at s = " + std::to_string(s));
     }
-    for (const LaneSection& section : road.sections)
+    for (const LaneSection& section : road.sections) {
+        for (int i = 0; i <= kSamples; ++i) {
+            const double s = section.s + (section.end - section.s) * i / kSamples;
+            const double left = lane_border(road, section, section.leftmost(), s),
+                         right = lane_border(road, section, section.rightmost(), s);
+            if (!(std::max(std::abs(left), std::abs(right)) <= reader.limits.lane_width))
+                element.fail("road '" + road.id + "' reaches from t = " + std::to_string(right) + " m to " +
+                             std::to_string(left) + " m");
+        }
         for (const RoadLane& lane : section.lanes) {
             if (lane.id == 0) continue;
             double least = 0, most = 0;
@@ -72,6 +80,7 @@ void check_extent(OpenDriveReader& reader, const XmlElement& element, const Road
             if (least < -0.01)
                 reader.note(element, name + " is as little as " + std::to_string(least) + " m wide: taken for 0");
         }
+    }
 }
 
 }  // namespace

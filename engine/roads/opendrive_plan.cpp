@@ -9,6 +9,7 @@ namespace vesper {
 namespace {
 
 constexpr double kJoint = 0.01;  // m; files are written with more digits than this
+constexpr double kTorn = 1000;   // m; no road
 
 std::array<double, 4> coefficients(const XmlElement& element, const char* of) {
     const std::string name(of);
@@ -64,6 +65,9 @@ void check_joints(OpenDriveReader& reader, const XmlElement& element, Road& road
         const PlanGeometry &before = road.plan[i - 1], &g = road.plan[i];
         const PlanPoint end = plan_point(before, g.s - before.s);
         const double gap = std::hypot(end.x - g.x, end.y - g.y);
+        if (!(gap <= kTorn))
+            element.fail("road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
+                         " m at s = " + std::to_string(g.s));
         if (gap > kJoint)
             reader.note(element, "road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
                                      " m at s = " + std::to_string(g.s));

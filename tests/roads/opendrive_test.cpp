@@ -64,6 +64,8 @@ TEST(OpenDrive, ErrorsNameFileLineAndReason) {
     EXPECT_NE(complaint_of_plan(geometry(0, 0, 0, 0, 10, "<paramPoly3 pRange=\"normalized\" bU=\"1e8\"/>"))
                   .find("more than a hundred times"),
               std::string::npos);
+    EXPECT_NE(complaint_of_plan(kLine + geometry(100, 1e6, 0, 0, 100, "<line/>")).find("jumps by 999900"),
+              std::string::npos);
     EXPECT_NE(complaint_of_plan(geometry(0, 0, 0, 0, 10, "<paramPoly3 pRange=\"arcLength\"/>")).find("does not move"),
               std::string::npos);
     EXPECT_NE(complaint_of_plan(geometry(0, 0, 0, 0, 10, "<paramPoly3 pRange=\"other\"/>")).find("pRange must be"),
@@ -84,6 +86,18 @@ TEST(OpenDrive, ErrorsNameFileLineAndReason) {
 }
 
 TEST(OpenDrive, LimitsHold) {
+    EXPECT_NE(complaint(opendrive(road("1", 100, kLine, "<laneOffset s=\"0\" b=\"1e6\"/>" + two_way_section())))
+                  .find("reaches from t ="),
+              std::string::npos);
+    EXPECT_NE(complaint(opendrive(road("1", 100, kLine,
+                                       "<laneSection s=\"0\"><left>" + test::lane(1, 5000) + "</left></laneSection>")))
+                  .find("reaches from t ="),
+              std::string::npos);
+    EXPECT_NE(
+        complaint(opendrive("<road id=\"1\" length=\"100\"><planView>" + kLine +
+                            "</planView><elevationProfile><elevation s=\"0\" a=\"1e8\"/></elevationProfile></road>"))
+            .find("m high"),
+        std::string::npos);
     RoadLimits limits;
     limits.elements = 5;
     EXPECT_NE(complaint(opendrive(road("1", 100, kLine, two_way_section())), limits).find("more than 5 elements"),

@@ -30,7 +30,8 @@ struct ConvertArguments {
     std::vector<const CLI::Option*> for_databases, for_lamps;
 };
 
-void print(const std::vector<std::string>& changes, const std::vector<std::string>& warnings, const std::string& output) {
+void print(const std::vector<std::string>& changes, const std::vector<std::string>& warnings,
+           const std::string& output) {
     for (const std::string& line : changes) std::printf("%s\n", line.c_str());
     for (const std::string& line : warnings) std::fprintf(stderr, "warning: %s\n", line.c_str());
     std::printf("wrote %s\n", output.c_str());
@@ -69,21 +70,34 @@ void run(const ConvertArguments& arguments) {
 }  // namespace
 
 void add_convert(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("convert", "Make a daytime glTF database photometric, or a night street of an OpenDRIVE file");
+    CLI::App* command = program.add_subcommand(
+        "convert", "Make a daytime glTF database photometric, or a night street of an OpenDRIVE file");
     const auto a = std::make_shared<ConvertArguments>();
     command->add_option("input", a->input, "The database: .gltf or .glb; or roads: .xodr (docs/roads.md)")->required();
     a->for_databases = {
-        command->add_option("--photometry,-p", a->photometry, "Which nodes are lamps, which materials shine (docs/photometry.md); required for databases"),
-        command->add_flag("--srgb", a->srgb, "Decode textures as sRGB instead of with the gamma of the photometry file")};
-    command->add_option("--output,-o", a->output, "One self-contained .gltf or .glb (default for roads: the input's name with .gltf)");
-    a->for_lamps = {
-        command->add_option("--lamp-spacing", a->lamps.spacing, "Roads: m between street lamps, 0 for none (default: 30, or those of the file)")->check(CLI::Range(0.0, 1000.0)),
-        command->add_option("--lamp-height", a->lamps.height, "Roads: m, of the light points (default: 8, up to 12 on wide roads)")->check(CLI::Range(2.0, 60.0)),
-        command->add_option("--lamp-side", a->lamps.side, "Roads: auto, right, left, both, alternating")->transform(CLI::CheckedTransformer(kSides)),
-        command->add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")->check(CLI::Range(0.1, 20.0)),
-        command->add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
+        command->add_option(
+            "--photometry,-p", a->photometry,
+            "Which nodes are lamps, which materials shine (docs/photometry.md); required for databases"),
+        command->add_flag("--srgb", a->srgb,
+                          "Decode textures as sRGB instead of with the gamma of the photometry file")};
+    command->add_option("--output,-o", a->output,
+                        "One self-contained .gltf or .glb (default for roads: the input's name with .gltf)");
+    a->for_lamps = {command
+                        ->add_option("--lamp-spacing", a->lamps.spacing,
+                                     "Roads: m between street lamps, 0 for none (default: 30, or those of the file)")
+                        ->check(CLI::Range(0.0, 1000.0)),
+                    command
+                        ->add_option("--lamp-height", a->lamps.height,
+                                     "Roads: m, of the light points (default: 8, up to 12 on wide roads)")
+                        ->check(CLI::Range(2.0, 60.0)),
+                    command->add_option("--lamp-side", a->lamps.side, "Roads: auto, right, left, both, alternating")
+                        ->transform(CLI::CheckedTransformer(kSides)),
+                    command->add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
+                        ->check(CLI::Range(0.1, 20.0)),
+                    command->add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
     command->footer(
-        "Examples:\n  vesper convert data/rivoli/rivoli.gltf --photometry data/rivoli/rivoli.photometry.json -o out/night.gltf\n"
+        "Examples:\n  vesper convert data/rivoli/rivoli.gltf --photometry data/rivoli/rivoli.photometry.json -o "
+        "out/night.gltf\n"
         "  vesper convert data/rivoli/rivoli.xodr --lamp-spacing 25 --lamp-side both -o out/lanes.gltf\n");
     command->callback([a] { run(*a); });
 }

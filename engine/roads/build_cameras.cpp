@@ -10,13 +10,13 @@
 namespace vesper {
 namespace {
 
-constexpr float kView = 0.6435f;         // rad, 36.87 degrees, as the Rivoli driver's
-constexpr double kTown = 50 / 3.6;       // m/s where no limit is stated
-constexpr double kFastest = 130 / 3.6;   // m/s
-constexpr double kSideways = 2;          // m/s^2 in bends
-constexpr double kBraking = 1.5;         // m/s^2
-constexpr double kKeyEvery = 0.1;        // s
-constexpr double kLongestDrive = 120;    // s
+constexpr float kView = 0.6435f;        // rad, 36.87 degrees, as the Rivoli driver's
+constexpr double kTown = 50 / 3.6;      // m/s where no limit is stated
+constexpr double kFastest = 130 / 3.6;  // m/s
+constexpr double kSideways = 2;         // m/s^2 in bends
+constexpr double kBraking = 1.5;        // m/s^2
+constexpr double kKeyEvery = 0.1;       // s
+constexpr double kLongestDrive = 120;   // s
 // Headlamps of a car, from the middle of its front axle on the road, m.
 constexpr double kLampHeight = 0.65, kLampSide = 0.6, kLampAhead = 0.7;
 constexpr double kEyeBehind = 1.2, kEyeSide = 0.37;  // m, of the driver's eye
@@ -63,8 +63,12 @@ std::vector<WayPoint> drive_along(const LaneGraph& graph, const std::vector<uint
         begin = along - lane.length;
         if (static_cast<double>(points.size()) > kLongestDrive * kFastest) break;
     }
-    for (size_t i = points.size(); i-- > 1;) points[i - 1].speed = std::min(points[i - 1].speed, std::sqrt(points[i].speed * points[i].speed + 2 * kBraking));
-    for (size_t i = 1; i < points.size(); ++i) points[i].speed = std::min(points[i].speed, std::sqrt(points[i - 1].speed * points[i - 1].speed + 2 * kBraking));
+    for (size_t i = points.size(); i-- > 1;)
+        points[i - 1].speed =
+            std::min(points[i - 1].speed, std::sqrt(points[i].speed * points[i].speed + 2 * kBraking));
+    for (size_t i = 1; i < points.size(); ++i)
+        points[i].speed =
+            std::min(points[i].speed, std::sqrt(points[i - 1].speed * points[i - 1].speed + 2 * kBraking));
     return points;
 }
 
@@ -73,7 +77,8 @@ glm::quat rotation_of(glm::dvec3 forward, glm::dvec3 up) {
 }
 
 void animate(Scene& scene, uint32_t node, const std::vector<WayPoint>& points) {
-    Channel place{.node = node, .path = Channel::Path::Translation}, turn{.node = node, .path = Channel::Path::Rotation};
+    Channel place{.node = node, .path = Channel::Path::Translation},
+        turn{.node = node, .path = Channel::Path::Rotation};
     double at = 0;
     glm::quat before(1, 0, 0, 0);
     for (double time = 0; time < kLongestDrive; time += kKeyEvery) {
@@ -82,7 +87,8 @@ void animate(Scene& scene, uint32_t node, const std::vector<WayPoint>& points) {
         const double f = at - std::floor(at);
         const LanePose &a = points[i].pose, &b = points[i + 1].pose;
         const glm::dvec3 position = glm::mix(a.position, b.position, f);
-        glm::quat rotation = rotation_of(glm::normalize(glm::mix(a.forward, b.forward, f)), glm::normalize(glm::mix(a.up, b.up, f)));
+        glm::quat rotation =
+            rotation_of(glm::normalize(glm::mix(a.forward, b.forward, f)), glm::normalize(glm::mix(a.up, b.up, f)));
         if (glm::dot(rotation, before) < 0) rotation = -rotation;
         before = rotation;
         place.times.push_back(static_cast<float>(time));
@@ -104,7 +110,8 @@ void add_camera(Scene& scene, const std::string& name, Node node) {
 }
 
 void look(Scene& scene, const std::string& name, glm::dvec3 from, glm::dvec3 at) {
-    const glm::dvec3 forward = glm::normalize(at - from), right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
+    const glm::dvec3 forward = glm::normalize(at - from),
+                     right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
     Node node;
     node.translation = glm::vec3(from);
     node.rotation = rotation_of(forward, glm::cross(right, forward));
@@ -153,7 +160,8 @@ void build_cameras(RoadBuild& build) {
         // Beside the road, looking along it.
         const LanePose ahead = points[std::min<size_t>(points.size() - 1, 40)].pose;
         const glm::dvec3 side = start.left() * (right_hand ? -1.0 : 1.0);
-        look(scene, "roadside", start.position + side * (start.width / 2 + 2) + glm::dvec3(0, 1.7, 0), ahead.position + glm::dvec3(0, 0.8, 0));
+        look(scene, "roadside", start.position + side * (start.width / 2 + 2) + glm::dvec3(0, 1.7, 0),
+             ahead.position + glm::dvec3(0, 0.8, 0));
         const double longest = animation_length(scene);
         char line[120];
         std::snprintf(line, sizeof line, "driver: %zu m over %zu lanes in %.0f s", points.size(), way.size(), longest);

@@ -7,18 +7,25 @@
 namespace vesper {
 namespace {
 
-constexpr double kInside = 0.25;    // m that paint must lie inside another road's lane to be left out
+constexpr double kInside = 0.25;     // m that paint must lie inside another road's lane to be left out
 constexpr double kLongestPiece = 2;  // m, in junctions, where each piece is asked for
 constexpr size_t kMaxDashes = 400'000;
 
 Stuff stuff_of(MarkColour colour) {
     switch (colour) {
-        case MarkColour::Yellow: case MarkColour::Orange: return Stuff::MarkYellow;
-        case MarkColour::Red: return Stuff::MarkRed;
-        case MarkColour::Blue: return Stuff::MarkBlue;
-        case MarkColour::Green: return Stuff::MarkGreen;
-        case MarkColour::Black: return Stuff::MarkBlack;
-        default: return Stuff::MarkWhite;
+        case MarkColour::Yellow:
+        case MarkColour::Orange:
+            return Stuff::MarkYellow;
+        case MarkColour::Red:
+            return Stuff::MarkRed;
+        case MarkColour::Blue:
+            return Stuff::MarkBlue;
+        case MarkColour::Green:
+            return Stuff::MarkGreen;
+        case MarkColour::Black:
+            return Stuff::MarkBlack;
+        default:
+            return Stuff::MarkWhite;
     }
 }
 
@@ -48,7 +55,9 @@ struct MarkBuilder {
         const double right = line.t_offset - line.width / 2, left = line.t_offset + line.width / 2;
         // Over the lift of lanes in junctions as well.
         const double lift = kMarkHeight + (road.junction != kNoRoad ? 0.003 : 0);
-        const auto at = [&](const RoadPoint& p, double t) { return RoadMesh::Corner{p.position + p.left * t + p.up * lift, p.up}; };
+        const auto at = [&](const RoadPoint& p, double t) {
+            return RoadMesh::Corner{p.position + p.left * t + p.up * lift, p.up};
+        };
         mesh.quad(stuff_of(line.colour), at(a, right), at(b, right), at(b, left), at(a, left));
     }
 
@@ -56,12 +65,17 @@ struct MarkBuilder {
     void stretch(size_t lane, const MarkLine& line, double from, double to) {
         if (++dashes > kMaxDashes) return;
         std::vector<double> cuts{from};
-        for (auto each = std::upper_bound(cut.stations.begin(), cut.stations.end(), from); each != cut.stations.end() && *each < to; ++each) cuts.push_back(*each);
+        for (auto each = std::upper_bound(cut.stations.begin(), cut.stations.end(), from);
+             each != cut.stations.end() && *each < to; ++each)
+            cuts.push_back(*each);
         cuts.push_back(to);
         for (size_t i = 0; i + 1 < cuts.size(); ++i) {
-            const int parts = road.junction == kNoRoad ? 1 : std::max(1, static_cast<int>(std::ceil((cuts[i + 1] - cuts[i]) / kLongestPiece)));
+            const int parts = road.junction == kNoRoad
+                                  ? 1
+                                  : std::max(1, static_cast<int>(std::ceil((cuts[i + 1] - cuts[i]) / kLongestPiece)));
             for (int p = 0; p < parts; ++p)
-                piece(lane, line, glm::mix(cuts[i], cuts[i + 1], double(p) / parts), glm::mix(cuts[i], cuts[i + 1], double(p + 1) / parts));
+                piece(lane, line, glm::mix(cuts[i], cuts[i + 1], double(p) / parts),
+                      glm::mix(cuts[i], cuts[i + 1], double(p + 1) / parts));
         }
     }
 
@@ -75,7 +89,8 @@ struct MarkBuilder {
                 if (begin < end) stretch(lane, line, begin, end);
             } else {
                 const double period = std::max(line.length + line.space, 0.2);
-                for (double s = begin; s < end && dashes <= kMaxDashes; s += period) stretch(lane, line, s, std::min(s + line.length, end));
+                for (double s = begin; s < end && dashes <= kMaxDashes; s += period)
+                    stretch(lane, line, s, std::min(s + line.length, end));
             }
         }
     }
@@ -92,11 +107,14 @@ void build_marks(RoadBuild& build, const std::vector<CutSection>& cuts) {
         const auto& lanes = road.sections[cut.section].lanes;
         for (size_t l = 0; l < lanes.size(); ++l)
             for (size_t m = 0; m < lanes[l].marks.size(); ++m)
-                builder.mark(l, lanes[l].marks[m], m + 1 < lanes[l].marks.size() ? lanes[l].marks[m + 1].s : cut.stations.back());
+                builder.mark(l, lanes[l].marks[m],
+                             m + 1 < lanes[l].marks.size() ? lanes[l].marks[m + 1].s : cut.stations.back());
         dashes = builder.dashes;
         mesh.place(build.scene, build.materials, "marks of road " + road.id);
     }
-    if (dashes > kMaxDashes) build.notes.push_back("markings: more than " + std::to_string(kMaxDashes) + " pieces of paint: the rest is left out");
+    if (dashes > kMaxDashes)
+        build.notes.push_back("markings: more than " + std::to_string(kMaxDashes) +
+                              " pieces of paint: the rest is left out");
 }
 
 }  // namespace vesper

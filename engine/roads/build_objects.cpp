@@ -23,12 +23,14 @@ bool contains(const std::string& text, const char* word) { return text.find(word
 
 /// What lies on the road, whatever height above it the file reserves.
 bool is_flat(const std::string& kind) {
-    return contains(kind, "crosswalk") || contains(kind, "parkingspace") || contains(kind, "roadmark") || contains(kind, "stopline") || contains(kind, "patch");
+    return contains(kind, "crosswalk") || contains(kind, "parkingspace") || contains(kind, "roadmark") ||
+           contains(kind, "stopline") || contains(kind, "patch");
 }
 
 std::string kind_of(const RoadObject& object) {
     std::string all = object.type + " " + object.subtype + " " + object.name;
-    std::transform(all.begin(), all.end(), all.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(all.begin(), all.end(), all.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return all;
 }
 
@@ -36,7 +38,8 @@ struct ObjectBuilder {
     RoadBuild& build;
     const Road& road;
     RoadMesh& mesh;
-    size_t copies = 0;
+    size_t copies = 0;  ///< objects that were placed
+    size_t pieces = 0;  ///< of everything, for the bound
 
     BodyFrame frame_of(const RoadObject& object, const Placed& at) const {
         const double turn = object.heading + (object.orientation == '-' ? kPi : 0);
@@ -63,15 +66,24 @@ struct ObjectBuilder {
     void body(const RoadObject& object, const Placed& at) {
         const std::string kind = kind_of(object);
         const BodyFrame frame = frame_of(object, at);
-        if (contains(kind, "streetlamp") || contains(kind, "street_lamp") || contains(kind, "street lamp") || contains(kind, "lamppost"))
+        if (contains(kind, "streetlamp") || contains(kind, "street_lamp") || contains(kind, "street lamp") ||
+            contains(kind, "lamppost"))
             return add_street_lamp(build, frame, at.height > 0 ? at.height : 8, object.t > 0 ? -1 : 1);
         if (contains(kind, "guide-post") || contains(kind, "guidepost")) return guide_post(frame, at);
-        if (contains(kind, "tree") || contains(kind, "vegetation") || contains(kind, "bush")) return tree(frame, at, contains(kind, "bush"));
+        if (contains(kind, "tree") || contains(kind, "vegetation") || contains(kind, "bush"))
+            return tree(frame, at, contains(kind, "bush"));
         const bool pole = contains(kind, "pole");
-        const Stuff stuff = pole || contains(kind, "rail") ? Stuff::PoleSteel : contains(kind, "building") ? Stuff::Wall : Stuff::Concrete;
+        const Stuff stuff = pole || contains(kind, "rail") ? Stuff::PoleSteel
+                            : contains(kind, "building")   ? Stuff::Wall
+                                                           : Stuff::Concrete;
         const double height = at.height > 0 ? at.height : pole ? 3 : contains(kind, "building") ? 8 : 0;
         if (at.radius > 0) return height > kFlat ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
-        const double width = at.width > 0 ? at.width : pole ? 0.1 : 0, length = at.length > 0 ? at.length : pole ? 0.1 : 0;
+        const double width = at.width > 0 ? at.width
+                             : pole       ? 0.1
+                                          : 0,
+                     length = at.length > 0 ? at.length
+                              : pole        ? 0.1
+                                            : 0;
         if (width <= 0 || length <= 0) return;
         if (height > kFlat && !is_flat(kind)) return add_box(mesh, stuff, frame, length, width, height);
         flat_rectangle(object, at, kind);
@@ -106,7 +118,9 @@ struct ObjectBuilder {
 
     void flat_rectangle(const RoadObject& object, const Placed& at, const std::string& kind) {
         std::array<glm::dvec2, 4> places;  // rear right, front right, front left, rear left
-        for (size_t i = 0; i < 4; ++i) places[i] = road_place(object, at, (i == 1 || i == 2 ? 1 : -1) * at.length / 2, (i < 2 ? -1 : 1) * at.width / 2);
+        for (size_t i = 0; i < 4; ++i)
+            places[i] =
+                road_place(object, at, (i == 1 || i == 2 ? 1 : -1) * at.length / 2, (i < 2 ? -1 : 1) * at.width / 2);
         if (contains(kind, "crosswalk") && object.markings.empty()) return zebra({places.begin(), places.end()});
         if (contains(kind, "parkingspace") && object.markings.empty()) return boundary({places.begin(), places.end()});
         constexpr std::array<const char*, 4> kSides{"right", "front", "left", "rear"};
@@ -132,17 +146,22 @@ struct ObjectBuilder {
         if (length < 1e-3 || length > 1e4) return;
         const double dash = marking.space_length > 0 && marking.line_length > 0 ? marking.line_length : length;
         const double period = std::max(dash + (marking.space_length > 0 ? marking.space_length : 0), 0.05);
-        for (double at = marking.start_offset; at < length - marking.stop_offset; at += period) {
+        for (double at = marking.start_offset; at < length - marking.stop_offset && pieces <= kMaxCopies;
+             at += period, ++pieces) {
             const double end = std::min(at + dash, length - marking.stop_offset);
             // Pieces short enough to follow a bend.
             const int parts = std::max(1, static_cast<int>(std::ceil((end - at) / 2)));
             for (int p = 0; p < parts; ++p) {
-                const glm::dvec2 first = glm::mix(from, to, (at + (end - at) * p / parts) / length), last = glm::mix(from, to, (at + (end - at) * (p + 1) / parts) / length);
+                const glm::dvec2 first = glm::mix(from, to, (at + (end - at) * p / parts) / length),
+                                 last = glm::mix(from, to, (at + (end - at) * (p + 1) / parts) / length);
                 const RoadPoint up = surface_point(road, first.x, first.y);
                 const glm::dvec3 c = on_surface(first.x, first.y, 0.001), d = on_surface(last.x, last.y, 0.001);
                 const glm::dvec3 side = glm::normalize(glm::cross(up.up, d - c)) * (marking.width / 2);
-                const Stuff stuff = marking.colour == MarkColour::Yellow ? Stuff::MarkYellow : marking.colour == MarkColour::Blue ? Stuff::MarkBlue : Stuff::MarkWhite;
-                mesh.quad(stuff, RoadMesh::Corner{c - side, up.up}, {d - side, up.up}, {d + side, up.up}, {c + side, up.up});
+                const Stuff stuff = marking.colour == MarkColour::Yellow ? Stuff::MarkYellow
+                                    : marking.colour == MarkColour::Blue ? Stuff::MarkBlue
+                                                                         : Stuff::MarkWhite;
+                mesh.quad(stuff, RoadMesh::Corner{c - side, up.up}, {d - side, up.up}, {d + side, up.up},
+                          {c + side, up.up});
             }
         }
     }
@@ -150,9 +169,13 @@ struct ObjectBuilder {
     void markings(const RoadObject& object, const Placed& at, const ObjectOutline& outline) {
         for (const ObjectMarking& marking : object.markings)
             for (size_t i = 0; i + 1 < marking.corners.size(); ++i) {
-                const auto find = [&](int id) { return std::find_if(outline.corners.begin(), outline.corners.end(), [&](const ObjectCorner& c) { return c.id == id; }); };
+                const auto find = [&](int id) {
+                    return std::find_if(outline.corners.begin(), outline.corners.end(),
+                                        [&](const ObjectCorner& c) { return c.id == id; });
+                };
                 const auto a = find(marking.corners[i]), b = find(marking.corners[i + 1]);
-                if (a != outline.corners.end() && b != outline.corners.end()) painted(corner_place(object, at, *a), corner_place(object, at, *b), marking);
+                if (a != outline.corners.end() && b != outline.corners.end())
+                    painted(corner_place(object, at, *a), corner_place(object, at, *b), marking);
             }
     }
 
@@ -180,7 +203,8 @@ struct ObjectBuilder {
         for (const ObjectCorner& corner : outline.corners) {
             places.push_back(corner_place(object, at, corner));
             const glm::dvec3 base = corner.local ? frame.at(corner.u, corner.v, corner.z)
-                                                 : surface_point(road, places.back().x, places.back().y).position + glm::dvec3(0, 0, corner.z);
+                                                 : surface_point(road, places.back().x, places.back().y).position +
+                                                       glm::dvec3(0, 0, corner.z);
             const double height = flat ? 0 : corner.height > 0 ? corner.height : object.height;
             bottoms.push_back(base), tops.push_back(base + glm::dvec3(0, 0, height));
             highest = std::max(highest, height);
@@ -188,7 +212,9 @@ struct ObjectBuilder {
         if (!object.markings.empty()) markings(object, at, outline);
         if (outline.corners.size() < 3) return;
         if (highest > kFlat) {
-            const Stuff stuff = contains(kind, "building") ? Stuff::Wall : contains(kind, "tree") || contains(kind, "vegetation") ? Stuff::Leaves : Stuff::Concrete;
+            const Stuff stuff = contains(kind, "building")                               ? Stuff::Wall
+                                : contains(kind, "tree") || contains(kind, "vegetation") ? Stuff::Leaves
+                                                                                         : Stuff::Concrete;
             return add_prism(mesh, stuff, bottoms, tops);
         }
         if (!object.markings.empty()) return;
@@ -196,38 +222,55 @@ struct ObjectBuilder {
         if (contains(kind, "parkingspace")) return boundary(places);
         std::vector<glm::dvec3> corners;
         for (const glm::dvec2& p : places) corners.push_back(on_surface(p.x, p.y, 0));
-        mesh.any_polygon(contains(kind, "mark") || contains(kind, "stop") ? Stuff::MarkWhite : contains(kind, "island") ? Stuff::Concrete : Stuff::Shoulder, corners,
-                         surface_point(road, at.s, at.t).up);
+        mesh.any_polygon(contains(kind, "mark") || contains(kind, "stop") ? Stuff::MarkWhite
+                         : contains(kind, "island")                       ? Stuff::Concrete
+                                                                          : Stuff::Shoulder,
+                         corners, surface_point(road, at.s, at.t).up);
     }
 
     void one(const RoadObject& object, const Placed& at) {
-        if (++copies > kMaxCopies) return;
+        if (++pieces > kMaxCopies) return;
+        ++copies;
         if (object.outlines.empty()) return body(object, at);
         for (const ObjectOutline& outline : object.outlines) outlined(object, at, outline);
     }
 
     Placed of_repeat(const RoadObject& object, const ObjectRepeat& repeat, double f) const {
         Placed at = whole(object);
-        const auto over = [&](const std::optional<double>& a, const std::optional<double>& b, double fallback) { return a ? glm::mix(*a, b.value_or(*a), f) : fallback; };
+        const auto over = [&](const std::optional<double>& a, const std::optional<double>& b, double fallback) {
+            return a ? glm::mix(*a, b.value_or(*a), f) : fallback;
+        };
         at.s = repeat.s + repeat.length * f;
         at.t = glm::mix(repeat.t_start, repeat.t_end, f), at.z = glm::mix(repeat.z_start, repeat.z_end, f);
-        at.height = over(repeat.height_start, repeat.height_end, at.height), at.width = over(repeat.width_start, repeat.width_end, at.width);
-        at.length = over(repeat.length_start, repeat.length_end, at.length), at.radius = over(repeat.radius_start, repeat.radius_end, at.radius);
+        at.height = over(repeat.height_start, repeat.height_end, at.height),
+        at.width = over(repeat.width_start, repeat.width_end, at.width);
+        at.length = over(repeat.length_start, repeat.length_end, at.length),
+        at.radius = over(repeat.radius_start, repeat.radius_end, at.radius);
         return at;
     }
 
     /// A body without end along the road: a rail, a wall, a fence.
     void continuous(const RoadObject& object, const ObjectRepeat& repeat) {
         const std::string kind = kind_of(object);
-        const Stuff stuff = contains(kind, "rail") || contains(kind, "barrier") || contains(kind, "fence") ? Stuff::Steel : contains(kind, "vegetation") ? Stuff::Leaves : Stuff::Concrete;
+        const Stuff stuff = contains(kind, "rail") || contains(kind, "barrier") || contains(kind, "fence")
+                                ? Stuff::Steel
+                            : contains(kind, "vegetation") ? Stuff::Leaves
+                                                           : Stuff::Concrete;
         const double end = std::min(repeat.s + repeat.length, road.length);
         if (!(end > repeat.s)) return;
         const auto steps = static_cast<int>(std::clamp(std::ceil((end - repeat.s) / 4), 1.0, 100'000.0));
+        pieces += static_cast<size_t>(steps);
+        if (pieces > kMaxCopies) return;
+        ++copies;
         const auto section = [&](int i) {
             Placed at = of_repeat(object, repeat, repeat.length > 0 ? (end - repeat.s) * i / steps / repeat.length : 0);
-            const double width = at.width > 0 ? at.width : at.radius > 0 ? 2 * at.radius : 0.08, height = at.height > 0 ? at.height : 0.3;
+            const double width = at.width > 0    ? at.width
+                                 : at.radius > 0 ? 2 * at.radius
+                                                 : 0.08,
+                         height = at.height > 0 ? at.height : 0.3;
             const BodyFrame f = frame_at(road, at.s, at.t, at.z);
-            return std::array{f.at(0, -width / 2, 0), f.at(0, width / 2, 0), f.at(0, width / 2, height), f.at(0, -width / 2, height)};
+            return std::array{f.at(0, -width / 2, 0), f.at(0, width / 2, 0), f.at(0, width / 2, height),
+                              f.at(0, -width / 2, height)};
         };
         auto before = section(0);
         mesh.quad(stuff, before[1], before[0], before[3], before[2]);
@@ -256,7 +299,8 @@ struct ObjectBuilder {
                 continue;
             }
             int placed = 0;
-            for (double along = 0; along <= last + 1e-9 && copies <= kMaxCopies; along += std::max(repeat.distance, 0.01)) {
+            for (double along = 0; along <= last + 1e-9 && pieces <= kMaxCopies;
+                 along += std::max(repeat.distance, 0.01)) {
                 one(each, of_repeat(each, repeat, repeat.length > 0 ? along / repeat.length : 0));
                 if (++placed % 16 == 0) mesh.place(build.scene, build.materials, "object " + each.name);
             }
@@ -268,17 +312,19 @@ struct ObjectBuilder {
 
 void build_objects(RoadBuild& build) {
     RoadMesh mesh(build.network);
-    size_t copies = 0;
+    size_t copies = 0, pieces = 0;
     for (const Road& road : build.network.roads) {
         if (road.sections.empty()) continue;
-        ObjectBuilder builder{build, road, mesh, copies};
+        ObjectBuilder builder{build, road, mesh, copies, pieces};
         for (const RoadObject& object : road.objects) {
             builder.object(object);
             mesh.place(build.scene, build.materials, "object " + object.name);
         }
-        copies = builder.copies;
+        copies = builder.copies, pieces = builder.pieces;
     }
-    if (copies > 0) build.notes.push_back("objects: " + std::to_string(std::min(copies, kMaxCopies)) + (copies > kMaxCopies ? ", more are left out" : ""));
+    if (copies > 0)
+        build.notes.push_back("objects: " + std::to_string(copies) +
+                              (pieces > kMaxCopies ? ", more are left out" : ""));
 }
 
 }  // namespace vesper

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/luminance.h"
 #include "roads/road_lamps.h"
 #include "roads/sign_faces.h"
 
@@ -10,6 +11,7 @@ namespace vesper {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr size_t kMaxSignals = 20'000;
 constexpr double kPole = 0.6;  // m; a pole among the objects within this stands for the signal's
 
 /// EN 12368: 200 mm lenses, performance level 2: 200 cd on the axis, within it cosine-like.
@@ -19,7 +21,8 @@ constexpr double kSmallLens = 0.1;   // m, where the housing is small
 
 bool has_pole(const Road& road, const RoadSignal& signal) {
     return std::any_of(road.objects.begin(), road.objects.end(), [&](const RoadObject& object) {
-        return object.type.find("pole") != object.type.npos && std::hypot(object.s - signal.s, object.t - signal.t) < kPole;
+        return object.type.find("pole") != object.type.npos &&
+               std::hypot(object.s - signal.s, object.t - signal.t) < kPole;
     });
 }
 
@@ -28,7 +31,7 @@ uint32_t lens_light(RoadBuild& build, const char* name, glm::vec3 colour, double
         if (build.scene.lights[i].name == name) return i;
     Light light{.name = name, .kind = Light::Kind::Spot};
     light.intensity = static_cast<float>(kLensCandela * diameter * diameter / (kLens * kLens));
-    light.colour = colour / static_cast<float>(0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b);
+    light.colour = glm::vec3(glm::dvec3(colour) / luminance(glm::dvec3(colour)));
     light.inner_cone = 0.09f, light.outer_cone = 0.7f;
     light.opening.length = light.opening.width = diameter, light.opening.round = true;
     build.scene.lights.push_back(light);
@@ -63,16 +66,19 @@ struct SignalBuilder {
         for (const double side : {-0.35, 0.35}) pole(s, frame.moved(0, side * width, 0), height * 0.9);
     }
 
-    /// A housing with lenses, the lit one as a lamp. Without a scenario, cars wait: red for them, green for people on foot.
+    /// A housing with lenses, the lit one as a lamp. Without a scenario, cars wait: red for them, green for people on
+    /// foot.
     void light(const RoadSignal& s) {
         const bool on_foot = is_for_pedestrians(s);
         const int lenses = on_foot ? 2 : 3;
         const double height = s.height > 0.1 ? s.height : on_foot ? 0.6 : 0.9, width = s.width > 0.05 ? s.width : 0.3;
         const BodyFrame frame = frame_of(s);
-        const double depth = 0.16, pitch = height / lenses, lens = pitch > 0.22 ? kLens : std::min(kSmallLens, pitch * 0.8);
+        const double depth = 0.16, pitch = height / lenses,
+                     lens = pitch > 0.22 ? kLens : std::min(kSmallLens, pitch * 0.8);
         add_box(mesh, Stuff::Housing, frame.moved(-depth / 2, 0, 0), depth, width, height);
         // A box has no bottom, and this one is seen from below.
-        mesh.quad(Stuff::Housing, frame.at(0, -width / 2, 0), frame.at(-depth, -width / 2, 0), frame.at(-depth, width / 2, 0), frame.at(0, width / 2, 0));
+        mesh.quad(Stuff::Housing, frame.at(0, -width / 2, 0), frame.at(-depth, -width / 2, 0),
+                  frame.at(-depth, width / 2, 0), frame.at(0, width / 2, 0));
         pole(s, frame.moved(-depth, 0, 0), height);
         const std::string name = "signal_" + s.id;
         const bool red = !on_foot;
@@ -80,7 +86,8 @@ struct SignalBuilder {
         const BodyFrame out = frame.moved(0.01, 0, z);
         // It shines along -Z, its X to the right of who stands behind it.
         Node node = node_at(build, name + (red ? "/red" : "/green"), out.origin, -out.y, out.z, -out.x);
-        node.light = red ? lens_light(build, "red signal", {1, 0.05f, 0.02f}, lens) : lens_light(build, "green signal", {0.05f, 1, 0.55f}, lens);
+        node.light = red ? lens_light(build, "red signal", {1, 0.05f, 0.02f}, lens)
+                         : lens_light(build, "green signal", {0.05f, 1, 0.55f}, lens);
         build.scene.nodes.push_back(node);
     }
 
@@ -114,6 +121,7 @@ void build_signals(RoadBuild& build) {
         if (road.sections.empty()) continue;
         SignalBuilder builder{build, road, mesh};
         for (const RoadSignal& signal : road.signals) {
+            if (signs + lights >= kMaxSignals) break;
             if (is_painted(signal)) {
                 builder.stop_line(signal);
             } else if (is_traffic_light(signal)) {
@@ -126,7 +134,9 @@ void build_signals(RoadBuild& build) {
             mesh.place(build.scene, build.materials, "signal " + signal.id);
         }
     }
-    if (signs + lights > 0) build.notes.push_back("signals: " + std::to_string(signs) + " signs, " + std::to_string(lights) + " traffic lights");
+    if (signs + lights > 0)
+        build.notes.push_back("signals: " + std::to_string(signs) + " signs, " + std::to_string(lights) +
+                              " traffic lights");
 }
 
 }  // namespace vesper

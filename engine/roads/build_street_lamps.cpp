@@ -20,7 +20,8 @@ StreetLampOptions lamp_options(const RoadBuild& build) { return build.options.la
 /// The light all street lamps of one height share; higher ones are stronger, so that the road stays as bright.
 uint32_t lamp_light(RoadBuild& build, double height) {
     const StreetLampOptions options = lamp_options(build);
-    const auto factor = static_cast<float>(options.luminaire ? 1.0 : std::max(1.0, height * height / (kDesignHeight * kDesignHeight)));
+    const auto factor =
+        static_cast<float>(options.luminaire ? 1.0 : std::max(1.0, height * height / (kDesignHeight * kDesignHeight)));
     for (uint32_t i = 0; i < build.scene.lights.size(); ++i)
         if (build.scene.lights[i].name == "street lamp" && build.scene.lights[i].intensity == factor) return i;
     Light light{.name = "street lamp", .kind = Light::Kind::Measured};
@@ -50,7 +51,8 @@ double edge_of(const Road& road, const LaneSection& section, int side, double s)
         const LaneType type = section.find(id)->type;
         if (is_driven(type)) last = id;
         if (last == 0) continue;
-        if ((!is_level_with_road(type) && type != LaneType::Curb) || is_verge(section, *section.find(id), s)) break;  // in front of pavements and grass
+        if ((!is_level_with_road(type) && type != LaneType::Curb) || is_verge(section, *section.find(id), s))
+            break;  // in front of pavements and grass
         last = id;
     }
     return lane_border(road, section, last, s);
@@ -68,10 +70,14 @@ std::vector<Row> rows_of(const StreetLampOptions& options, const Road& road, dou
 bool is_below_road(const RoadBuild& build, glm::dvec3 foot, double height) {
     for (double up = 4; up < height + 4; up += 3) {
         const glm::dvec3 at = build.network.to_world(foot + glm::dvec3(0, 0, up));
-        const auto place = build.lanes.nearest(at, 20, [&](const Lane& lane) { return is_driven(lane.type) && lane.poses.front().position.y > at.y - up + 3; });
+        const auto place = build.lanes.nearest(at, 20, [&](const Lane& lane) {
+            return is_driven(lane.type) && lane.poses.front().position.y > at.y - up + 3;
+        });
         if (!place) continue;
         const LanePose pose = build.lanes.pose(place->lane, place->along);
-        if (std::abs(place->offset) < pose.width / 2 + 5 && pose.position.y > at.y - up + 3 && pose.position.y < at.y - up + height + 2) return true;
+        if (std::abs(place->offset) < pose.width / 2 + 5 && pose.position.y > at.y - up + 3 &&
+            pose.position.y < at.y - up + height + 2)
+            return true;
     }
     return false;
 }
@@ -93,7 +99,8 @@ void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& opt
             BodyFrame frame = frame_at(road, s, t, 0);
             if (is_on_road(build, frame.origin, 0.3) || is_below_road(build, frame.origin, height)) continue;
             // It stands on what is there: a pavement, or the ground.
-            frame.origin.z = std::max(frame.origin.z - 0.3, std::min(frame.origin.z, build.ground.height(glm::dvec2(frame.origin))));
+            frame.origin.z =
+                std::max(frame.origin.z - 0.3, std::min(frame.origin.z, build.ground.height(glm::dvec2(frame.origin))));
             if (++count > kMaxLamps) return;
             add_street_lamp(build, frame, height, -side);
         }
@@ -102,7 +109,8 @@ void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& opt
 
 }  // namespace
 
-Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y, glm::dvec3 z) {
+Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y,
+             glm::dvec3 z) {
     Node node{.name = name};
     node.translation = glm::vec3(build.network.to_world(position));
     const auto turned = [](glm::dvec3 d) { return glm::normalize(RoadNetwork::direction_to_world(d)); };
@@ -127,7 +135,8 @@ void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, in
     mesh.place(build.scene, build.materials, name);
     // The luminaire's frame: -Z down, C0 (+X) along the road, C90 (+Y) towards it.
     const double side = towards;
-    Node node = node_at(build, std::string(name) + "/light", frame.at(0, overhang, height), frame.x * side, frame.y * side, frame.z);
+    Node node = node_at(build, std::string(name) + "/light", frame.at(0, overhang, height), frame.x * side,
+                        frame.y * side, frame.z);
     node.light = lamp_light(build, height);
     build.scene.nodes.push_back(node);
 }
@@ -135,14 +144,19 @@ void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, in
 void build_street_lamps(RoadBuild& build) {
     const StreetLampOptions options = lamp_options(build);
     if (options.spacing <= 0) return;
-    if (options.spacing < 2) throw Error("street lamps every " + std::to_string(options.spacing) + " m: at least 2 m are expected");
-    const bool has_own = std::any_of(build.scene.lights.begin(), build.scene.lights.end(), [](const Light& light) { return light.name == "street lamp"; });
+    if (options.spacing < 2)
+        throw Error("street lamps every " + std::to_string(options.spacing) + " m: at least 2 m are expected");
+    const bool has_own = std::any_of(build.scene.lights.begin(), build.scene.lights.end(),
+                                     [](const Light& light) { return light.name == "street lamp"; });
     if (has_own && !build.options.lamps) return;
     size_t count = 0;
     for (const Road& road : build.network.roads)
-        if (road.junction == kNoRoad && !road.sections.empty() && road.length > 5) light_road(build, road, options, count);
-    if (count > kMaxLamps) build.notes.push_back("street lamps: more than " + std::to_string(kMaxLamps) + ": the rest is left out");
-    build.notes.push_back("street lamps: " + std::to_string(std::min(count, kMaxLamps)) + ", every " + std::to_string(std::lround(options.spacing)) + " m");
+        if (road.junction == kNoRoad && !road.sections.empty() && road.length > 5)
+            light_road(build, road, options, count);
+    if (count > kMaxLamps)
+        build.notes.push_back("street lamps: more than " + std::to_string(kMaxLamps) + ": the rest is left out");
+    build.notes.push_back("street lamps: " + std::to_string(std::min(count, kMaxLamps)) + ", every " +
+                          std::to_string(std::lround(options.spacing)) + " m");
 }
 
 }  // namespace vesper

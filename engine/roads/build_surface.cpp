@@ -2,37 +2,55 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "roads/lit_road_parts.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kLongest = 20;     // m between stations
-constexpr double kPiece = 60;       // m of road in one mesh, short enough to be culled
-constexpr double kStep = 0.02;      // m; higher edges get a face
+constexpr double kLongest = 20;  // m between stations
+constexpr double kPiece = 60;    // m of road in one mesh, short enough to be culled
+constexpr size_t kMaxEdges = 4'000'000;
+constexpr double kStep = 0.02;       // m; higher edges get a face
 constexpr double kKerbWidth = 0.15;  // m of kerb stone
-constexpr double kLift = 0.003;     // m that driven lanes of junctions lie over what else is there
-constexpr double kGrassDrop = 0.03; // m
-constexpr double kInside = 0.1;     // m
-constexpr double kBridge = 2.5;     // m over the ground from which a road is a bridge
-constexpr double kDeck = 1;         // m
+constexpr double kLift = 0.003;      // m that driven lanes of junctions lie over what else is there
+constexpr double kGrassDrop = 0.03;  // m
+constexpr double kInside = 0.1;      // m
+constexpr double kBridge = 2.5;      // m over the ground from which a road is a bridge
+constexpr double kDeck = 1;          // m
 
 /// Borders are hard, but the outermost one, where it is wide, is what files have for the verge.
 Stuff stuff_of(LaneType type, bool verge) {
     if (verge) return Stuff::Grass;
     switch (type) {
-        case LaneType::Driving: case LaneType::Entry: case LaneType::Exit: case LaneType::Ramp: case LaneType::Bidirectional: case LaneType::Parking:
-        case LaneType::Restricted: return Stuff::Asphalt;
-        case LaneType::Stop: case LaneType::Shoulder: case LaneType::Border: return Stuff::Shoulder;
-        case LaneType::Biking: return Stuff::Bikeway;
-        case LaneType::Sidewalk: return Stuff::Pavement;
-        case LaneType::Curb: return Stuff::Kerb;
-        case LaneType::Rail: return Stuff::Gravel;
-        default: return Stuff::Grass;
+        case LaneType::Driving:
+        case LaneType::Entry:
+        case LaneType::Exit:
+        case LaneType::Ramp:
+        case LaneType::Bidirectional:
+        case LaneType::Parking:
+        case LaneType::Restricted:
+            return Stuff::Asphalt;
+        case LaneType::Stop:
+        case LaneType::Shoulder:
+        case LaneType::Border:
+            return Stuff::Shoulder;
+        case LaneType::Biking:
+            return Stuff::Bikeway;
+        case LaneType::Sidewalk:
+            return Stuff::Pavement;
+        case LaneType::Curb:
+            return Stuff::Kerb;
+        case LaneType::Rail:
+            return Stuff::Gravel;
+        default:
+            return Stuff::Grass;
     }
 }
 
-RoadMesh::Corner corner(const RoadPoint& point, double lift = 0) { return {point.position + point.up * lift, point.up}; }
+RoadMesh::Corner corner(const RoadPoint& point, double lift = 0) {
+    return {point.position + point.up * lift, point.up};
+}
 
 RoadPoint between(const RoadPoint& a, const RoadPoint& b, double f) {
     RoadPoint point = a;
@@ -42,7 +60,8 @@ RoadPoint between(const RoadPoint& a, const RoadPoint& b, double f) {
 }
 
 /// A strip between two lines; `left` is where it has its left edge.
-void strip(RoadMesh& mesh, Stuff stuff, const RoadPoint& right0, const RoadPoint& right1, const RoadPoint& left0, const RoadPoint& left1, double lift) {
+void strip(RoadMesh& mesh, Stuff stuff, const RoadPoint& right0, const RoadPoint& right1, const RoadPoint& left0,
+           const RoadPoint& left1, double lift) {
     mesh.quad(stuff, corner(right0, lift), corner(right1, lift), corner(left1, lift), corner(left0, lift));
 }
 
@@ -55,7 +74,8 @@ struct SectionBuilder {
 
     /// Whether the grass beside a road hangs over something: bridges have none.
     bool hangs(const LaneEdges& a, const LaneEdges& b) const {
-        for (const glm::dvec3 p : {a.inner.position, a.outer.position, b.inner.position, b.outer.position, (a.inner.position + b.outer.position) / 2.0})
+        for (const glm::dvec3 p : {a.inner.position, a.outer.position, b.inner.position, b.outer.position,
+                                   (a.inner.position + b.outer.position) / 2.0})
             if (build.ground.height(glm::dvec2(p)) < p.z - kBridge) return true;
         return false;
     }
@@ -65,7 +85,8 @@ struct SectionBuilder {
         const RoadLane& lane = section.lanes[l];
         const LaneEdges &a = cut.rows[i][l], &b = cut.rows[i + 1][l];
         const bool is_left = lane.id > 0, driven = is_driven(lane.type);
-        const double width = glm::distance(a.inner.position, a.outer.position) + glm::distance(b.inner.position, b.outer.position);
+        const double width =
+            glm::distance(a.inner.position, a.outer.position) + glm::distance(b.inner.position, b.outer.position);
         if (width < 1e-3) return false;
         if (!driven && road.junction != kNoRoad) {
             const glm::dvec3 middle = (a.inner.position + a.outer.position + b.inner.position + b.outer.position) / 4.0;
@@ -86,7 +107,8 @@ struct SectionBuilder {
         // The inner edge's neighbour lies towards the centre.
         const size_t inner = is_left ? l + 1 : l - 1;
         const LaneEdges &n0 = cut.rows[i][inner], &n1 = cut.rows[i + 1][inner];
-        const double rise = std::max(glm::dot(a.inner.position - n0.outer.position, a.inner.up), glm::dot(b.inner.position - n1.outer.position, b.inner.up));
+        const double rise = std::max(glm::dot(a.inner.position - n0.outer.position, a.inner.up),
+                                     glm::dot(b.inner.position - n1.outer.position, b.inner.up));
         const double stone = rise > kStep && lane.type != LaneType::Curb ? std::min(1.0, 2 * kKerbWidth / width) : 0;
         if (stone > 0) part(Stuff::Kerb, 0, stone, 0);
         if (stone < 1) part(stuff, stone, 1, lift);
@@ -116,9 +138,15 @@ struct SectionBuilder {
 
     /// The sides of a piece between its outermost lanes, and what bridges show from below.
     void sides(size_t first, size_t last, size_t i) {
-        const RoadPoint &l0 = cut.rows[i][first].outer, &l1 = cut.rows[i + 1][first].outer, &r0 = cut.rows[i][last].outer, &r1 = cut.rows[i + 1][last].outer;
-        const auto stuff = [&](size_t l) { return section.lanes[l].type == LaneType::Sidewalk || section.lanes[l].type == LaneType::Curb ? Stuff::Kerb : Stuff::Grass; };
-        const bool bridge = hangs(cut.rows[i][first], cut.rows[i + 1][first]) || hangs(cut.rows[i][last], cut.rows[i + 1][last]);
+        const RoadPoint &l0 = cut.rows[i][first].outer, &l1 = cut.rows[i + 1][first].outer,
+                        &r0 = cut.rows[i][last].outer, &r1 = cut.rows[i + 1][last].outer;
+        const auto stuff = [&](size_t l) {
+            return section.lanes[l].type == LaneType::Sidewalk || section.lanes[l].type == LaneType::Curb
+                       ? Stuff::Kerb
+                       : Stuff::Grass;
+        };
+        const bool bridge =
+            hangs(cut.rows[i][first], cut.rows[i + 1][first]) || hangs(cut.rows[i][last], cut.rows[i + 1][last]);
         mesh.quad(bridge ? Stuff::Concrete : stuff(first), foot(l1), foot(l0), l0.position, l1.position);
         mesh.quad(bridge ? Stuff::Concrete : stuff(last), foot(r0), foot(r1), r1.position, r0.position);
         if (bridge) mesh.quad(Stuff::Concrete, foot(l0), foot(l1), foot(r1), foot(r0));
@@ -135,7 +163,8 @@ struct SectionBuilder {
     void end(size_t i, bool at_start) {
         for (size_t l = 0; l < section.lanes.size(); ++l) {
             const LaneEdges& edges = cut.rows[i][l];
-            const RoadPoint &right = section.lanes[l].id > 0 ? edges.inner : edges.outer, &left = section.lanes[l].id > 0 ? edges.outer : edges.inner;
+            const RoadPoint &right = section.lanes[l].id > 0 ? edges.inner : edges.outer,
+                            &left = section.lanes[l].id > 0 ? edges.outer : edges.inner;
             if (at_start)
                 mesh.quad(Stuff::Grass, foot(left), foot(right), right.position, left.position);
             else
@@ -148,15 +177,21 @@ struct SectionBuilder {
 
 std::vector<CutSection> cut_roads(const RoadNetwork& network, double chord) {
     std::vector<CutSection> cuts;
+    size_t edges = 0;
     for (uint32_t r = 0; r < network.roads.size(); ++r) {
         const Road& road = network.roads[r];
         for (uint32_t s = 0; s < road.sections.size(); ++s) {
             const LaneSection& section = road.sections[s];
             CutSection cut{r, s, road_stations(road, section, chord, kLongest), {}};
+            edges += cut.stations.size() * section.lanes.size();
+            if (edges > kMaxEdges)
+                throw Error("the roads are too finely divided to be built: more than " + std::to_string(kMaxEdges) +
+                            " lane edges");
             for (const double at : cut.stations) {
                 std::vector<LaneEdges> row;
                 for (const RoadLane& lane : section.lanes)
-                    row.push_back({lane_point(road, section, lane.id, at, 0), lane_point(road, section, lane.id, at, 1)});
+                    row.push_back(
+                        {lane_point(road, section, lane.id, at, 0), lane_point(road, section, lane.id, at, 1)});
                 cut.rows.push_back(std::move(row));
             }
             cuts.push_back(std::move(cut));
@@ -174,11 +209,14 @@ bool is_verge(const LaneSection& section, const RoadLane& lane, double s) {
 bool is_driven_over(const RoadBuild& build, uint32_t road, glm::dvec3 point, double margin) {
     const bool in_junction = build.network.roads[road].junction != kNoRoad;
     const glm::dvec3 at = build.network.to_world(point);
-    const auto place = build.lanes.nearest(at, 8, [&](const Lane& lane) { return lane.road != road && is_driven(lane.type) && (in_junction || lane.in_junction); });
+    const auto place = build.lanes.nearest(at, 8, [&](const Lane& lane) {
+        return lane.road != road && is_driven(lane.type) && (in_junction || lane.in_junction);
+    });
     if (!place) return false;
     const LanePose pose = build.lanes.pose(place->lane, place->along);
     const bool beyond = place->along <= 0 || place->along >= build.lanes.lanes()[place->lane].length;
-    return !beyond && std::abs(place->offset) < pose.width / 2 - margin && std::abs(glm::dot(at - pose.position, pose.up)) < 0.5;
+    return !beyond && std::abs(place->offset) < pose.width / 2 - margin &&
+           std::abs(glm::dot(at - pose.position, pose.up)) < 0.5;
 }
 
 bool is_on_road(const RoadBuild& build, glm::dvec3 point, double margin) {
@@ -198,7 +236,8 @@ BodyFrame frame_at(const Road& road, double s, double t, double z_offset) {
 void build_surfaces(RoadBuild& build, const std::vector<CutSection>& cuts) {
     RoadMesh mesh(build.network);
     for (const CutSection& cut : cuts) {
-        SectionBuilder builder{build, cut, build.network.roads[cut.road], build.network.roads[cut.road].sections[cut.section], mesh};
+        SectionBuilder builder{build, cut, build.network.roads[cut.road],
+                               build.network.roads[cut.road].sections[cut.section], mesh};
         double begun = cut.stations.front();
         for (size_t i = 0; i + 1 < cut.stations.size(); ++i) {
             builder.pieces(i);
@@ -209,7 +248,8 @@ void build_surfaces(RoadBuild& build, const std::vector<CutSection>& cuts) {
         }
         const Road& road = builder.road;
         if (cut.section == 0 && road.predecessor.to == RoadLink::To::Nothing) builder.end(0, true);
-        if (cut.section + 1 == road.sections.size() && road.successor.to == RoadLink::To::Nothing) builder.end(cut.stations.size() - 1, false);
+        if (cut.section + 1 == road.sections.size() && road.successor.to == RoadLink::To::Nothing)
+            builder.end(cut.stations.size() - 1, false);
         mesh.place(build.scene, build.materials, "road " + builder.road.id);
     }
 }

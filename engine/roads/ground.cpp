@@ -16,7 +16,8 @@ constexpr int kSmoothings = 24;
 Ground::Ground(glm::dvec2 low, glm::dvec2 high, double cell) : low_(low), cell_(cell) {
     const glm::dvec2 size = high - low;
     cell_ = std::max(cell_, std::sqrt(size.x * size.y / kMaxNodes));
-    columns_ = static_cast<uint32_t>(std::ceil(size.x / cell_)) + 1, rows_ = static_cast<uint32_t>(std::ceil(size.y / cell_)) + 1;
+    columns_ = static_cast<uint32_t>(std::ceil(size.x / cell_)) + 1,
+    rows_ = static_cast<uint32_t>(std::ceil(size.y / cell_)) + 1;
     heights_.assign(size_t(columns_) * rows_, kUnknown);
 }
 
@@ -27,7 +28,8 @@ void Ground::stay_below(glm::dvec3 point) {
     const auto last = [&](double at) { return static_cast<int64_t>(std::floor((at + reach) / cell_)); };
     const double x = point.x - low_.x, y = point.y - low_.y;
     for (int64_t row = std::max<int64_t>(first(y), 0); row <= std::min<int64_t>(last(y), rows_ - 1); ++row)
-        for (int64_t column = std::max<int64_t>(first(x), 0); column <= std::min<int64_t>(last(x), columns_ - 1); ++column) {
+        for (int64_t column = std::max<int64_t>(first(x), 0); column <= std::min<int64_t>(last(x), columns_ - 1);
+             ++column) {
             double& height = heights_[index(static_cast<uint32_t>(column), static_cast<uint32_t>(row))];
             height = std::min(height, point.z - kBelow);
         }
@@ -68,8 +70,10 @@ glm::dvec3 Ground::node(uint32_t column, uint32_t row) const {
 }
 
 double Ground::height(glm::dvec2 at) const {
-    const double x = std::clamp((at.x - low_.x) / cell_, 0.0, columns_ - 1.0), y = std::clamp((at.y - low_.y) / cell_, 0.0, rows_ - 1.0);
-    const auto column = std::min(static_cast<uint32_t>(x), columns_ - 2), row = std::min(static_cast<uint32_t>(y), rows_ - 2);
+    const double x = std::clamp((at.x - low_.x) / cell_, 0.0, columns_ - 1.0),
+                 y = std::clamp((at.y - low_.y) / cell_, 0.0, rows_ - 1.0);
+    const auto column = std::min(static_cast<uint32_t>(x), columns_ - 2),
+               row = std::min(static_cast<uint32_t>(y), rows_ - 2);
     const double fx = x - column, fy = y - row;
     const double low = glm::mix(heights_[index(column, row)], heights_[index(column + 1, row)], fx);
     const double high = glm::mix(heights_[index(column, row + 1)], heights_[index(column + 1, row + 1)], fx);

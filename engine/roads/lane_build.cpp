@@ -4,19 +4,23 @@
 #include <map>
 #include <tuple>
 
+#include "base/error.h"
 #include "roads/lane_build.h"
 #include "roads/road_surface.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kChord = 0.005;   // m
-constexpr double kLongest = 5;     // m
+constexpr double kChord = 0.005;    // m
+constexpr double kLongest = 5;      // m
 constexpr double kNarrowest = 0.1;  // m; a lane that never is wider is none
-constexpr double kJoint = 3;       // m; links further than this lead nowhere
-constexpr double kMeet = 0.3;      // m, and within 20 degrees
+constexpr double kJoint = 3;        // m; links further than this lead nowhere
+constexpr double kMeet = 0.3;       // m, and within 20 degrees
+constexpr size_t kMaxPoses = 20'000'000;
 
-bool is_wanted(LaneType type) { return is_driven(type) || type == LaneType::Biking || type == LaneType::Sidewalk || type == LaneType::Parking; }
+bool is_wanted(LaneType type) {
+    return is_driven(type) || type == LaneType::Biking || type == LaneType::Sidewalk || type == LaneType::Parking;
+}
 
 /// Where a lane is in the file; forwards or not.
 using Key = std::tuple<uint32_t, uint32_t, int, bool>;
@@ -24,6 +28,7 @@ using Key = std::tuple<uint32_t, uint32_t, int, bool>;
 struct Builder {
     const RoadNetwork& network;
     std::vector<Lane> lanes{};
+    size_t poses = 0;
     std::map<Key, uint32_t> by_key{};
 
     uint32_t find(uint32_t road, size_t section, int id, bool forwards) const {
@@ -59,18 +64,21 @@ void finish(Lane& lane) {
         glm::dvec3 forward = lane.poses[b].position - lane.poses[a].position;
         if (i > 0 && i + 1 < lane.poses.size()) {
             const double before = lane.along[i] - lane.along[a], after = lane.along[b] - lane.along[i];
-            forward = (lane.poses[i].position - lane.poses[a].position) * (after / before) + (lane.poses[b].position - lane.poses[i].position) * (before / after);
+            forward = (lane.poses[i].position - lane.poses[a].position) * (after / before) +
+                      (lane.poses[b].position - lane.poses[i].position) * (before / after);
         } else if (lane.poses.size() > 2) {
             // At the ends: twice the chord less the direction at the other end of it, which is exact for arcs.
             const size_t other = i == 0 ? 1 : i - 1, beyond = i == 0 ? 2 : i - 2;
             const glm::dvec3 chord = lane.poses[b].position - lane.poses[a].position;
-            const glm::dvec3 next = i == 0 ? lane.poses[beyond].position - lane.poses[other].position : lane.poses[other].position - lane.poses[beyond].position;
+            const glm::dvec3 next = i == 0 ? lane.poses[beyond].position - lane.poses[other].position
+                                           : lane.poses[other].position - lane.poses[beyond].position;
             const double first = glm::length(chord), second = glm::length(next);
             const glm::dvec3 u = chord / first, v = next / second;
             forward = u + (u - v) * (first / (first + second));
         }
         lane.poses[i].forward = glm::normalize(forward);
-        lane.poses[i].up = glm::normalize(lane.poses[i].up - lane.poses[i].forward * glm::dot(lane.poses[i].up, lane.poses[i].forward));
+        lane.poses[i].up = glm::normalize(lane.poses[i].up -
+                                          lane.poses[i].forward * glm::dot(lane.poses[i].up, lane.poses[i].forward));
     }
     for (size_t i = 0; i < lane.poses.size(); ++i) {
         const size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, lane.poses.size() - 1);
@@ -80,7 +88,8 @@ void finish(Lane& lane) {
     }
 }
 
-void add_lane(Builder& builder, uint32_t road_index, uint32_t section_index, const RoadLane& from, bool forwards, const std::vector<double>& stations) {
+void add_lane(Builder& builder, uint32_t road_index, uint32_t section_index, const RoadLane& from, bool forwards,
+              const std::vector<double>& stations) {
     const Road& road = builder.network.roads[road_index];
     const LaneSection& section = road.sections[section_index];
     Lane lane;
@@ -88,15 +97,19 @@ void add_lane(Builder& builder, uint32_t road_index, uint32_t section_index, con
     lane.in_junction = road.junction != kNoRoad;
     lane.forwards = forwards;
     lane.name = "road " + road.id + ", section " + std::to_string(section_index) + ", lane " + std::to_string(from.id);
+    builder.poses += stations.size();
+    if (builder.poses > kMaxPoses) throw Error("the lanes have more points than " + std::to_string(kMaxPoses));
     double widest = 0;
     for (const double s : stations) {
         const RoadPoint point = lane_point(road, section, from.id, s, 0.5);
         LanePose pose;
         pose.position = builder.network.to_world(point.position);
         pose.up = RoadNetwork::direction_to_world(point.up);
-        pose.width = std::abs(lane_border(road, section, from.id, s) - lane_border(road, section, from.id > 0 ? from.id - 1 : from.id + 1, s));
+        pose.width = std::abs(lane_border(road, section, from.id, s) -
+                              lane_border(road, section, from.id > 0 ? from.id - 1 : from.id + 1, s));
         widest = std::max(widest, pose.width);
-        if (lane.poses.empty() || glm::distance(pose.position, lane.poses.back().position) > 1e-4) lane.poses.push_back(pose);
+        if (lane.poses.empty() || glm::distance(pose.position, lane.poses.back().position) > 1e-4)
+            lane.poses.push_back(pose);
     }
     if (lane.poses.size() < 2 || widest < kNarrowest) return;
     if (!forwards) std::reverse(lane.poses.begin(), lane.poses.end());
@@ -111,14 +124,17 @@ void add_lane(Builder& builder, uint32_t road_index, uint32_t section_index, con
 void add_section(Builder& builder, uint32_t road_index, uint32_t section_index) {
     const Road& road = builder.network.roads[road_index];
     const LaneSection& section = road.sections[section_index];
-    if (std::none_of(section.lanes.begin(), section.lanes.end(), [](const RoadLane& lane) { return is_wanted(lane.type); })) return;
+    if (std::none_of(section.lanes.begin(), section.lanes.end(),
+                     [](const RoadLane& lane) { return is_wanted(lane.type); }))
+        return;
     const std::vector<double> stations = road_stations(road, section, kChord, kLongest);
     for (const RoadLane& lane : section.lanes) {
         if (lane.id == 0 || !is_wanted(lane.type)) continue;
         const bool forwards = (lane.id < 0) == road.right_hand;
         const bool reversed = lane.direction == LaneDirection::Reversed;
         add_lane(builder, road_index, section_index, lane, forwards != reversed, stations);
-        if (lane.direction == LaneDirection::Both) add_lane(builder, road_index, section_index, lane, !forwards, stations);
+        if (lane.direction == LaneDirection::Both)
+            add_lane(builder, road_index, section_index, lane, !forwards, stations);
     }
 }
 
@@ -161,7 +177,8 @@ void link_lane(Builder& builder, uint32_t road_index, uint32_t section_index, co
     const auto at_end = [&](RoadEnd end) {
         const bool last = end == RoadEnd::End;
         const bool inside = last ? section_index + 1 < road.sections.size() : section_index > 0;
-        const uint32_t out = builder.find(road_index, section_index, lane.id, last), in = builder.find(road_index, section_index, lane.id, !last);
+        const uint32_t out = builder.find(road_index, section_index, lane.id, last),
+                       in = builder.find(road_index, section_index, lane.id, !last);
         for (const int id : last ? lane.successors : lane.predecessors) {
             if (inside) {
                 const uint32_t next = last ? section_index + 1 : section_index - 1;
@@ -186,8 +203,10 @@ void link_junction(Builder& builder, const Junction& junction, uint32_t index) {
             const RoadLink& link = end == RoadEnd::Start ? incoming.predecessor : incoming.successor;
             if (link.to != RoadLink::To::Junction || link.index != index) continue;
             for (const auto& [from, to] : each.lanes) {
-                builder.link(leaving(builder, each.incoming, end, from), entered(builder, each.connecting, each.contact, to));
-                builder.link(leaving(builder, each.connecting, each.contact, to), entered(builder, each.incoming, end, from));
+                builder.link(leaving(builder, each.incoming, end, from),
+                             entered(builder, each.connecting, each.contact, to));
+                builder.link(leaving(builder, each.connecting, each.contact, to),
+                             entered(builder, each.incoming, end, from));
             }
         }
     }
@@ -218,9 +237,11 @@ void link_where_they_meet(std::vector<Lane>& lanes) {
         const LanePose& end = lanes[from].poses.back();
         for (const uint32_t to : starts.near({end.position.x, end.position.z}, kMeet)) {
             const LanePose& start = lanes[to].poses.front();
-            if (lanes[to].type != lanes[from].type && !(is_driven(lanes[to].type) && is_driven(lanes[from].type))) continue;
+            if (lanes[to].type != lanes[from].type && !(is_driven(lanes[to].type) && is_driven(lanes[from].type)))
+                continue;
             if (lanes[to].road == lanes[from].road && lanes[to].id == -lanes[from].id) continue;
-            if (glm::distance(start.position, end.position) > kMeet || glm::dot(start.forward, end.forward) < 0.94) continue;
+            if (glm::distance(start.position, end.position) > kMeet || glm::dot(start.forward, end.forward) < 0.94)
+                continue;
             lanes[from].successors.push_back(to);
             lanes[to].predecessors.push_back(from);
         }
@@ -233,23 +254,30 @@ std::vector<Kerb> build_kerbs(const RoadNetwork& network) {
         for (const LaneSection& section : road.sections) {
             std::vector<double> stations;
             for (const int side : {1, -1}) {
-                // From the reference outwards: the first border behind which no car may be, if there is anything to drive on.
+                // From the reference outwards: the first border behind which no car may be, if there is anything to
+                // drive on.
                 bool driven = false;
                 for (int id = side;; id += side) {
                     const RoadLane *lane = section.find(id), *outer = section.find(id + side);
                     if (!lane) break;
                     driven = driven || is_driven(lane->type);
-                    const bool curb = std::any_of(lane->marks.begin(), lane->marks.end(), [](const RoadMark& mark) { return mark.curb; });
+                    const bool curb = std::any_of(lane->marks.begin(), lane->marks.end(),
+                                                  [](const RoadMark& mark) { return mark.curb; });
                     if (!is_level_with_road(lane->type) || !driven) continue;
                     if (outer && is_level_with_road(outer->type) && !curb) continue;
                     if (stations.empty()) stations = road_stations(road, section, 0.02, 8);
                     for (size_t i = 1; i < stations.size(); ++i) {
-                        const RoadPoint a = lane_point(road, section, id, stations[i - 1], 1), b = lane_point(road, section, id, stations[i], 1);
+                        const RoadPoint a = lane_point(road, section, id, stations[i - 1], 1),
+                                        b = lane_point(road, section, id, stations[i], 1);
                         Kerb kerb{network.to_world(a.position), network.to_world(b.position)};
                         const glm::dvec3 inside = RoadNetwork::direction_to_world(a.left) * (side > 0 ? -1.0 : 1.0);
                         kerb.inside = glm::normalize(glm::dvec3(inside.x, 0, inside.z));
-                        if (outer) kerb.height = std::max(0.0, lane_height(*outer, stations[i - 1], 0) - lane_height(*lane, stations[i - 1], 1));
-                        if (outer && kerb.height <= 0 && (curb || outer->type == LaneType::Sidewalk || outer->type == LaneType::Curb)) kerb.height = 0.12;
+                        if (outer)
+                            kerb.height = std::max(
+                                0.0, lane_height(*outer, stations[i - 1], 0) - lane_height(*lane, stations[i - 1], 1));
+                        if (outer && kerb.height <= 0 &&
+                            (curb || outer->type == LaneType::Sidewalk || outer->type == LaneType::Curb))
+                            kerb.height = 0.12;
                         kerbs.push_back(kerb);
                     }
                     break;

@@ -45,7 +45,8 @@ LanePose LaneGraph::pose(uint32_t index, double along) const {
     LanePose pose;
     // Hermite: position and direction are continuous, and the curve passes its points in their directions.
     const double f2 = f * f, f3 = f2 * f;
-    pose.position = a.position * (2 * f3 - 3 * f2 + 1) + b.position * (3 * f2 - 2 * f3) + (a.forward * (f3 - 2 * f2 + f) + b.forward * (f3 - f2)) * span;
+    pose.position = a.position * (2 * f3 - 3 * f2 + 1) + b.position * (3 * f2 - 2 * f3) +
+                    (a.forward * (f3 - 2 * f2 + f) + b.forward * (f3 - f2)) * span;
     pose.forward = glm::normalize(glm::mix(a.forward, b.forward, f));
     const glm::dvec3 up = glm::mix(a.up, b.up, f);
     pose.up = glm::normalize(up - pose.forward * glm::dot(up, pose.forward));
@@ -82,8 +83,11 @@ std::optional<LanePlace> LaneGraph::cheapest(glm::dvec3 point, double reach, con
     return best;
 }
 
-std::optional<LanePlace> LaneGraph::nearest(glm::dvec3 point, double reach, const std::function<bool(const Lane&)>& wanted) const {
-    return cheapest(point, reach, [&](const Lane& lane, const LanePose&) { return (wanted ? wanted(lane) : is_driven(lane.type)) ? 0.0 : INFINITY; });
+std::optional<LanePlace> LaneGraph::nearest(glm::dvec3 point, double reach,
+                                            const std::function<bool(const Lane&)>& wanted) const {
+    return cheapest(point, reach, [&](const Lane& lane, const LanePose&) {
+        return (wanted ? wanted(lane) : is_driven(lane.type)) ? 0.0 : INFINITY;
+    });
 }
 
 std::optional<LanePlace> LaneGraph::nearest_along(glm::dvec3 point, glm::dvec3 forward, double reach) const {
@@ -145,7 +149,8 @@ std::vector<uint32_t> LaneGraph::long_route(uint32_t from) const {
 uint32_t LaneGraph::straight_on(uint32_t lane) const {
     uint32_t best = kNoLane;
     for (const uint32_t next : lanes_[lane].successors)
-        if (best == kNoLane || turn_between(lanes_[lane], lanes_[next]) < turn_between(lanes_[lane], lanes_[best])) best = next;
+        if (best == kNoLane || turn_between(lanes_[lane], lanes_[next]) < turn_between(lanes_[lane], lanes_[best]))
+            best = next;
     return best;
 }
 
@@ -160,7 +165,9 @@ LanePlace LaneGraph::advance(LanePlace place, double distance) const {
     while (place.along < 0) {
         uint32_t before = kNoLane;
         for (const uint32_t each : lanes_[place.lane].predecessors)
-            if (before == kNoLane || turn_between(lanes_[each], lanes_[place.lane]) < turn_between(lanes_[before], lanes_[place.lane])) before = each;
+            if (before == kNoLane ||
+                turn_between(lanes_[each], lanes_[place.lane]) < turn_between(lanes_[before], lanes_[place.lane]))
+                before = each;
         if (before == kNoLane) break;
         place.lane = before;
         place.along += lanes_[before].length;

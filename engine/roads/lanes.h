@@ -1,7 +1,7 @@
 // Lanes to drive and walk on, as a graph: what traffic, an autopilot and collisions with kerbs need to know of roads.
 // SPDX-License-Identifier: MIT
-// Everything is in the world of the scene (Y up, m) and in the direction of travel: `along` is the distance from where a lane is
-// entered, `offset` the distance from its centre, positive to the left. Speeds m/s.
+// Everything is in the world of the scene (Y up, m) and in the direction of travel: `along` is the distance from where
+// a lane is entered, `offset` the distance from its centre, positive to the left. Speeds m/s.
 #pragma once
 
 #include <cstdint>
@@ -32,19 +32,19 @@ struct LanePose {
 
 /// One lane of one lane section of a road, in one direction. Positions lie within 5 mm of those of the file.
 struct Lane {
-    std::string name;               ///< "road 3, section 0, lane -1" with the ids of the file
-    uint32_t road = 0;              ///< index into RoadNetwork::roads
-    uint32_t section = 0;           ///< of the road
-    int id = 0;                     ///< of the file
+    std::string name;      ///< "road 3, section 0, lane -1" with the ids of the file
+    uint32_t road = 0;     ///< index into RoadNetwork::roads
+    uint32_t section = 0;  ///< of the road
+    int id = 0;            ///< of the file
     LaneType type = LaneType::Driving;
-    bool in_junction = false;       ///< its road is part of a junction
-    bool forwards = true;           ///< travels in the direction of the road's s
-    double length = 0;              ///< m, > 0
-    double speed_limit = 0;         ///< m/s where it is entered, 0: none stated
+    bool in_junction = false;                        ///< its road is part of a junction
+    bool forwards = true;                            ///< travels in the direction of the road's s
+    double length = 0;                               ///< m, > 0
+    double speed_limit = 0;                          ///< m/s where it is entered, 0: none stated
     std::vector<uint32_t> successors, predecessors;  ///< lanes that follow where it ends, that lead to where it begins
     uint32_t left = kNoLane, right = kNoLane;        ///< next to it, of the same type and direction
-    uint32_t oncoming = kNoLane;    ///< the nearest driven lane of the other direction of the same section
-    std::vector<double> along;      ///< of the poses, ascending from 0 to length
+    uint32_t oncoming = kNoLane;  ///< the nearest driven lane of the other direction of the same section
+    std::vector<double> along;    ///< of the poses, ascending from 0 to length
     std::vector<LanePose> poses;
 };
 
@@ -67,8 +67,8 @@ struct Kerb {
 class LaneGraph {
 public:
     LaneGraph() = default;
-    /// Lanes of the driven types, biking, sidewalk and parking. Links that the file does not state are found where one lane begins
-    /// within 0.3 m of where another ends and in its direction.
+    /// Lanes of the driven types, biking, sidewalk and parking. Links that the file does not state are found where one
+    /// lane begins within 0.3 m of where another ends and in its direction.
     explicit LaneGraph(const RoadNetwork& network);
 
     std::span<const Lane> lanes() const { return lanes_; }
@@ -80,18 +80,20 @@ public:
     LanePose pose(const LanePlace& place) const { return pose_beside(place.lane, place.along, place.offset); }
     LanePose pose_beside(uint32_t lane, double along, double offset) const;
 
-    /// The lane that passes nearest to a point, up to `reach` m away, among those that `wanted` accepts (all driven lanes where there is
-    /// no such). The distance counts in three dimensions, so bridges are told from what is below.
-    std::optional<LanePlace> nearest(glm::dvec3 point, double reach = 20, const std::function<bool(const Lane&)>& wanted = {}) const;
-    /// The same, preferring lanes of the direction `forward`: a lane across or against it counts as up to 4 m further away.
+    /// The lane that passes nearest to a point, up to `reach` m away, among those that `wanted` accepts (all driven
+    /// lanes where there is no such). The distance counts in three dimensions, so bridges are told from what is below.
+    std::optional<LanePlace> nearest(glm::dvec3 point, double reach = 20,
+                                     const std::function<bool(const Lane&)>& wanted = {}) const;
+    /// The same, preferring lanes of the direction `forward`: a lane across or against it counts as up to 4 m further
+    /// away.
     std::optional<LanePlace> nearest_along(glm::dvec3 point, glm::dvec3 forward, double reach = 20) const;
 
     /// The shortest way from a lane to another over successors, both included; empty where there is none.
     std::vector<uint32_t> route(uint32_t from, uint32_t to) const;
     /// The longest way (greedily, m) over driven lanes that begins at `from` and enters no lane twice.
     std::vector<uint32_t> long_route(uint32_t from) const;
-    /// `distance` m further from a place, which may be behind: over successors (the straightest where several follow) or
-    /// predecessors. Stops at dead ends. The offset is kept.
+    /// `distance` m further from a place, which may be behind: over successors (the straightest where several follow)
+    /// or predecessors. Stops at dead ends. The offset is kept.
     LanePlace advance(LanePlace place, double distance) const;
     /// The successor that turns least; kNoLane at a dead end.
     uint32_t straight_on(uint32_t lane) const;

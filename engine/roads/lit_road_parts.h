@@ -8,7 +8,8 @@
 
 namespace vesper {
 
-constexpr double kMarkHeight = 0.006;  ///< m of paint over the road: reversed depth tells it from the road at any distance
+constexpr double kMarkHeight =
+    0.006;  ///< m of paint over the road: reversed depth tells it from the road at any distance
 
 /// A scene under way.
 struct RoadBuild {
@@ -37,8 +38,8 @@ std::vector<CutSection> cut_roads(const RoadNetwork& network, double chord);
 
 /// Whether a border lane is the grass beside the road.
 bool is_verge(const LaneSection& section, const RoadLane& lane, double s);
-/// Whether a point of a road lies on a driven lane of another road, at its height, more than `margin` m inside. Only where one
-/// of the two belongs to a junction: that is where roads cross on purpose.
+/// Whether a point of a road lies on a driven lane of another road, at its height, more than `margin` m inside. Only
+/// where one of the two belongs to a junction: that is where roads cross on purpose.
 bool is_driven_over(const RoadBuild& build, uint32_t road, glm::dvec3 point, double margin);
 /// Whether a point lies on any driven lane, or within `margin` m of one.
 bool is_on_road(const RoadBuild& build, glm::dvec3 point, double margin);

@@ -20,16 +20,20 @@ void read_header(OpenDriveReader& reader, const XmlElement& root) {
     if (!header) return reader.note(root, "has no header: read as OpenDRIVE 1.4");
     const auto number = [&](const char* name) {
         const std::string text = header->text_or(name, "");
-        return !text.empty() && text.size() < 4 && text.find_first_not_of("0123456789") == text.npos ? std::stoi(text) : -1;
+        return !text.empty() && text.size() < 4 && text.find_first_not_of("0123456789") == text.npos ? std::stoi(text)
+                                                                                                     : -1;
     };
     reader.network.name = header->text_or("name", "");
     reader.network.major = number("revMajor"), reader.network.minor = number("revMinor");
     if (reader.network.major != 1 || reader.network.minor < 1 || reader.network.minor > 9)
-        reader.note(*header, "revision '" + one_line(header->text_or("revMajor", "")) + "." + one_line(header->text_or("revMinor", "")) + "' is none of 1.4 to 1.8: read as such");
+        reader.note(*header, "revision '" + one_line(header->text_or("revMajor", "")) + "." +
+                                 one_line(header->text_or("revMinor", "")) + "' is none of 1.4 to 1.8: read as such");
 }
 
-void enter(OpenDriveReader& reader, std::map<std::string, uint32_t>& ids, const XmlElement& element, const std::string& id, size_t index) {
-    if (!ids.emplace(id, static_cast<uint32_t>(index)).second) reader.note(element, "the id '" + one_line(id) + "' is there twice: the first is meant by links");
+void enter(OpenDriveReader& reader, std::map<std::string, uint32_t>& ids, const XmlElement& element,
+           const std::string& id, size_t index) {
+    if (!ids.emplace(id, static_cast<uint32_t>(index)).second)
+        reader.note(element, "the id '" + one_line(id) + "' is there twice: the first is meant by links");
 }
 
 void read_traffic(OpenDriveReader& reader, const XmlElement& element, Road& road) {
@@ -39,7 +43,8 @@ void read_traffic(OpenDriveReader& reader, const XmlElement& element, Road& road
         const auto speed = each.child("speed");
         road.speeds.push_back({each.number_or("s", 0, 0), speed ? speed_in(*speed, "max", "unit") : 0});
     }
-    std::stable_sort(road.speeds.begin(), road.speeds.end(), [](const SpeedLimit& a, const SpeedLimit& b) { return a.s < b.s; });
+    std::stable_sort(road.speeds.begin(), road.speeds.end(),
+                     [](const SpeedLimit& a, const SpeedLimit& b) { return a.s < b.s; });
 }
 
 void read_road(OpenDriveReader& reader, const XmlElement& element, Road& road) {
@@ -80,7 +85,8 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
 
     const auto roads = root.children("road"), junctions = root.children("junction");
     if (roads.empty()) root.fail("has no road");
-    if (roads.size() > limits.roads || junctions.size() > limits.roads) root.fail("has more than " + std::to_string(limits.roads) + " roads or junctions");
+    if (roads.size() > limits.roads || junctions.size() > limits.roads)
+        root.fail("has more than " + std::to_string(limits.roads) + " roads or junctions");
     for (const XmlElement& each : junctions) {
         Junction junction{each.text_or("id", ""), each.text_or("name", "")};
         enter(reader, reader.junctions, each, junction.id, network.junctions.size());
@@ -95,7 +101,8 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
     for (size_t i = 0; i < roads.size(); ++i) {
         read_road(reader, roads[i], network.roads[i]);
         total += network.roads[i].length;
-        if (total > limits.total_length) roads[i].fail("roads of more than " + std::to_string(limits.total_length / 1000) + " km");
+        if (total > limits.total_length)
+            roads[i].fail("roads of more than " + std::to_string(limits.total_length / 1000) + " km");
     }
     for (size_t i = 0; i < roads.size(); ++i) read_links(reader, roads[i], network.roads[i]);
     for (size_t i = 0; i < junctions.size(); ++i) read_junction(reader, junctions[i], network.junctions[i]);
@@ -107,7 +114,8 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
 }  // namespace
 
 void OpenDriveReader::count(const XmlElement& element) {
-    if (++elements > limits.elements) element.fail("the file has more than " + std::to_string(limits.elements) + " elements");
+    if (++elements > limits.elements)
+        element.fail("the file has more than " + std::to_string(limits.elements) + " elements");
 }
 
 void OpenDriveReader::note(const XmlElement& element, const std::string& what) {

@@ -10,11 +10,13 @@ namespace vesper {
 
 /// Upper bounds on what a file may ask for.
 struct RoadLimits {
-    uint64_t file_bytes = 512ull << 20;
+    uint64_t file_bytes = 256ull << 20;
     size_t roads = 200'000;
     size_t elements = 8'000'000;  ///< geometries, lanes, widths, marks, objects and signals together
     double road_length = 1e6;     ///< m, of one
-    double total_length = 5e7;    ///< m, of all
+    double total_length = 5e6;    ///< m, of all
+    double lane_width = 1000;     ///< m, of one lane, and of all of one side
+    double height = 1e5;          ///< m, above or below 0
     double turns = 1e4;           ///< rad, that one geometry may turn
 };
 

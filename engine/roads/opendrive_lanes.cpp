@@ -7,7 +7,7 @@
 namespace vesper {
 namespace {
 
-constexpr int kMaxLaneId = 1000;
+constexpr int kMaxLaneId = 128;    // either side; motorways have ten
 constexpr double kMaxWidth = 1e4;  // m
 
 // What a broken line is painted like where the file does not say: 3 m and 6 m of gap, as on country roads.
@@ -15,23 +15,43 @@ constexpr double kDash = 3, kGap = 6;
 constexpr double kWidth = 0.12, kBoldWidth = 0.25;  // m
 
 LaneType lane_type_of(const std::string& name) {
-    static const std::map<std::string, LaneType> kTypes{
-        {"none", LaneType::None}, {"driving", LaneType::Driving}, {"stop", LaneType::Stop}, {"shoulder", LaneType::Shoulder},
-        {"biking", LaneType::Biking}, {"sidewalk", LaneType::Sidewalk}, {"walking", LaneType::Sidewalk}, {"border", LaneType::Border},
-        {"restricted", LaneType::Restricted}, {"roadWorks", LaneType::Restricted}, {"parking", LaneType::Parking},
-        {"median", LaneType::Median}, {"curb", LaneType::Curb}, {"entry", LaneType::Entry}, {"mwyEntry", LaneType::Entry},
-        {"exit", LaneType::Exit}, {"mwyExit", LaneType::Exit}, {"onRamp", LaneType::Ramp}, {"offRamp", LaneType::Ramp},
-        {"connectingRamp", LaneType::Ramp}, {"slipLane", LaneType::Ramp}, {"bidirectional", LaneType::Bidirectional},
-        {"bus", LaneType::Driving}, {"taxi", LaneType::Driving}, {"HOV", LaneType::Driving}, {"hov", LaneType::Driving}, {"shared", LaneType::Driving},
-        {"tram", LaneType::Rail}, {"rail", LaneType::Rail}};
+    static const std::map<std::string, LaneType> kTypes{{"none", LaneType::None},
+                                                        {"driving", LaneType::Driving},
+                                                        {"stop", LaneType::Stop},
+                                                        {"shoulder", LaneType::Shoulder},
+                                                        {"biking", LaneType::Biking},
+                                                        {"sidewalk", LaneType::Sidewalk},
+                                                        {"walking", LaneType::Sidewalk},
+                                                        {"border", LaneType::Border},
+                                                        {"restricted", LaneType::Restricted},
+                                                        {"roadWorks", LaneType::Restricted},
+                                                        {"parking", LaneType::Parking},
+                                                        {"median", LaneType::Median},
+                                                        {"curb", LaneType::Curb},
+                                                        {"entry", LaneType::Entry},
+                                                        {"mwyEntry", LaneType::Entry},
+                                                        {"exit", LaneType::Exit},
+                                                        {"mwyExit", LaneType::Exit},
+                                                        {"onRamp", LaneType::Ramp},
+                                                        {"offRamp", LaneType::Ramp},
+                                                        {"connectingRamp", LaneType::Ramp},
+                                                        {"slipLane", LaneType::Ramp},
+                                                        {"bidirectional", LaneType::Bidirectional},
+                                                        {"bus", LaneType::Driving},
+                                                        {"taxi", LaneType::Driving},
+                                                        {"HOV", LaneType::Driving},
+                                                        {"hov", LaneType::Driving},
+                                                        {"shared", LaneType::Driving},
+                                                        {"tram", LaneType::Rail},
+                                                        {"rail", LaneType::Rail}};
     const auto found = kTypes.find(name);
     return found == kTypes.end() ? LaneType::Other : found->second;
 }
 
 MarkColour colour_of(const std::string& name) {
-    static const std::map<std::string, MarkColour> kColours{{"yellow", MarkColour::Yellow}, {"red", MarkColour::Red},
-                                                            {"blue", MarkColour::Blue},     {"green", MarkColour::Green},
-                                                            {"orange", MarkColour::Orange}, {"black", MarkColour::Black}};
+    static const std::map<std::string, MarkColour> kColours{
+        {"yellow", MarkColour::Yellow}, {"red", MarkColour::Red},       {"blue", MarkColour::Blue},
+        {"green", MarkColour::Green},   {"orange", MarkColour::Orange}, {"black", MarkColour::Black}};
     const auto found = kColours.find(name);
     return found == kColours.end() ? MarkColour::White : found->second;
 }
@@ -95,14 +115,18 @@ RoadMark mark_of(OpenDriveReader& reader, const XmlElement& element, double from
 void read_heights(OpenDriveReader& reader, const XmlElement& element, RoadLane& lane, double from) {
     for (const XmlElement& each : element.children("height")) {
         reader.count(each);
-        lane.heights.push_back({from + each.number_or("sOffset", 0), each.number_or("inner", 0, -100, 100), each.number_or("outer", 0, -100, 100)});
+        lane.heights.push_back({from + each.number_or("sOffset", 0), each.number_or("inner", 0, -100, 100),
+                                each.number_or("outer", 0, -100, 100)});
     }
-    std::stable_sort(lane.heights.begin(), lane.heights.end(), [](const LaneHeight& a, const LaneHeight& b) { return a.s < b.s; });
+    std::stable_sort(lane.heights.begin(), lane.heights.end(),
+                     [](const LaneHeight& a, const LaneHeight& b) { return a.s < b.s; });
 }
 
 void read_lane_links(const XmlElement& element, RoadLane& lane) {
-    for (const XmlElement& each : element.children_of("link", "predecessor")) lane.predecessors.push_back(each.integer("id", -kMaxLaneId, kMaxLaneId));
-    for (const XmlElement& each : element.children_of("link", "successor")) lane.successors.push_back(each.integer("id", -kMaxLaneId, kMaxLaneId));
+    for (const XmlElement& each : element.children_of("link", "predecessor"))
+        lane.predecessors.push_back(each.integer("id", -kMaxLaneId, kMaxLaneId));
+    for (const XmlElement& each : element.children_of("link", "successor"))
+        lane.successors.push_back(each.integer("id", -kMaxLaneId, kMaxLaneId));
 }
 
 RoadLane lane_of(OpenDriveReader& reader, const XmlElement& element, double from) {
@@ -112,7 +136,9 @@ RoadLane lane_of(OpenDriveReader& reader, const XmlElement& element, double from
     lane.type = lane_type_of(element.text_or("type", "none"));
     lane.level = element.flag("level");
     const std::string direction = element.text_or("direction", "standard");
-    lane.direction = direction == "reversed" ? LaneDirection::Reversed : direction == "both" ? LaneDirection::Both : LaneDirection::Standard;
+    lane.direction = direction == "reversed" ? LaneDirection::Reversed
+                     : direction == "both"   ? LaneDirection::Both
+                                             : LaneDirection::Standard;
     if (lane.type == LaneType::Bidirectional) lane.direction = LaneDirection::Both;
     lane.width = profile_of(reader, element, "width", "sOffset", from);
     lane.border = profile_of(reader, element, "border", "sOffset", from);
@@ -120,7 +146,8 @@ RoadLane lane_of(OpenDriveReader& reader, const XmlElement& element, double from
     read_heights(reader, element, lane, from);
     read_lane_links(element, lane);
     for (const XmlElement& each : element.children("roadMark")) lane.marks.push_back(mark_of(reader, each, from));
-    std::stable_sort(lane.marks.begin(), lane.marks.end(), [](const RoadMark& a, const RoadMark& b) { return a.s < b.s; });
+    std::stable_sort(lane.marks.begin(), lane.marks.end(),
+                     [](const RoadMark& a, const RoadMark& b) { return a.s < b.s; });
     for (const XmlElement& each : element.children("speed")) {
         reader.count(each);
         lane.speeds.push_back({from + each.number_or("sOffset", 0), speed_in(each, "max", "unit")});
@@ -145,10 +172,13 @@ LaneSection section_of(OpenDriveReader& reader, const XmlElement& element) {
             section.lanes.push_back(lane_of(reader, each, section.s));
             check_side(each, side, section.lanes.back());
         }
-    if (std::none_of(section.lanes.begin(), section.lanes.end(), [](const RoadLane& lane) { return lane.id == 0; })) section.lanes.push_back({});
-    std::stable_sort(section.lanes.begin(), section.lanes.end(), [](const RoadLane& a, const RoadLane& b) { return a.id > b.id; });
+    if (std::none_of(section.lanes.begin(), section.lanes.end(), [](const RoadLane& lane) { return lane.id == 0; }))
+        section.lanes.push_back({});
+    std::stable_sort(section.lanes.begin(), section.lanes.end(),
+                     [](const RoadLane& a, const RoadLane& b) { return a.id > b.id; });
     for (size_t i = 1; i < section.lanes.size(); ++i) {
-        if (section.lanes[i].id == section.lanes[i - 1].id) element.fail("has lane " + std::to_string(section.lanes[i].id) + " twice");
+        if (section.lanes[i].id == section.lanes[i - 1].id)
+            element.fail("has lane " + std::to_string(section.lanes[i].id) + " twice");
         if (section.lanes[i].id != section.lanes[i - 1].id - 1) reader.note(element, "lane ids have a gap");
     }
     return section;
@@ -161,7 +191,8 @@ void keep_other_side(const XmlElement& element, const LaneSection& before, LaneS
     if (left == right) return;
     for (const RoadLane& lane : before.lanes)
         if (left ? lane.id < 0 : lane.id > 0) section.lanes.push_back(lane);
-    std::stable_sort(section.lanes.begin(), section.lanes.end(), [](const RoadLane& a, const RoadLane& b) { return a.id > b.id; });
+    std::stable_sort(section.lanes.begin(), section.lanes.end(),
+                     [](const RoadLane& a, const RoadLane& b) { return a.id > b.id; });
 }
 
 }  // namespace
@@ -187,12 +218,14 @@ void read_lanes(OpenDriveReader& reader, const XmlElement& element, Road& road) 
             reader.note(each, "begins behind the end of road '" + road.id + "': left out");
             continue;
         }
-        if (!road.sections.empty() && section.s < road.sections.back().s) each.fail("lane sections must be in ascending order of s");
+        if (!road.sections.empty() && section.s < road.sections.back().s)
+            each.fail("lane sections must be in ascending order of s");
         if (!road.sections.empty()) keep_other_side(each, road.sections.back(), section);
         road.sections.push_back(std::move(section));
     }
     if (road.sections.front().s > 0) {
-        reader.note(*holder, "the first lane section of road '" + road.id + "' begins at s = " + std::to_string(road.sections.front().s) + ": it is taken from 0");
+        reader.note(*holder, "the first lane section of road '" + road.id +
+                                 "' begins at s = " + std::to_string(road.sections.front().s) + ": it is taken from 0");
         road.sections.front().s = 0;
     }
     for (size_t i = 0; i < road.sections.size(); ++i)

@@ -23,7 +23,8 @@ RoadLink link_of(OpenDriveReader& reader, const XmlElement& element) {
     }
     link.to = type == "junction" ? RoadLink::To::Junction : RoadLink::To::Road;
     link.index = found->second;
-    if (link.to == RoadLink::To::Road && !element.attribute("contactPoint")) reader.note(element, "contactPoint is missing: taken for start");
+    if (link.to == RoadLink::To::Road && !element.attribute("contactPoint"))
+        reader.note(element, "contactPoint is missing: taken for start");
     link.contact = end_of(element.text_or("contactPoint", "start"));
     return link;
 }
@@ -33,7 +34,8 @@ glm::dvec2 end_point(const Road& road, RoadEnd end) {
     return {point.position.x, point.position.y};
 }
 
-void check_joint(OpenDriveReader& reader, const XmlElement& element, const Road& road, const RoadLink& link, RoadEnd end) {
+void check_joint(OpenDriveReader& reader, const XmlElement& element, const Road& road, const RoadLink& link,
+                 RoadEnd end) {
     if (link.to != RoadLink::To::Road) return;
     const Road& other = reader.network.roads[link.index];
     // Reference lines need not meet where lane offsets differ; centre lanes must.
@@ -41,10 +43,44 @@ void check_joint(OpenDriveReader& reader, const XmlElement& element, const Road&
         const double s = at == RoadEnd::Start ? 0 : each.length;
         return glm::dvec2(surface_point(each, s, each.lane_offset.at(s)).position);
     };
-    const double gap = std::min(glm::distance(end_point(road, end), end_point(other, link.contact)), glm::distance(centre(road, end), centre(other, link.contact)));
+    const double gap = std::min(glm::distance(end_point(road, end), end_point(other, link.contact)),
+                                glm::distance(centre(road, end), centre(other, link.contact)));
     // In junctions roads branch off lanes of the side.
     if (gap > kJoint && road.junction == kNoRoad && other.junction == kNoRoad)
-        reader.note(element, "road '" + road.id + "' and road '" + other.id + "' are linked but " + std::to_string(gap) + " m apart");
+        reader.note(element, "road '" + road.id + "' and road '" + other.id + "' are linked but " +
+                                 std::to_string(gap) + " m apart");
+}
+
+/// Widths and heights that no road has; lanes that turn inside out.
+void check_extent(OpenDriveReader& reader, const XmlElement& element, const Road& road) {
+    constexpr int kSamples = 16;
+    for (int i = 0; i <= kSamples; ++i) {
+        const double s = road.length * i / kSamples, z = surface_point(road, s, 0).position.z;
+        if (!(std::abs(z) <= reader.limits.height))
+            element.fail("road '" + road.id + "' is " + std::to_string(z) + " m high at s = " + std::to_string(s));
+    }
+    for (const LaneSection& section : road.sections) {
+        for (int i = 0; i <= kSamples; ++i) {
+            const double s = section.s + (section.end - section.s) * i / kSamples;
+            const double left = lane_border(road, section, section.leftmost(), s),
+                         right = lane_border(road, section, section.rightmost(), s);
+            if (!(std::max(std::abs(left), std::abs(right)) <= reader.limits.lane_width))
+                element.fail("road '" + road.id + "' reaches from t = " + std::to_string(right) + " m to " +
+                             std::to_string(left) + " m");
+        }
+        for (const RoadLane& lane : section.lanes) {
+            if (lane.id == 0) continue;
+            double least = 0, most = 0;
+            for (int i = 0; i <= kSamples; ++i) {
+                const double width = stated_width(section, lane, section.s + (section.end - section.s) * i / kSamples);
+                least = std::min(least, width), most = std::max(most, width);
+            }
+            const std::string name = "road '" + road.id + "' lane " + std::to_string(lane.id);
+            if (!(most <= reader.limits.lane_width)) element.fail(name + " is " + std::to_string(most) + " m wide");
+            if (least < -0.01)
+                reader.note(element, name + " is as little as " + std::to_string(least) + " m wide: taken for 0");
+        }
+    }
 }
 
 }  // namespace
@@ -69,9 +105,11 @@ void read_junction(OpenDriveReader& reader, const XmlElement& element, Junction&
         connection.connecting = road("connectingRoad");
         if (connection.connecting == kNoRoad) connection.connecting = road("linkedRoad");
         connection.contact = end_of(each.text_or("contactPoint", "start"));
-        for (const XmlElement& link : each.children("laneLink")) connection.lanes.emplace_back(link.integer("from", -1000, 1000), link.integer("to", -1000, 1000));
+        for (const XmlElement& link : each.children("laneLink"))
+            connection.lanes.emplace_back(link.integer("from", -1000, 1000), link.integer("to", -1000, 1000));
         if (connection.incoming == kNoRoad || connection.connecting == kNoRoad) {
-            if (each.text_or("type", "default") != "virtual") reader.note(each, "joins roads that are not there: left out");
+            if (each.text_or("type", "default") != "virtual")
+                reader.note(each, "joins roads that are not there: left out");
             continue;
         }
         junction.connections.push_back(std::move(connection));
@@ -82,16 +120,9 @@ void check_network(OpenDriveReader& reader, const XmlFile& file) {
     size_t index = 0;
     for (const XmlElement& each : file.root().children("road")) {
         const Road& road = reader.network.roads[index++];
+        check_extent(reader, each, road);
         check_joint(reader, each, road, road.predecessor, RoadEnd::Start);
         check_joint(reader, each, road, road.successor, RoadEnd::End);
-        for (const LaneSection& section : road.sections)
-            for (const RoadLane& lane : section.lanes) {
-                double least = 0;
-                for (int i = 0; i <= 16 && lane.id != 0; ++i)
-                    least = std::min(least, stated_width(section, lane, section.s + (section.end - section.s) * (i / 16.0)));
-                if (least < -0.01)
-                    reader.note(each, "road '" + road.id + "' lane " + std::to_string(lane.id) + " is as little as " + std::to_string(least) + " m wide: taken for 0");
-            }
     }
 }
 

@@ -1,7 +1,6 @@
 // Objects and signals of OpenDRIVE roads. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "io/atomic_file.h"
 #include "roads/opendrive_reader.h"
@@ -10,10 +9,14 @@ namespace vesper {
 namespace {
 
 constexpr double kMaxSize = 1e4;  // m, of one object
-constexpr double kPi = std::numbers::pi;
+constexpr size_t kMaxCorners = 1000;
 
 MarkColour colour_of(const std::string& name) {
-    return name == "yellow" ? MarkColour::Yellow : name == "red" ? MarkColour::Red : name == "blue" ? MarkColour::Blue : name == "green" ? MarkColour::Green : MarkColour::White;
+    return name == "yellow"  ? MarkColour::Yellow
+           : name == "red"   ? MarkColour::Red
+           : name == "blue"  ? MarkColour::Blue
+           : name == "green" ? MarkColour::Green
+                             : MarkColour::White;
 }
 
 char orientation_of(const XmlElement& element) {
@@ -22,7 +25,9 @@ char orientation_of(const XmlElement& element) {
 }
 
 /// Sizes below 0 or as if not stated are 0.
-double size_of(const XmlElement& element, const char* name) { return std::max(0.0, element.number_or(name, 0, -kMaxNumber, kMaxSize)); }
+double size_of(const XmlElement& element, const char* name) {
+    return std::max(0.0, element.number_or(name, 0, -kMaxNumber, kMaxSize));
+}
 
 ObjectCorner corner_of(const XmlElement& element, int index) {
     ObjectCorner corner;
@@ -42,6 +47,8 @@ void read_outline(OpenDriveReader& reader, const XmlElement& element, RoadObject
         reader.count(each);
         outline.corners.push_back(corner_of(each, static_cast<int>(outline.corners.size())));
     }
+    if (outline.corners.size() > kMaxCorners)
+        element.fail("an outline of more than " + std::to_string(kMaxCorners) + " corners");
     if (outline.corners.size() < 2) return reader.note(element, "an outline of fewer than two corners: left out");
     object.outlines.push_back(std::move(outline));
 }
@@ -52,11 +59,14 @@ void read_markings(OpenDriveReader& reader, const XmlElement& element, RoadObjec
         ObjectMarking marking;
         marking.width = each.number_or("width", 0.1, 0, 100);
         marking.z_offset = each.number_or("zOffset", 0.005, -10, 10);
-        marking.line_length = each.number_or("lineLength", 0, 0, kMaxSize), marking.space_length = each.number_or("spaceLength", 0, 0, kMaxSize);
-        marking.start_offset = each.number_or("startOffset", 0, -kMaxSize, kMaxSize), marking.stop_offset = each.number_or("stopOffset", 0, -kMaxSize, kMaxSize);
+        marking.line_length = each.number_or("lineLength", 0, 0, kMaxSize),
+        marking.space_length = each.number_or("spaceLength", 0, 0, kMaxSize);
+        marking.start_offset = each.number_or("startOffset", 0, -kMaxSize, kMaxSize),
+        marking.stop_offset = each.number_or("stopOffset", 0, -kMaxSize, kMaxSize);
         marking.colour = colour_of(each.text_or("color", "white"));
         marking.side = each.text_or("side", "");
-        for (const XmlElement& corner : each.children("cornerReference")) marking.corners.push_back(corner.integer("id", -1'000'000'000, 1'000'000'000));
+        for (const XmlElement& corner : each.children("cornerReference"))
+            marking.corners.push_back(corner.integer("id", -1'000'000'000, 1'000'000'000));
         object.markings.push_back(std::move(marking));
     }
 }
@@ -69,7 +79,9 @@ ObjectRepeat repeat_of(const XmlElement& element, const RoadObject& object) {
     repeat.t_start = element.number_or("tStart", object.t), repeat.t_end = element.number_or("tEnd", repeat.t_start);
     repeat.z_start = element.number_or("zOffsetStart", object.z_offset, -kMaxSize, kMaxSize);
     repeat.z_end = element.number_or("zOffsetEnd", repeat.z_start, -kMaxSize, kMaxSize);
-    const auto optional = [&](const char* name) { return element.attribute(name) ? std::optional(size_of(element, name)) : std::nullopt; };
+    const auto optional = [&](const char* name) {
+        return element.attribute(name) ? std::optional(size_of(element, name)) : std::nullopt;
+    };
     repeat.height_start = optional("heightStart"), repeat.height_end = optional("heightEnd");
     repeat.width_start = optional("widthStart"), repeat.width_end = optional("widthEnd");
     repeat.length_start = optional("lengthStart"), repeat.length_end = optional("lengthEnd");
@@ -77,7 +89,8 @@ ObjectRepeat repeat_of(const XmlElement& element, const RoadObject& object) {
     return repeat;
 }
 
-/// Speed limit signs state theirs in value and unit; countries without a unit mean km/h, some write it into the subtype.
+/// Speed limit signs state theirs in value and unit; countries without a unit mean km/h, some write it into the
+/// subtype.
 void read_value(const XmlElement& element, RoadSignal& signal) {
     if (!element.attribute("value")) return;
     const std::string text = element.text("value");
@@ -99,7 +112,8 @@ void read_objects(OpenDriveReader& reader, const XmlElement& element, Road& road
         object.type = each.text_or("type", "none"), object.subtype = each.text_or("subtype", "");
         object.s = each.number("s"), object.t = each.number("t");
         object.z_offset = each.number_or("zOffset", 0, -kMaxSize, kMaxSize);
-        object.heading = each.number_or("hdg", 0), object.pitch = each.number_or("pitch", 0), object.roll = each.number_or("roll", 0);
+        object.heading = each.number_or("hdg", 0), object.pitch = each.number_or("pitch", 0),
+        object.roll = each.number_or("roll", 0);
         object.orientation = orientation_of(each);
         object.length = size_of(each, "length"), object.width = size_of(each, "width");
         object.height = size_of(each, "height"), object.radius = size_of(each, "radius");
@@ -129,7 +143,8 @@ void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road
         signal.dynamic = each.flag("dynamic");
         signal.s = each.number("s"), signal.t = each.number("t");
         signal.z_offset = each.number_or("zOffset", 0, -kMaxSize, kMaxSize);
-        signal.heading = each.number_or("hOffset", 0), signal.pitch = each.number_or("pitch", 0), signal.roll = each.number_or("roll", 0);
+        signal.heading = each.number_or("hOffset", 0), signal.pitch = each.number_or("pitch", 0),
+        signal.roll = each.number_or("roll", 0);
         signal.orientation = orientation_of(each);
         signal.width = size_of(each, "width"), signal.height = size_of(each, "height");
         road.signals.push_back(std::move(signal));

@@ -9,6 +9,7 @@ namespace vesper {
 namespace {
 
 constexpr double kJoint = 0.01;  // m; files are written with more digits than this
+constexpr double kTorn = 1000;   // m; no road
 
 std::array<double, 4> coefficients(const XmlElement& element, const char* of) {
     const std::string name(of);
@@ -53,7 +54,8 @@ void measure_checked(OpenDriveReader& reader, const XmlElement& element, PlanGeo
         if (!(arc > 1e-6 * g.length)) element.fail("the polynomial does not move");
         if (arc > 100 * g.length) element.fail("the polynomial is more than a hundred times as long as stated");
         if (std::abs(arc - g.length) > std::max(0.02, 1e-3 * g.length))
-            reader.note(element, "the curve is " + std::to_string(arc) + " m long, not " + std::to_string(g.length) + ": s is stretched along it");
+            reader.note(element, "the curve is " + std::to_string(arc) + " m long, not " + std::to_string(g.length) +
+                                     ": s is stretched along it");
     }
 }
 
@@ -63,32 +65,40 @@ void check_joints(OpenDriveReader& reader, const XmlElement& element, Road& road
         const PlanGeometry &before = road.plan[i - 1], &g = road.plan[i];
         const PlanPoint end = plan_point(before, g.s - before.s);
         const double gap = std::hypot(end.x - g.x, end.y - g.y);
-        if (gap > kJoint) reader.note(element, "road '" + road.id + "': the reference line jumps by " + std::to_string(gap) + " m at s = " + std::to_string(g.s));
+        if (!(gap <= kTorn))
+            element.fail("road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
+                         " m at s = " + std::to_string(g.s));
+        if (gap > kJoint)
+            reader.note(element, "road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
+                                     " m at s = " + std::to_string(g.s));
     }
     const double end = road.plan.back().s + road.plan.back().length;
     if (std::abs(end - road.length) > kJoint)
-        reader.note(element, "road '" + road.id + "': its geometry is " + std::to_string(end) + " m long, not " + std::to_string(road.length));
+        reader.note(element, "road '" + road.id + "': its geometry is " + std::to_string(end) + " m long, not " +
+                                 std::to_string(road.length));
     if (end < road.length - kJoint || road.length <= 0) road.length = end;  // what has no geometry is no road
 }
 
 void read_crossfall(OpenDriveReader& reader, const XmlElement& holder, Road& road) {
     for (const XmlElement& each : holder.children("crossfall")) {
         reader.count(each);
-        const Cubic part{each.number("s", 0), each.number_or("a", 0), each.number_or("b", 0), each.number_or("c", 0), each.number_or("d", 0)};
+        const Cubic part{each.number("s", 0), each.number_or("a", 0), each.number_or("b", 0), each.number_or("c", 0),
+                         each.number_or("d", 0)};
         const std::string side = each.text_or("side", "both");
         if (side != "right") road.crossfall_left.parts.push_back(part);
         if (side != "left") road.crossfall_right.parts.push_back(part);
     }
     for (Profile* profile : {&road.crossfall_left, &road.crossfall_right})
-        std::stable_sort(profile->parts.begin(), profile->parts.end(), [](const Cubic& a, const Cubic& b) { return a.s < b.s; });
+        std::stable_sort(profile->parts.begin(), profile->parts.end(),
+                         [](const Cubic& a, const Cubic& b) { return a.s < b.s; });
 }
 
 void read_shapes(OpenDriveReader& reader, const XmlElement& holder, Road& road) {
     std::map<double, std::vector<Cubic>> shapes;
     for (const XmlElement& each : holder.children("shape")) {
         reader.count(each);
-        shapes[each.number("s", 0)].push_back(
-            {each.number("t"), each.number_or("a", 0), each.number_or("b", 0), each.number_or("c", 0), each.number_or("d", 0)});
+        shapes[each.number("s", 0)].push_back({each.number("t"), each.number_or("a", 0), each.number_or("b", 0),
+                                               each.number_or("c", 0), each.number_or("d", 0)});
     }
     for (auto& [s, parts] : shapes) {
         std::stable_sort(parts.begin(), parts.end(), [](const Cubic& a, const Cubic& b) { return a.s < b.s; });
@@ -107,24 +117,27 @@ void read_strips(OpenDriveReader& reader, const XmlElement& surface, Road& road)
         SurfaceStrip strip;
         strip.id = each.integer("id", -1000, 1000);
         if (strip.id == 0) each.fail("strips are numbered from 1 and -1 outwards");
-        strip.width = profile(each, "width"), strip.constant = profile(each, "constant"), strip.linear = profile(each, "linear");
+        strip.width = profile(each, "width"), strip.constant = profile(each, "constant"),
+        strip.linear = profile(each, "linear");
         strip.quadratic = profile(each, "quadratic"), strip.cubic = profile(each, "cubic");
         // Strips that say no height of their own go on from the one inside.
         const std::string mode = each.text_or("mode", strip.constant.parts.empty() ? "relative" : "independent");
         strip.relative = mode == "relative";
         road.strips.push_back(std::move(strip));
     }
-    std::stable_sort(road.strips.begin(), road.strips.end(), [](const SurfaceStrip& a, const SurfaceStrip& b) { return std::abs(a.id) < std::abs(b.id); });
+    std::stable_sort(road.strips.begin(), road.strips.end(),
+                     [](const SurfaceStrip& a, const SurfaceStrip& b) { return std::abs(a.id) < std::abs(b.id); });
 }
 
 }  // namespace
 
-Profile profile_of(OpenDriveReader& reader, const XmlElement& element, std::string_view name, const char* s_name, double from) {
+Profile profile_of(OpenDriveReader& reader, const XmlElement& element, std::string_view name, const char* s_name,
+                   double from) {
     Profile profile;
     for (const XmlElement& each : element.children(name)) {
         reader.count(each);
-        profile.parts.push_back({from + each.number_or(s_name, 0), each.number_or("a", 0), each.number_or("b", 0), each.number_or("c", 0),
-                                 each.number_or("d", 0)});
+        profile.parts.push_back({from + each.number_or(s_name, 0), each.number_or("a", 0), each.number_or("b", 0),
+                                 each.number_or("c", 0), each.number_or("d", 0)});
     }
     const auto before = [](const Cubic& a, const Cubic& b) { return a.s < b.s; };
     if (!std::is_sorted(profile.parts.begin(), profile.parts.end(), before)) {
@@ -157,7 +170,8 @@ void read_plan(OpenDriveReader& reader, const XmlElement& element, Road& road) {
 }
 
 void read_profiles(OpenDriveReader& reader, const XmlElement& element, Road& road) {
-    if (const auto holder = element.child("elevationProfile")) road.elevation = profile_of(reader, *holder, "elevation", "s", 0);
+    if (const auto holder = element.child("elevationProfile"))
+        road.elevation = profile_of(reader, *holder, "elevation", "s", 0);
     if (const auto holder = element.child("lateralProfile")) {
         road.superelevation = profile_of(reader, *holder, "superelevation", "s", 0);
         read_crossfall(reader, *holder, road);

@@ -13,9 +13,9 @@ namespace vesper {
 struct OpenDriveReader {
     RoadNetwork& network;
     const RoadLimits& limits;
-    size_t elements = 0;                     ///< read so far
+    size_t elements = 0;                                   ///< read so far
     std::map<std::string, uint32_t> roads{}, junctions{};  ///< by id
-    std::set<std::string> said{};            ///< kinds of notes that were made already
+    std::set<std::string> said{};                          ///< kinds of notes that were made already
 
     /// Counts an element; throws when there are too many.
     void count(const XmlElement& element);

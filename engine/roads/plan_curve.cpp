@@ -57,8 +57,8 @@ double parameter_at(const PlanGeometry& g, double arc) {
     return p;
 }
 
-/// The integral of the unit tangent: Fresnel's integrals for any curvature and rate of it. Panels turn by at most 1 rad,
-/// where 16th order leaves less than 1e-14 of their length.
+/// The integral of the unit tangent: Fresnel's integrals for any curvature and rate of it. Panels turn by at most 1
+/// rad, where 16th order leaves less than 1e-14 of their length.
 Vector clothoid(double curvature, double rate, double length) {
     const auto heading = [&](double s) { return s * (curvature + s * rate / 2); };
     // The most it can turn, also where it turns back.
@@ -82,7 +82,8 @@ PlanPoint polynomial_point(const PlanGeometry& g, double distance) {
 
 PlanPoint inside(const PlanGeometry& g, double distance) {
     switch (g.kind) {
-        case PlanGeometry::Kind::Line: return placed(g, distance, 0, 0, 0);
+        case PlanGeometry::Kind::Line:
+            return placed(g, distance, 0, 0, 0);
         case PlanGeometry::Kind::Arc: {
             const double turn = g.curvature * distance;
             // sin(x)/x and its like, without loss where the curvature is small.
@@ -92,9 +93,11 @@ PlanPoint inside(const PlanGeometry& g, double distance) {
         case PlanGeometry::Kind::Spiral: {
             const double rate = g.length > 0 ? (g.curvature_end - g.curvature) / g.length : 0;
             const Vector end = clothoid(g.curvature, rate, distance);
-            return placed(g, end.x, end.y, distance * (g.curvature + distance * rate / 2), g.curvature + rate * distance);
+            return placed(g, end.x, end.y, distance * (g.curvature + distance * rate / 2),
+                          g.curvature + rate * distance);
         }
-        default: return polynomial_point(g, distance);
+        default:
+            return polynomial_point(g, distance);
     }
 }
 
@@ -107,12 +110,14 @@ double measure(PlanGeometry& g) {
     if (graph) g.u = {0, 1, 0, 0}, g.p_end = g.length;  // v(u) is never shorter than u
     g.lengths.assign(kCells + 1, 0);
     const double width = g.p_end / kCells;
-    for (size_t i = 0; i < kCells; ++i) g.lengths[i + 1] = g.lengths[i] + beyond(g, width * static_cast<double>(i), width * static_cast<double>(i + 1));
+    for (size_t i = 0; i < kCells; ++i)
+        g.lengths[i + 1] = g.lengths[i] + beyond(g, width * static_cast<double>(i), width * static_cast<double>(i + 1));
     if (graph) {
         g.p_end = parameter_at(g, g.length);
         for (size_t i = 0; i < kCells; ++i) {
             const double step = g.p_end / kCells;
-            g.lengths[i + 1] = g.lengths[i] + beyond(g, step * static_cast<double>(i), step * static_cast<double>(i + 1));
+            g.lengths[i + 1] =
+                g.lengths[i] + beyond(g, step * static_cast<double>(i), step * static_cast<double>(i + 1));
         }
     }
     return g.lengths.back();
@@ -122,7 +127,8 @@ PlanPoint plan_point(const PlanGeometry& geometry, double distance) {
     const double within = std::clamp(distance, 0.0, geometry.length);
     PlanPoint point = inside(geometry, within);
     const double past = distance - within;
-    if (past != 0) point.x += past * std::cos(point.heading), point.y += past * std::sin(point.heading), point.curvature = 0;
+    if (past != 0)
+        point.x += past * std::cos(point.heading), point.y += past * std::sin(point.heading), point.curvature = 0;
     return point;
 }
 

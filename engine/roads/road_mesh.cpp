@@ -22,14 +22,17 @@ double signed_area(const std::vector<glm::dvec2>& points) {
     return sum / 2;
 }
 
-bool is_left_turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 1e-12; }
+bool is_left_turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 1e-12;
+}
 
 }  // namespace
 
 void RoadMesh::triangle(Stuff stuff, const Corner& a, const Corner& b, const Corner& c) {
     if (glm::length(glm::cross(b.position - a.position, c.position - a.position)) < 1e-9) return;
     Primitive& primitive = primitives_[stuff];
-    if (primitive.vertices.size() > kMaxVertices) throw Error("the roads have more triangles than " + std::to_string(kMaxVertices / 3));
+    if (primitive.vertices.size() > kMaxVertices)
+        throw Error("the roads have more triangles than " + std::to_string(kMaxVertices / 3));
     for (const Corner* corner : {&a, &b, &c}) {
         Vertex vertex;
         vertex.position = glm::vec3(network_.to_world(corner->position));
@@ -54,14 +57,17 @@ void RoadMesh::quad(Stuff stuff, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::
 void RoadMesh::polygon(Stuff stuff, std::span<const glm::dvec3> corners) {
     if (corners.size() < 3) return;
     glm::dvec3 normal(0);
-    for (size_t i = 1; i + 1 < corners.size(); ++i) normal += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+    for (size_t i = 1; i + 1 < corners.size(); ++i)
+        normal += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
     if (glm::length(normal) < 1e-9) return;
-    for (size_t i = 1; i + 1 < corners.size(); ++i) triangle(stuff, {corners[0], normal}, {corners[i], normal}, {corners[i + 1], normal});
+    for (size_t i = 1; i + 1 < corners.size(); ++i)
+        triangle(stuff, {corners[0], normal}, {corners[i], normal}, {corners[i + 1], normal});
 }
 
 void RoadMesh::any_polygon(Stuff stuff, std::vector<glm::dvec3> corners, glm::dvec3 normal) {
     // Ears are cut off one by one; outlines have few corners.
-    const glm::dvec3 z = glm::normalize(normal), helper = std::abs(z.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 z = glm::normalize(normal),
+                     helper = std::abs(z.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 x = glm::normalize(glm::cross(helper, z)), y = glm::cross(z, x);
     std::vector<glm::dvec2> flat;
     for (const glm::dvec3& corner : corners) flat.emplace_back(glm::dot(corner, x), glm::dot(corner, y));
@@ -73,7 +79,9 @@ void RoadMesh::any_polygon(Stuff stuff, std::vector<glm::dvec3> corners, glm::dv
             if (!is_left_turn(flat[a], flat[i], flat[c])) continue;
             bool free = true;
             for (size_t k = 0; k < corners.size() && free; ++k)
-                free = k == a || k == i || k == c || !(is_left_turn(flat[a], flat[i], flat[k]) && is_left_turn(flat[i], flat[c], flat[k]) && is_left_turn(flat[c], flat[a], flat[k]));
+                free = k == a || k == i || k == c ||
+                       !(is_left_turn(flat[a], flat[i], flat[k]) && is_left_turn(flat[i], flat[c], flat[k]) &&
+                         is_left_turn(flat[c], flat[a], flat[k]));
             if (free) ear = i;
         }
         if (ear == corners.size()) break;  // it crosses itself: what is left is taken as it is
@@ -82,7 +90,8 @@ void RoadMesh::any_polygon(Stuff stuff, std::vector<glm::dvec3> corners, glm::dv
         corners.erase(corners.begin() + static_cast<ptrdiff_t>(ear));
         flat.erase(flat.begin() + static_cast<ptrdiff_t>(ear));
     }
-    for (size_t i = 1; i + 1 < corners.size(); ++i) triangle(stuff, {corners[0], z}, {corners[i], z}, {corners[i + 1], z});
+    for (size_t i = 1; i + 1 < corners.size(); ++i)
+        triangle(stuff, {corners[0], z}, {corners[i], z}, {corners[i + 1], z});
 }
 
 void RoadMesh::place(Scene& scene, RoadMaterials& materials, const std::string& name) {
@@ -115,7 +124,8 @@ BodyFrame BodyFrame::turned(double heading, double pitch, double roll) const {
 void add_box(RoadMesh& mesh, Stuff stuff, const BodyFrame& f, double length, double width, double height) {
     const double u = length / 2, v = width / 2;
     const std::array<glm::dvec3, 4> bottoms{f.at(-u, -v, 0), f.at(u, -v, 0), f.at(u, v, 0), f.at(-u, v, 0)};
-    const std::array<glm::dvec3, 4> tops{f.at(-u, -v, height), f.at(u, -v, height), f.at(u, v, height), f.at(-u, v, height)};
+    const std::array<glm::dvec3, 4> tops{f.at(-u, -v, height), f.at(u, -v, height), f.at(u, v, height),
+                                         f.at(-u, v, height)};
     add_prism(mesh, stuff, bottoms, tops);
 }
 
@@ -124,11 +134,13 @@ void add_cylinder(RoadMesh& mesh, Stuff stuff, const BodyFrame& f, double radius
     const double upper = top_radius < 0 ? radius : top_radius;
     const auto around = [&](int i, double r, double z) {
         const double angle = 2 * kPi * i / sides;
-        return RoadMesh::Corner{f.at(r * std::cos(angle), r * std::sin(angle), z), f.x * std::cos(angle) + f.y * std::sin(angle)};
+        return RoadMesh::Corner{f.at(r * std::cos(angle), r * std::sin(angle), z),
+                                f.x * std::cos(angle) + f.y * std::sin(angle)};
     };
     std::vector<glm::dvec3> top;
     for (int i = 0; i < sides; ++i) {
-        mesh.quad(stuff, around(i, radius, 0), around(i + 1, radius, 0), around(i + 1, upper, height), around(i, upper, height));
+        mesh.quad(stuff, around(i, radius, 0), around(i + 1, radius, 0), around(i + 1, upper, height),
+                  around(i, upper, height));
         top.push_back(around(i, upper, height).position);
     }
     mesh.polygon(stuff, top);
@@ -140,10 +152,12 @@ void add_ball(RoadMesh& mesh, Stuff stuff, const BodyFrame& f, double radius, do
         const double polar = kPi * ring / kRings, angle = 2 * kPi * i / kSides;
         const double across = std::sin(polar), up = -std::cos(polar);
         const glm::dvec3 out = f.x * (across * std::cos(angle)) + f.y * (across * std::sin(angle));
-        return RoadMesh::Corner{f.origin + out * radius + f.z * (up * half_height), out / radius + f.z * (up / half_height)};
+        return RoadMesh::Corner{f.origin + out * radius + f.z * (up * half_height),
+                                out / radius + f.z * (up / half_height)};
     };
     for (int ring = 0; ring < kRings; ++ring)
-        for (int i = 0; i < kSides; ++i) mesh.quad(stuff, around(ring, i), around(ring, i + 1), around(ring + 1, i + 1), around(ring + 1, i));
+        for (int i = 0; i < kSides; ++i)
+            mesh.quad(stuff, around(ring, i), around(ring, i + 1), around(ring + 1, i + 1), around(ring + 1, i));
 }
 
 void add_prism(RoadMesh& mesh, Stuff stuff, std::span<const glm::dvec3> bottoms, std::span<const glm::dvec3> tops) {

@@ -1,4 +1,5 @@
-// Triangles of a road's surroundings, by material, on their way into a scene. Not a public header. SPDX-License-Identifier: MIT
+// Triangles of a road's surroundings, by material, on their way into a scene. Not a public header.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,37 @@ namespace vesper {
 
 /// What things are made of; road_materials.cpp says how that reflects.
 enum class Stuff : uint8_t {
-    Asphalt, Shoulder, Bikeway, Pavement, Kerb, Grass, Gravel, Concrete, MarkWhite, MarkYellow, MarkRed, MarkBlue, MarkGreen, MarkBlack,
-    Steel, PoleSteel, Post, PostBand, PostReflector, Bark, Leaves, Wall, SignWhite, SignRed, SignYellow, SignBlue, SignGreen, SignBlack, SignBack, Housing, Luminaire,
+    Asphalt,
+    Shoulder,
+    Bikeway,
+    Pavement,
+    Kerb,
+    Grass,
+    Gravel,
+    Concrete,
+    MarkWhite,
+    MarkYellow,
+    MarkRed,
+    MarkBlue,
+    MarkGreen,
+    MarkBlack,
+    Steel,
+    PoleSteel,
+    Post,
+    PostBand,
+    PostReflector,
+    Bark,
+    Leaves,
+    Wall,
+    SignWhite,
+    SignRed,
+    SignYellow,
+    SignBlue,
+    SignGreen,
+    SignBlack,
+    SignBack,
+    Housing,
+    Luminaire,
     Count
 };
 
@@ -69,7 +99,8 @@ struct BodyFrame {
 
 /// Bodies that stand on the frame's origin: without a bottom face.
 void add_box(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double length, double width, double height);
-void add_cylinder(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double radius, double height, double top_radius = -1);
+void add_cylinder(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double radius, double height,
+                  double top_radius = -1);
 /// A ball around the origin, squeezed along z.
 void add_ball(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double radius, double half_height);
 /// Walls over a closed outline and a roof on it; bottoms and tops counter-clockwise, corner by corner.

@@ -6,7 +6,8 @@
 namespace vesper {
 
 const Cubic* Profile::part_at(double s) const {
-    const auto after = std::upper_bound(parts.begin(), parts.end(), s, [](double at, const Cubic& part) { return at < part.s; });
+    const auto after =
+        std::upper_bound(parts.begin(), parts.end(), s, [](double at, const Cubic& part) { return at < part.s; });
     return after == parts.begin() ? nullptr : &*(after - 1);
 }
 
@@ -22,23 +23,40 @@ double Profile::slope(double s) const {
 
 const char* name_of(LaneType type) {
     switch (type) {
-        case LaneType::None: return "none";
-        case LaneType::Driving: return "driving";
-        case LaneType::Stop: return "stop";
-        case LaneType::Shoulder: return "shoulder";
-        case LaneType::Biking: return "biking";
-        case LaneType::Sidewalk: return "sidewalk";
-        case LaneType::Border: return "border";
-        case LaneType::Restricted: return "restricted";
-        case LaneType::Parking: return "parking";
-        case LaneType::Median: return "median";
-        case LaneType::Curb: return "curb";
-        case LaneType::Entry: return "entry";
-        case LaneType::Exit: return "exit";
-        case LaneType::Ramp: return "ramp";
-        case LaneType::Bidirectional: return "bidirectional";
-        case LaneType::Rail: return "rail";
-        case LaneType::Other: break;
+        case LaneType::None:
+            return "none";
+        case LaneType::Driving:
+            return "driving";
+        case LaneType::Stop:
+            return "stop";
+        case LaneType::Shoulder:
+            return "shoulder";
+        case LaneType::Biking:
+            return "biking";
+        case LaneType::Sidewalk:
+            return "sidewalk";
+        case LaneType::Border:
+            return "border";
+        case LaneType::Restricted:
+            return "restricted";
+        case LaneType::Parking:
+            return "parking";
+        case LaneType::Median:
+            return "median";
+        case LaneType::Curb:
+            return "curb";
+        case LaneType::Entry:
+            return "entry";
+        case LaneType::Exit:
+            return "exit";
+        case LaneType::Ramp:
+            return "ramp";
+        case LaneType::Bidirectional:
+            return "bidirectional";
+        case LaneType::Rail:
+            return "rail";
+        case LaneType::Other:
+            break;
     }
     return "other";
 }
@@ -50,7 +68,8 @@ bool is_driven(LaneType type) {
 
 bool is_level_with_road(LaneType type) {
     return is_driven(type) || type == LaneType::Stop || type == LaneType::Shoulder || type == LaneType::Border ||
-           type == LaneType::Parking || type == LaneType::Biking || type == LaneType::Restricted || type == LaneType::Rail;
+           type == LaneType::Parking || type == LaneType::Biking || type == LaneType::Restricted ||
+           type == LaneType::Rail;
 }
 
 const RoadLane* LaneSection::find(int id) const {
@@ -62,7 +81,8 @@ const RoadLane* LaneSection::find(int id) const {
 }
 
 size_t Road::section_at(double s) const {
-    const auto after = std::upper_bound(sections.begin(), sections.end(), s, [](double at, const LaneSection& each) { return at < each.s; });
+    const auto after = std::upper_bound(sections.begin(), sections.end(), s,
+                                        [](double at, const LaneSection& each) { return at < each.s; });
     return after == sections.begin() ? 0 : static_cast<size_t>(after - sections.begin()) - 1;
 }
 

@@ -1,6 +1,6 @@
 // Roads as OpenDRIVE describes them, typed and checked. SPDX-License-Identifier: MIT
-// The file's own frame: x east, y north, z up, m; headings rad, counter-clockwise from x. s runs along a road's reference line
-// (seen from above), t to its left. Speeds m/s.
+// The file's own frame: x east, y north, z up, m; headings rad, counter-clockwise from x. s runs along a road's
+// reference line (seen from above), t to its left. Speeds m/s.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,23 @@ struct Profile {
 };
 
 enum class LaneType : uint8_t {
-    None, Driving, Stop, Shoulder, Biking, Sidewalk, Border, Restricted, Parking, Median, Curb, Entry, Exit, Ramp, Bidirectional, Rail, Other
+    None,
+    Driving,
+    Stop,
+    Shoulder,
+    Biking,
+    Sidewalk,
+    Border,
+    Restricted,
+    Parking,
+    Median,
+    Curb,
+    Entry,
+    Exit,
+    Ramp,
+    Bidirectional,
+    Rail,
+    Other
 };
 const char* name_of(LaneType);
 /// Whether cars drive there: driving, entry, exit, ramps, bidirectional.
@@ -45,12 +61,12 @@ enum class MarkColour : uint8_t { White, Yellow, Red, Blue, Green, Orange, Black
 
 /// One line of a road mark, or one strip of its pattern.
 struct MarkLine {
-    double width = 0.12;   ///< m
-    double t_offset = 0;   ///< m, from the lane's border, positive to the left
-    double length = 0;     ///< m painted; 0: without end
-    double space = 0;      ///< m not painted after it
-    double s_offset = 0;   ///< m, of the first from the beginning of the mark
-    double once = 0;       ///< m painted once, from s_offset on (an explicit line); 0: repeated
+    double width = 0.12;  ///< m
+    double t_offset = 0;  ///< m, from the lane's border, positive to the left
+    double length = 0;    ///< m painted; 0: without end
+    double space = 0;     ///< m not painted after it
+    double s_offset = 0;  ///< m, of the first from the beginning of the mark
+    double once = 0;      ///< m painted once, from s_offset on (an explicit line); 0: repeated
     MarkColour colour = MarkColour::White;
 };
 
@@ -74,12 +90,12 @@ struct SpeedLimit {
 enum class LaneDirection : uint8_t { Standard, Reversed, Both };
 
 struct RoadLane {
-    int id = 0;             ///< > 0 left, < 0 right of the reference, 0 the centre, which has no width
+    int id = 0;  ///< > 0 left, < 0 right of the reference, 0 the centre, which has no width
     LaneType type = LaneType::None;
     LaneDirection direction = LaneDirection::Standard;
-    bool level = false;     ///< does not follow the superelevation
-    Profile width;          ///< m; s along the road
-    Profile border;         ///< or t of the outer border relative to the centre lane
+    bool level = false;  ///< does not follow the superelevation
+    Profile width;       ///< m; s along the road
+    Profile border;      ///< or t of the outer border relative to the centre lane
     std::vector<LaneHeight> heights;
     std::vector<RoadMark> marks;
     std::vector<SpeedLimit> speeds;
@@ -110,7 +126,8 @@ struct RoadShape {
     std::vector<Cubic> parts;  ///< of t
 };
 
-/// A strip of a cross section (1.8): c + l t + q t^2 + k t^3 with t from its inner edge, to the left positive; all over s.
+/// A strip of a cross section (1.8): c + l t + q t^2 + k t^3 with t from its inner edge, to the left positive; all over
+/// s.
 struct SurfaceStrip {
     int id = 0;             ///< 1, 2, ... to the left from the middle of the cross section, -1, -2, ... to the right
     bool relative = false;  ///< begins as high as the strip inside it ends
@@ -120,9 +137,9 @@ struct SurfaceStrip {
 
 struct ObjectCorner {
     int id = 0;
-    bool local = true;          ///< u, v, z in the object's frame; otherwise s, t, height above the road
-    double u = 0, v = 0, z = 0; ///< m; or s, t, dz
-    double height = 0;          ///< m
+    bool local = true;           ///< u, v, z in the object's frame; otherwise s, t, height above the road
+    double u = 0, v = 0, z = 0;  ///< m; or s, t, dz
+    double height = 0;           ///< m
 };
 
 struct ObjectOutline {
@@ -142,14 +159,15 @@ struct ObjectRepeat {
     double s = 0, length = 0;
     double distance = 0;  ///< m between copies; 0: one continuous body
     double t_start = 0, t_end = 0, z_start = 0, z_end = 0;
-    std::optional<double> height_start, height_end, width_start, width_end, length_start, length_end, radius_start, radius_end;
+    std::optional<double> height_start, height_end, width_start, width_end, length_start, length_end, radius_start,
+        radius_end;
 };
 
 struct RoadObject {
     std::string id, name, type, subtype;
     double s = 0, t = 0, z_offset = 0;
-    double heading = 0, pitch = 0, roll = 0;  ///< relative to the road
-    char orientation = '0';                   ///< '+', '-' or '0' for none
+    double heading = 0, pitch = 0, roll = 0;               ///< relative to the road
+    char orientation = '0';                                ///< '+', '-' or '0' for none
     double length = 0, width = 0, height = 0, radius = 0;  ///< m; 0: not stated
     std::vector<ObjectRepeat> repeats;
     std::vector<ObjectOutline> outlines;
@@ -169,7 +187,7 @@ struct RoadSignal {
 
 struct Road {
     std::string id, name;
-    size_t line = 0;         ///< of the file
+    size_t line = 0;  ///< of the file
     double length = 0;
     bool right_hand = true;  ///< traffic keeps to the right
     uint32_t junction = kNoRoad;
@@ -178,11 +196,11 @@ struct Road {
     Profile elevation, superelevation, lane_offset;
     Profile crossfall_left, crossfall_right;  ///< rad, falling outwards where positive (before 1.6)
     std::vector<RoadShape> shapes;
-    Profile strips_offset;                    ///< t of the middle of the cross section
-    std::vector<SurfaceStrip> strips;         ///< from the middle outwards on either side
+    Profile strips_offset;             ///< t of the middle of the cross section
+    std::vector<SurfaceStrip> strips;  ///< from the middle outwards on either side
     std::vector<LaneSection> sections;
     std::vector<SpeedLimit> speeds;
-    std::string type;                ///< of its first stretch: "town", "motorway", ...
+    std::string type;  ///< of its first stretch: "town", "motorway", ...
     std::vector<RoadObject> objects;
     std::vector<RoadSignal> signals;
 
@@ -191,8 +209,8 @@ struct Road {
 
 struct JunctionConnection {
     uint32_t incoming = kNoRoad, connecting = kNoRoad;
-    RoadEnd contact = RoadEnd::Start;          ///< of the connecting road
-    std::vector<std::pair<int, int>> lanes;    ///< from, to
+    RoadEnd contact = RoadEnd::Start;        ///< of the connecting road
+    std::vector<std::pair<int, int>> lanes;  ///< from, to
 };
 
 struct Junction {
@@ -203,11 +221,11 @@ struct Junction {
 
 struct RoadNetwork {
     std::string name;
-    int major = 1, minor = 0;         ///< revision of OpenDRIVE
-    glm::dvec3 origin{0};             ///< of the world, in the file's frame: near the roads, so that floats are exact enough
+    int major = 1, minor = 0;  ///< revision of OpenDRIVE
+    glm::dvec3 origin{0};      ///< of the world, in the file's frame: near the roads, so that floats are exact enough
     std::vector<Road> roads;
     std::vector<Junction> junctions;
-    std::vector<std::string> notes;   ///< what was put right or left out, one line each
+    std::vector<std::string> notes;  ///< what was put right or left out, one line each
 
     /// From the file's frame to the world: X = x, Y = z, Z = -y, from the origin.
     glm::dvec3 to_world(glm::dvec3 point) const { return direction_to_world(point - origin); }

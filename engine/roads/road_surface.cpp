@@ -8,12 +8,14 @@ namespace vesper {
 namespace {
 
 const PlanGeometry& geometry_at(const Road& road, double s) {
-    const auto after = std::upper_bound(road.plan.begin(), road.plan.end(), s, [](double at, const PlanGeometry& g) { return at < g.s; });
+    const auto after = std::upper_bound(road.plan.begin(), road.plan.end(), s,
+                                        [](double at, const PlanGeometry& g) { return at < g.s; });
     return after == road.plan.begin() ? road.plan.front() : *(after - 1);
 }
 
 double over(const std::vector<Cubic>& parts, double t) {
-    const auto after = std::upper_bound(parts.begin(), parts.end(), t, [](double at, const Cubic& part) { return at < part.s; });
+    const auto after =
+        std::upper_bound(parts.begin(), parts.end(), t, [](double at, const Cubic& part) { return at < part.s; });
     return after == parts.begin() ? parts.front().at(parts.front().s) : (after - 1)->at(t);
 }
 
@@ -22,8 +24,10 @@ double strip_height(const Road& road, double s, double t) {
     double left = std::abs(from_middle), height = 0;
     for (const SurfaceStrip& strip : road.strips) {
         if ((strip.id > 0) != (side > 0)) continue;
-        const double width = strip.width.parts.empty() ? left : std::clamp(strip.width.at(s), 0.0, left), u = side * width;
-        height = (strip.relative ? height : 0) + strip.constant.at(s) + u * (strip.linear.at(s) + u * (strip.quadratic.at(s) + u * strip.cubic.at(s)));
+        const double width = strip.width.parts.empty() ? left : std::clamp(strip.width.at(s), 0.0, left),
+                     u = side * width;
+        height = (strip.relative ? height : 0) + strip.constant.at(s) +
+                 u * (strip.linear.at(s) + u * (strip.quadratic.at(s) + u * strip.cubic.at(s)));
         left -= width;
         if (left <= 0) break;
     }
@@ -31,7 +35,8 @@ double strip_height(const Road& road, double s, double t) {
 }
 
 bool is_curved_across(const Road& road) {
-    return !road.shapes.empty() || !road.strips.empty() || !road.crossfall_left.parts.empty() || !road.crossfall_right.parts.empty();
+    return !road.shapes.empty() || !road.strips.empty() || !road.crossfall_left.parts.empty() ||
+           !road.crossfall_right.parts.empty();
 }
 
 /// Height of crossfall, strips and shape above the tilted plane.
@@ -40,7 +45,8 @@ double lateral_height(const Road& road, double s, double t) {
     if (t > 0 && !road.crossfall_left.parts.empty()) height -= t * std::tan(road.crossfall_left.at(s));
     if (t < 0 && !road.crossfall_right.parts.empty()) height += t * std::tan(road.crossfall_right.at(s));
     if (road.shapes.empty()) return height;
-    const auto after = std::upper_bound(road.shapes.begin(), road.shapes.end(), s, [](double at, const RoadShape& shape) { return at < shape.s; });
+    const auto after = std::upper_bound(road.shapes.begin(), road.shapes.end(), s,
+                                        [](double at, const RoadShape& shape) { return at < shape.s; });
     if (after == road.shapes.begin()) return height + over(after->parts, t);
     const RoadShape& before = *(after - 1);
     if (after == road.shapes.end()) return height + over(before.parts, t);
@@ -87,7 +93,8 @@ RoadPoint surface_point(const Road& road, double s, double t, double height) {
     point.position += point.left * t + point.up * (height + lateral_height(road, s, t));
     if (is_curved_across(road)) {
         constexpr double kStep = 0.05;
-        turn_across(point, std::atan((lateral_height(road, s, t + kStep) - lateral_height(road, s, t - kStep)) / (2 * kStep)));
+        turn_across(point,
+                    std::atan((lateral_height(road, s, t + kStep) - lateral_height(road, s, t - kStep)) / (2 * kStep)));
     }
     return point;
 }
@@ -103,12 +110,14 @@ double lane_border(const Road& road, const LaneSection& section, int id, double 
     const double sign = id > 0 ? 1 : -1;
     double t = 0;
     for (int each = 1; each <= std::abs(id); ++each)
-        if (const RoadLane* lane = section.find(static_cast<int>(sign) * each)) t += sign * clamped_width(section, *lane, s, t);
+        if (const RoadLane* lane = section.find(static_cast<int>(sign) * each))
+            t += sign * clamped_width(section, *lane, s, t);
     return road.lane_offset.at(s) + t;
 }
 
 double lane_height(const RoadLane& lane, double s, double fraction) {
-    const auto after = std::upper_bound(lane.heights.begin(), lane.heights.end(), s, [](double at, const LaneHeight& each) { return at < each.s; });
+    const auto after = std::upper_bound(lane.heights.begin(), lane.heights.end(), s,
+                                        [](double at, const LaneHeight& each) { return at < each.s; });
     if (after == lane.heights.begin()) return 0;
     const LaneHeight& height = *(after - 1);
     return height.inner + (height.outer - height.inner) * fraction;
@@ -116,7 +125,8 @@ double lane_height(const RoadLane& lane, double s, double fraction) {
 
 RoadPoint lane_point(const Road& road, const LaneSection& section, int id, double s, double fraction) {
     if (id == 0) return surface_point(road, s, road.lane_offset.at(s));
-    const double outer = lane_border(road, section, id, s), inner = lane_border(road, section, id > 0 ? id - 1 : id + 1, s);
+    const double outer = lane_border(road, section, id, s),
+                 inner = lane_border(road, section, id > 0 ? id - 1 : id + 1, s);
     const double t = inner + (outer - inner) * fraction;
     const RoadLane& lane = *section.find(id);
     const double height = lane_height(lane, s, fraction);
@@ -135,11 +145,13 @@ RoadPoint lane_point(const Road& road, const LaneSection& section, int id, doubl
 std::vector<double> road_stations(const Road& road, const LaneSection& section, double chord, double longest) {
     std::vector<double> breaks{section.s, section.end};
     for (const PlanGeometry& g : road.plan) breaks.push_back(g.s);
-    for (const Profile* profile : {&road.elevation, &road.superelevation, &road.lane_offset, &road.crossfall_left, &road.crossfall_right})
+    for (const Profile* profile :
+         {&road.elevation, &road.superelevation, &road.lane_offset, &road.crossfall_left, &road.crossfall_right})
         add_breaks(breaks, *profile);
     for (const RoadShape& shape : road.shapes) breaks.push_back(shape.s);
     for (const SurfaceStrip& strip : road.strips)
-        for (const Profile* profile : {&strip.width, &strip.constant, &strip.linear, &strip.quadratic, &strip.cubic}) add_breaks(breaks, *profile);
+        for (const Profile* profile : {&strip.width, &strip.constant, &strip.linear, &strip.quadratic, &strip.cubic})
+            add_breaks(breaks, *profile);
     for (const RoadLane& lane : section.lanes) {
         add_breaks(breaks, lane.width);
         add_breaks(breaks, lane.border);
@@ -150,7 +162,8 @@ std::vector<double> road_stations(const Road& road, const LaneSection& section, 
     std::sort(breaks.begin(), breaks.end());
 
     const auto lines = [&](double s) {
-        return std::array{surface_point(road, s, road.lane_offset.at(s)).position, surface_point(road, s, lane_border(road, section, section.leftmost(), s)).position,
+        return std::array{surface_point(road, s, road.lane_offset.at(s)).position,
+                          surface_point(road, s, lane_border(road, section, section.leftmost(), s)).position,
                           surface_point(road, s, lane_border(road, section, section.rightmost(), s)).position};
     };
     const auto leaves_chord = [&](double a, double b) {
@@ -161,7 +174,8 @@ std::vector<double> road_stations(const Road& road, const LaneSection& section, 
                 // From the chord, not from the point at f: what lies unevenly along a line does not matter.
                 const glm::dvec3 along = last[i] - first[i], to = middle[i] - first[i];
                 const double length = glm::dot(along, along);
-                if (glm::distance(to, length > 0 ? along * (glm::dot(to, along) / length) : glm::dvec3(0)) > chord) return true;
+                if (glm::distance(to, length > 0 ? along * (glm::dot(to, along) / length) : glm::dvec3(0)) > chord)
+                    return true;
             }
         }
         return false;

@@ -15,7 +15,8 @@ constexpr size_t kMaxCatalogs = 500;
 
 std::unique_ptr<XmlFile> read_xml(const std::filesystem::path& path) {
     const std::vector<uint8_t> bytes = read_file(path, kMaxBytes);
-    return std::make_unique<XmlFile>(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), path.string());
+    return std::make_unique<XmlFile>(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+                                     path.string());
 }
 
 bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
@@ -53,7 +54,9 @@ struct Expression {
         } else {
             skip();
             size_t last = at;
-            while (last < text.size() && (std::isdigit(static_cast<unsigned char>(text[last])) || text[last] == '.' || text[last] == 'e' || text[last] == 'E')) ++last;
+            while (last < text.size() && (std::isdigit(static_cast<unsigned char>(text[last])) || text[last] == '.' ||
+                                          text[last] == 'e' || text[last] == 'E'))
+                ++last;
             value = number_of(text.substr(at, last - at), false);
             at = last;
         }
@@ -94,7 +97,9 @@ std::optional<std::string> resolved(const XmlElement& element, const char* attri
         Expression expression{text->substr(2, text->size() - 3), scope};
         const auto value = expression.sum();
         expression.skip();
-        if (!value || !std::isfinite(*value) || expression.at != expression.text.size()) element.fail(std::string(attribute) + " " + vesper::quoted(*text) + " is no expression of known parameters");
+        if (!value || !std::isfinite(*value) || expression.at != expression.text.size())
+            element.fail(std::string(attribute) + " " + vesper::quoted(*text) +
+                         " is no expression of known parameters");
         char digits[40];
         std::snprintf(digits, sizeof digits, "%.17g", *value);
         return digits;
@@ -108,7 +113,8 @@ double number_in(const XmlElement& element, const char* attribute, const Paramet
     const auto text = resolved(element, attribute, scope);
     if (!text) return fallback;
     const auto value = number_of(*text, false);
-    if (!value || std::abs(*value) > kMaxNumber) element.fail(std::string(attribute) + " " + vesper::quoted(*text) + " is no number that can be");
+    if (!value || std::abs(*value) > kMaxNumber)
+        element.fail(std::string(attribute) + " " + vesper::quoted(*text) + " is no number that can be");
     return *value;
 }
 
@@ -116,7 +122,8 @@ Parameters declared(const XmlElement& element, const Parameters& around) {
     Parameters made = around;
     for (const XmlElement& each : element.children_of("ParameterDeclarations", "ParameterDeclaration")) {
         const std::string name = each.text_or("name", "");
-        if (const auto value = resolved(each, "value", made)) made.insert_or_assign(name.starts_with('$') ? name.substr(1) : name, *value);
+        if (const auto value = resolved(each, "value", made))
+            made.insert_or_assign(name.starts_with('$') ? name.substr(1) : name, *value);
     }
     return made;
 }
@@ -137,7 +144,8 @@ void ScenarioFile::look_for_catalogs() {
             if (!path) continue;
             std::error_code none;
             if (std::filesystem::is_regular_file(folder_ / *path, none)) files.push_back(folder_ / *path);
-            for (std::filesystem::directory_iterator entry(folder_ / *path, none), end; !none && entry != end; entry.increment(none))
+            for (std::filesystem::directory_iterator entry(folder_ / *path, none), end; !none && entry != end;
+                 entry.increment(none))
                 if (entry->path().extension() == ".xosc") files.push_back(entry->path());
         }
     std::sort(files.begin(), files.end());
@@ -148,16 +156,19 @@ void ScenarioFile::look_for_catalogs() {
 
 std::optional<ScenarioFile::Entry> ScenarioFile::find(const XmlElement& reference, const Parameters& scope) {
     if (!looked_) look_for_catalogs();
-    const auto catalog_name = resolved(reference, "catalogName", scope), entry_name = resolved(reference, "entryName", scope);
+    const auto catalog_name = resolved(reference, "catalogName", scope),
+               entry_name = resolved(reference, "entryName", scope);
     for (const auto& file : catalogs_)
         for (const XmlElement& catalog : file->root().children("Catalog")) {
             if (catalog_name && catalog.text_or("name", "") != *catalog_name) continue;
             for (const XmlElement& each : catalog.children()) {
                 if (!entry_name || each.text_or("name", "") != *entry_name) continue;
                 Parameters parameters = declared(each, parameters_);
-                for (const XmlElement& assignment : reference.children_of("ParameterAssignments", "ParameterAssignment")) {
+                for (const XmlElement& assignment :
+                     reference.children_of("ParameterAssignments", "ParameterAssignment")) {
                     const std::string name = assignment.text_or("parameterRef", "");
-                    if (const auto value = resolved(assignment, "value", scope)) parameters.insert_or_assign(name.starts_with('$') ? name.substr(1) : name, *value);
+                    if (const auto value = resolved(assignment, "value", scope))
+                        parameters.insert_or_assign(name.starts_with('$') ? name.substr(1) : name, *value);
                 }
                 return Entry{each, std::move(parameters)};
             }

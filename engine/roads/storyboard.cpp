@@ -10,6 +10,7 @@ namespace vesper {
 namespace {
 
 constexpr size_t kMaxSteps = 2'000'000, kMaxElements = 20'000;
+constexpr double kMaxWork = 1e9;  // elements times steps
 
 struct ActionPart {
     std::string name;
@@ -55,33 +56,47 @@ struct Player {
     size_t elements = 0;
 
     void count(const XmlElement& element) {
-        if (++elements > kMaxElements) element.fail("the storyboard has more than " + std::to_string(kMaxElements) + " elements");
+        if (++elements > kMaxElements)
+            element.fail("the storyboard has more than " + std::to_string(kMaxElements) + " elements");
     }
 
     // What actions do.
 
-    void set_lamp(const XmlElement& element, const Parameters& scope, const std::vector<std::string>& actors, double time) {
+    void set_lamp(const XmlElement& element, const Parameters& scope, const std::vector<std::string>& actors,
+                  double time) {
         const auto type = element.child("LightType"), state = element.child("LightState");
         const auto vehicle = type ? type->child("VehicleLight") : std::nullopt;
         if (!vehicle || !state) return story.note(element.place() + ": no vehicle light: left out");
         const std::string name = resolved(*vehicle, "vehicleLightType", scope).value_or("");
         static const std::map<std::string, std::vector<RunLamp>> kLamps{
-            {"lowBeam", {RunLamp::LowBeam}}, {"highBeam", {RunLamp::HighBeam}}, {"daytimeRunningLights", {RunLamp::DaytimeRunning}},
-            {"fogLights", {RunLamp::FogFront, RunLamp::FogRear}}, {"fogLightsFront", {RunLamp::FogFront}}, {"fogLightsRear", {RunLamp::FogRear}},
-            {"brakeLights", {RunLamp::Brake}}, {"reversingLights", {RunLamp::Reversing}}, {"indicatorLeft", {RunLamp::IndicatorLeft}},
-            {"indicatorRight", {RunLamp::IndicatorRight}}, {"warningLights", {RunLamp::IndicatorLeft, RunLamp::IndicatorRight}},
-            {"licensePlateIllumination", {RunLamp::LicencePlate}}, {"specialPurposeLights", {RunLamp::SpecialPurpose}}};
+            {"lowBeam", {RunLamp::LowBeam}},
+            {"highBeam", {RunLamp::HighBeam}},
+            {"daytimeRunningLights", {RunLamp::DaytimeRunning}},
+            {"fogLights", {RunLamp::FogFront, RunLamp::FogRear}},
+            {"fogLightsFront", {RunLamp::FogFront}},
+            {"fogLightsRear", {RunLamp::FogRear}},
+            {"brakeLights", {RunLamp::Brake}},
+            {"reversingLights", {RunLamp::Reversing}},
+            {"indicatorLeft", {RunLamp::IndicatorLeft}},
+            {"indicatorRight", {RunLamp::IndicatorRight}},
+            {"warningLights", {RunLamp::IndicatorLeft, RunLamp::IndicatorRight}},
+            {"licensePlateIllumination", {RunLamp::LicencePlate}},
+            {"specialPurposeLights", {RunLamp::SpecialPurpose}}};
         const auto lamps = kLamps.find(name);
         if (lamps == kLamps.end()) return story.note(vehicle->place() + ": there is no light '" + name + "'");
         LampEvent event{.time = time};
         const std::string mode = resolved(*state, "mode", scope).value_or("on");
-        event.mode = mode == "off" ? LampEvent::Mode::Off : mode == "flashing" ? LampEvent::Mode::Flashing : LampEvent::Mode::On;
+        event.mode = mode == "off"        ? LampEvent::Mode::Off
+                     : mode == "flashing" ? LampEvent::Mode::Flashing
+                                          : LampEvent::Mode::On;
         event.transition = std::clamp(number_in(element, "transitionTime", scope, 0), 0.0, 3600.0);
         event.on_time = std::clamp(number_in(*state, "flashingOnDuration", scope, 0.5), 0.0, 3600.0);
         event.off_time = std::clamp(number_in(*state, "flashingOffDuration", scope, 0.5), 0.0, 3600.0);
         event.intensity = std::max(0.0, number_in(*state, "luminousIntensity", scope, 0));
         if (const auto colour = state->child("Color"))
-            if (const auto rgb = colour->child("ColorRgb")) event.colour = glm::dvec3{number_in(*rgb, "red", scope, 0), number_in(*rgb, "green", scope, 0), number_in(*rgb, "blue", scope, 0)};
+            if (const auto rgb = colour->child("ColorRgb"))
+                event.colour = glm::dvec3{number_in(*rgb, "red", scope, 0), number_in(*rgb, "green", scope, 0),
+                                          number_in(*rgb, "blue", scope, 0)};
         for (RunEntity& entity : run.entities) {
             if (std::find(actors.begin(), actors.end(), entity.name) == actors.end()) continue;
             for (const RunLamp lamp : lamps->second) {
@@ -93,27 +108,33 @@ struct Player {
 
     void global(const XmlElement& element, const Parameters& scope, double time) {
         for (const XmlElement& infrastructure : element.children("InfrastructureAction"))
-            for (const XmlElement& each : infrastructure.children_of("TrafficSignalAction", "TrafficSignalStateAction")) {
-                const std::string name = resolved(each, "name", scope).value_or(""), state = resolved(each, "state", scope).value_or("");
+            for (const XmlElement& each :
+                 infrastructure.children_of("TrafficSignalAction", "TrafficSignalStateAction")) {
+                const std::string name = resolved(each, "name", scope).value_or(""),
+                                  state = resolved(each, "state", scope).value_or("");
                 run.signals.push_back({time, name, state});
                 story.signals[name] = state;
             }
         for (const XmlElement& environment : element.children_of("EnvironmentAction", "Environment"))
-            if (const auto when = environment.child("TimeOfDay")) run.time_of_day.push_back({time, "", resolved(*when, "dateTime", scope).value_or("")});
+            if (const auto when = environment.child("TimeOfDay"))
+                run.time_of_day.push_back({time, "", resolved(*when, "dateTime", scope).value_or("")});
     }
 
     /// Does what the action does to lamps and signals, and says how long it takes.
-    double start(const XmlElement& action, const Parameters& scope, const std::vector<std::string>& actors, double time) {
+    double start(const XmlElement& action, const Parameters& scope, const std::vector<std::string>& actors,
+                 double time) {
         for (const XmlElement& each : action.children("GlobalAction")) global(each, scope, time);
         double longest = 0;
         for (const XmlElement& part : action.children("PrivateAction")) {
-            for (const XmlElement& light : part.children_of("AppearanceAction", "LightStateAction")) set_lamp(light, scope, actors, time);
+            for (const XmlElement& light : part.children_of("AppearanceAction", "LightStateAction"))
+                set_lamp(light, scope, actors, time);
             longest = std::max(longest, duration_of(part, scope, actors, time));
         }
         return longest;
     }
 
-    double duration_of(const XmlElement& part, const Parameters& scope, const std::vector<std::string>& actors, double time) {
+    double duration_of(const XmlElement& part, const Parameters& scope, const std::vector<std::string>& actors,
+                       double time) {
         for (const char* group : {"LongitudinalAction", "LateralAction"})
             for (const XmlElement& holder : part.children(group))
                 for (const XmlElement& action : holder.children())
@@ -124,7 +145,8 @@ struct Player {
         return 0;
     }
 
-    double dynamics(const XmlElement& element, const XmlElement& action, const Parameters& scope, const std::vector<std::string>& actors, double time) {
+    double dynamics(const XmlElement& element, const XmlElement& action, const Parameters& scope,
+                    const std::vector<std::string>& actors, double time) {
         const std::string shape = resolved(element, "dynamicsShape", scope).value_or("");
         if (shape == "step") return 0;
         const double value = std::abs(number_in(element, "value", scope, 0));
@@ -145,7 +167,11 @@ struct Player {
 
     EventPart event_of(const XmlElement& element, const Parameters& scope) {
         count(element);
-        EventPart event{element.text_or("name", ""), element.text_or("priority", "override"), scope, trigger_of(element.child("StartTrigger"), scope, story), {}};
+        EventPart event{element.text_or("name", ""),
+                        element.text_or("priority", "override"),
+                        scope,
+                        trigger_of(element.child("StartTrigger"), scope, story),
+                        {}};
         event.most = static_cast<int>(std::clamp(number_in(element, "maximumExecutionCount", scope, 1), 1.0, 1e6));
         for (const XmlElement& each : element.children("Action")) {
             count(each);
@@ -191,10 +217,12 @@ struct Player {
         for (const XmlElement& element : storyboard.children("Story")) {
             const Parameters inner = declared(element, scope);
             for (const XmlElement& each : element.children("Act")) {
-                ActPart act{each.text_or("name", ""), trigger_of(each.child("StartTrigger"), inner, story), trigger_of(each.child("StopTrigger"), inner, story)};
+                ActPart act{each.text_or("name", ""), trigger_of(each.child("StartTrigger"), inner, story),
+                            trigger_of(each.child("StopTrigger"), inner, story)};
                 const auto stop = each.child("StopTrigger");
                 act.stops = stop && !stop->children("ConditionGroup").empty();
-                for (const XmlElement& group : each.children("ManeuverGroup")) act.groups.push_back(group_of(group, inner));
+                for (const XmlElement& group : each.children("ManeuverGroup"))
+                    act.groups.push_back(group_of(group, inner));
                 acts.push_back(std::move(act));
             }
         }
@@ -228,7 +256,8 @@ struct Player {
             if (event.priority == "override" || event.priority == "overwrite")
                 for (EventPart& other : maneuver.events)
                     if (&other != &event) end_event(other, step);
-            const bool busy = event.priority == "skip" && std::any_of(maneuver.events.begin(), maneuver.events.end(), [](const EventPart& e) { return e.running; });
+            const bool busy = event.priority == "skip" && std::any_of(maneuver.events.begin(), maneuver.events.end(),
+                                                                      [](const EventPart& e) { return e.running; });
             if (busy) return;
             event.running = true;
             ++event.executions;
@@ -271,7 +300,8 @@ struct Player {
             for (ManeuverPart& maneuver : group.maneuvers) {
                 if (maneuver.complete) continue;
                 for (EventPart& event : maneuver.events) step_event(event, maneuver, group, step);
-                maneuver.complete = std::all_of(maneuver.events.begin(), maneuver.events.end(), [](const EventPart& e) { return e.done(); });
+                maneuver.complete = std::all_of(maneuver.events.begin(), maneuver.events.end(),
+                                                [](const EventPart& e) { return e.done(); });
                 if (maneuver.complete) mark_end("maneuver/" + maneuver.name, step);
                 group_done = group_done && maneuver.complete;
             }
@@ -305,6 +335,8 @@ void play_storyboard(ScenarioFile& scenario, const RoadNetwork* roads, EsminiRun
     if (!storyboard) return;
     Player player{scenario, run, StoryTime{run, roads, steps_of(run)}};
     player.read(*storyboard);
+    if (static_cast<double>(player.elements) * static_cast<double>(player.story.times.size()) > kMaxWork)
+        storyboard->fail("too many elements for so long a run");
     player.play();
     run.notes.insert(run.notes.end(), player.story.notes.begin(), player.story.notes.end());
 }

@@ -27,7 +27,9 @@ Compare compare_with(const XmlElement& element, const Parameters& scope) {
 std::optional<glm::dvec3> position_of(const XmlElement& element, const Parameters& scope, const StoryTime& time) {
     const auto holder = element.child("Position");
     if (!holder) return std::nullopt;
-    if (const auto world = holder->child("WorldPosition")) return glm::dvec3{number_in(*world, "x", scope, 0), number_in(*world, "y", scope, 0), number_in(*world, "z", scope, 0)};
+    if (const auto world = holder->child("WorldPosition"))
+        return glm::dvec3{number_in(*world, "x", scope, 0), number_in(*world, "y", scope, 0),
+                          number_in(*world, "z", scope, 0)};
     const auto lane = holder->child("LanePosition"), on_road = holder->child("RoadPosition");
     const auto& place = lane ? lane : on_road;
     if (!place || !time.roads) return std::nullopt;
@@ -64,10 +66,14 @@ struct ConditionReader {
     double at(int step) const { return story.times[static_cast<size_t>(step)]; }
 
     std::optional<Condition> by_value(const XmlElement& element) {
-        if (element.name() == "SimulationTimeCondition") return [compare = compare_with(element, scope), &story = story](int step) { return compare(story.times[static_cast<size_t>(step)]); };
+        if (element.name() == "SimulationTimeCondition")
+            return [compare = compare_with(element, scope), &story = story](int step) {
+                return compare(story.times[static_cast<size_t>(step)]);
+            };
         if (element.name() == "StoryboardElementStateCondition") return element_state(element);
         if (element.name() == "TrafficSignalCondition") {
-            const std::string name = resolved(element, "name", scope).value_or(""), state = resolved(element, "state", scope).value_or("");
+            const std::string name = resolved(element, "name", scope).value_or(""),
+                              state = resolved(element, "state", scope).value_or("");
             return [&story = story, name, state](int) {
                 const auto now = story.signals.find(name);
                 return now != story.signals.end() && now->second == state;
@@ -83,7 +89,8 @@ struct ConditionReader {
 
     Condition element_state(const XmlElement& element) {
         std::string kind = resolved(element, "storyboardElementType", scope).value_or("event");
-        std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        std::transform(kind.begin(), kind.end(), kind.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
         std::string name = resolved(element, "storyboardElementRef", scope).value_or("");
         // References may be paths: the last part counts.
         if (const size_t colon = name.rfind("::"); colon != name.npos) name = name.substr(colon + 2);
@@ -105,7 +112,10 @@ struct ConditionReader {
         const bool free_space = element.flag("freespace");
         StoryTime& s = story;
         const auto now = [&s](int step) { return s.times[static_cast<size_t>(step)]; };
-        if (name == "SpeedCondition") return [compare = compare_with(element, scope), now](const RunEntity& e, int step) { return compare(pose_at(e, now(step)).speed); };
+        if (name == "SpeedCondition")
+            return [compare = compare_with(element, scope), now](const RunEntity& e, int step) {
+                return compare(pose_at(e, now(step)).speed);
+            };
         if (name == "TraveledDistanceCondition") {
             const double value = number_in(element, "value", scope, 0);
             struct Way {
@@ -123,7 +133,8 @@ struct ConditionReader {
         if (name == "StandStillCondition") {
             const double duration = number_in(element, "duration", scope, 0);
             return [duration, now](const RunEntity& e, int step) {
-                auto pose = std::upper_bound(e.poses.begin(), e.poses.end(), now(step), [](double at, const RunPose& p) { return at < p.time; });
+                auto pose = std::upper_bound(e.poses.begin(), e.poses.end(), now(step),
+                                             [](double at, const RunPose& p) { return at < p.time; });
                 while (pose != e.poses.begin() && (--pose)->time >= now(step) - duration)
                     if (std::abs(pose->speed) > 0.01) return false;
                 return now(step) - e.poses.front().time >= duration;
@@ -138,10 +149,14 @@ struct ConditionReader {
             const RunEntity* other = entity(element);
             if (!other) return std::nullopt;
             const auto compare = compare_with(element, scope);
-            if (name == "RelativeSpeedCondition") return [=](const RunEntity& e, int step) { return compare(pose_at(e, now(step)).speed - pose_at(*other, now(step)).speed); };
+            if (name == "RelativeSpeedCondition")
+                return [=](const RunEntity& e, int step) {
+                    return compare(pose_at(e, now(step)).speed - pose_at(*other, now(step)).speed);
+                };
             const bool headway = name == "TimeHeadwayCondition";
             return [=](const RunEntity& e, int step) {
-                const double distance = gap(e, *other, now(step), free_space), speed = std::abs(pose_at(e, now(step)).speed);
+                const double distance = gap(e, *other, now(step), free_space),
+                             speed = std::abs(pose_at(e, now(step)).speed);
                 return compare(!headway ? distance : speed > 1e-3 ? distance / speed : 1e9);
             };
         }
@@ -151,7 +166,8 @@ struct ConditionReader {
             const RunEntity* other = reference ? entity(*reference) : nullptr;
             if (!other) return std::nullopt;
             return [compare = compare_with(element, scope), other, free_space, now](const RunEntity& e, int step) {
-                const double before = now(step) - 0.1, closing = (gap(e, *other, before, false) - gap(e, *other, now(step), false)) / 0.1;
+                const double before = now(step) - 0.1,
+                             closing = (gap(e, *other, before, false) - gap(e, *other, now(step), false)) / 0.1;
                 return compare(closing > 1e-3 ? gap(e, *other, now(step), free_space) / closing : 1e9);
             };
         }
@@ -160,8 +176,11 @@ struct ConditionReader {
             if (!place) return std::nullopt;
             const double tolerance = number_in(element, "tolerance", scope, 1);
             const bool reach = name == "ReachPositionCondition";
-            const Compare compare = reach ? Compare([tolerance](double d) { return d <= tolerance; }) : compare_with(element, scope);
-            return [=](const RunEntity& e, int step) { return compare(flat_distance(pose_at(e, now(step)).position, *place)); };
+            const Compare compare =
+                reach ? Compare([tolerance](double d) { return d <= tolerance; }) : compare_with(element, scope);
+            return [=](const RunEntity& e, int step) {
+                return compare(flat_distance(pose_at(e, now(step)).position, *place));
+            };
         }
         return std::nullopt;
     }
@@ -193,7 +212,8 @@ struct ConditionReader {
             made = entity_condition(*entities);
         }
         if (made) return *made;
-        story.note(element.place() + ": " + (what.empty() ? "an empty condition" : "a " + what + " that cannot be judged") + ": it never holds");
+        story.note(element.place() + ": " +
+                   (what.empty() ? "an empty condition" : "a " + what + " that cannot be judged") + ": it never holds");
         return [](int) { return false; };
     }
 
@@ -217,7 +237,8 @@ struct ConditionReader {
             if (delay <= 0) return value_at(i);
             // Any step that has become old enough since the last time.
             bool held = false;
-            for (; *seen <= i && story.times[*seen] <= story.times[i] - delay + 1e-6; ++*seen) held = held || value_at(*seen);
+            for (; *seen <= i && story.times[*seen] <= story.times[i] - delay + 1e-6; ++*seen)
+                held = held || value_at(*seen);
             return held;
         };
     }
@@ -226,7 +247,8 @@ struct ConditionReader {
 }  // namespace
 
 const RunEntity* StoryTime::find(const std::string& name) const {
-    const auto found = std::find_if(run.entities.begin(), run.entities.end(), [&](const RunEntity& e) { return e.name == name; });
+    const auto found =
+        std::find_if(run.entities.begin(), run.entities.end(), [&](const RunEntity& e) { return e.name == name; });
     return found == run.entities.end() ? nullptr : &*found;
 }
 

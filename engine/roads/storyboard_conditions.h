@@ -15,7 +15,7 @@ struct ElementState {
 struct StoryTime {
     const EsminiRun& run;
     const RoadNetwork* roads;
-    std::vector<double> times;  ///< of the steps
+    std::vector<double> times;                       ///< of the steps
     std::map<std::string, ElementState> elements{};  ///< "event/NAME", "action/NAME", "maneuver/NAME", ...
     std::map<std::string, std::string> signals{};    ///< states of traffic lights now
     std::vector<std::string> notes{};
@@ -27,8 +27,8 @@ struct StoryTime {
 /// Whether something is so at a step.
 using Condition = std::function<bool(int step)>;
 
-/// A trigger: any of its groups, of which all conditions hold, with their delays and edges. Always true where there is none. Asked once
-/// for every step, in order.
+/// A trigger: any of its groups, of which all conditions hold, with their delays and edges. Always true where there is
+/// none. Asked once for every step, in order.
 Condition trigger_of(const std::optional<XmlElement>& trigger, const Parameters& scope, StoryTime& time);
 
 }  // namespace vesper

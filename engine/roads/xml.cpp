@@ -21,7 +21,7 @@ std::string_view local_part(std::string_view name) {
 XmlFile::XmlFile(std::string_view text, const std::string& name) : name_(one_line(name)) {
     line_starts_.push_back(0);
     for (size_t i = 0; i < text.size(); ++i)
-        if (text[i] == '\n') line_starts_.push_back(i + 1);
+        if (text[i] == '\n') line_starts_.push_back(static_cast<uint32_t>(i + 1));
     const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
     if (!result) {
         std::string reason = result.description();
@@ -33,7 +33,8 @@ XmlFile::XmlFile(std::string_view text, const std::string& name) : name_(one_lin
 XmlElement XmlFile::root() const { return {*this, document_.document_element()}; }
 
 size_t XmlFile::line_of(ptrdiff_t offset) const {
-    const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<size_t>(std::max<ptrdiff_t>(offset, 0)));
+    const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(),
+                                        static_cast<uint32_t>(std::max<ptrdiff_t>(offset, 0)));
     return static_cast<size_t>(after - line_starts_.begin());
 }
 
@@ -44,7 +45,8 @@ size_t XmlElement::line() const { return file_->line_of(node_.offset_debug()); }
 std::vector<XmlElement> XmlElement::children(std::string_view name) const {
     std::vector<XmlElement> found;
     for (const pugi::xml_node child : node_.children())
-        if (child.type() == pugi::node_element && (name.empty() || local_part(child.name()) == name)) found.emplace_back(*file_, child);
+        if (child.type() == pugi::node_element && (name.empty() || local_part(child.name()) == name))
+            found.emplace_back(*file_, child);
     return found;
 }
 
@@ -104,7 +106,9 @@ bool XmlElement::flag(std::string_view name) const {
     return value == "true" || value == "1" || value == "yes";
 }
 
-std::string XmlElement::place() const { return file_->name() + ":" + std::to_string(line()) + ": " + one_line(std::string(name()), 60); }
+std::string XmlElement::place() const {
+    return file_->name() + ":" + std::to_string(line()) + ": " + one_line(std::string(name()), 60);
+}
 
 void XmlElement::fail(const std::string& reason) const { throw Error(place() + ": " + reason); }
 

@@ -63,7 +63,7 @@ public:
 private:
     std::string name_;
     pugi::xml_document document_;
-    std::vector<size_t> line_starts_;
+    std::vector<uint32_t> line_starts_;
 };
 
 }  // namespace vesper

@@ -1,4 +1,5 @@
-// Writing scenes (glTF 2.0, KHR_lights_punctual, EXT_lights_ies, KHR_materials_emissive_strength). SPDX-License-Identifier: MIT
+// Writing scenes (glTF 2.0, KHR_lights_punctual, EXT_lights_ies, KHR_materials_emissive_strength).
+// SPDX-License-Identifier: MIT
 #include "scene/gltf_save.h"
 
 #include <algorithm>
@@ -44,7 +45,8 @@ struct Writer {
     template <class Element>
     size_t accessor(const std::vector<Element>& elements, int component, const char* type) {
         const size_t index = view(elements.data(), elements.size() * sizeof(Element));
-        root["accessors"].push_back({{"bufferView", index}, {"componentType", component}, {"count", elements.size()}, {"type", type}});
+        root["accessors"].push_back(
+            {{"bufferView", index}, {"componentType", component}, {"count", elements.size()}, {"type", type}});
         return root["accessors"].size() - 1;
     }
 
@@ -58,14 +60,17 @@ void write_materials(Writer& writer) {
     for (const Material& material : writer.scene.materials) {
         json made = {{"name", material.name}};
         const glm::vec4 c = material.base_colour;
-        made["pbrMetallicRoughness"] = {{"baseColorFactor", {c.r, c.g, c.b, c.a}}, {"metallicFactor", material.metallic}, {"roughnessFactor", material.roughness}};
+        made["pbrMetallicRoughness"] = {{"baseColorFactor", {c.r, c.g, c.b, c.a}},
+                                        {"metallicFactor", material.metallic},
+                                        {"roughnessFactor", material.roughness}};
         const float brightest = std::max({material.emission.r, material.emission.g, material.emission.b});
         if (brightest > 0) {
             made["emissiveFactor"] = json_of(material.emission / brightest);
             made["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = brightest;
             writer.use("KHR_materials_emissive_strength");
         }
-        if (material.alpha == Material::Alpha::Mask) made["alphaMode"] = "MASK", made["alphaCutoff"] = material.alpha_cutoff;
+        if (material.alpha == Material::Alpha::Mask)
+            made["alphaMode"] = "MASK", made["alphaCutoff"] = material.alpha_cutoff;
         if (material.double_sided) made["doubleSided"] = true;
         writer.root["materials"].push_back(std::move(made));
     }
@@ -78,21 +83,25 @@ json primitive_of(Writer& writer, const Primitive& primitive) {
     Bounds bounds;
     bool coloured = false, mapped = false;
     for (const Vertex& vertex : primitive.vertices) {
-        positions.push_back(vertex.position), normals.push_back(vertex.normal), uv.push_back(vertex.uv), colours.push_back(vertex.colour);
+        positions.push_back(vertex.position), normals.push_back(vertex.normal), uv.push_back(vertex.uv),
+            colours.push_back(vertex.colour);
         bounds.add(vertex.position);
         coloured = coloured || vertex.colour != std::array<uint8_t, 4>{255, 255, 255, 255};
         mapped = mapped || vertex.uv != glm::vec2(0);
     }
     json attributes;
     attributes["POSITION"] = writer.accessor(positions, kFloat, "VEC3");
-    writer.root["accessors"].back()["min"] = json_of(bounds.low), writer.root["accessors"].back()["max"] = json_of(bounds.high);
+    writer.root["accessors"].back()["min"] = json_of(bounds.low),
+    writer.root["accessors"].back()["max"] = json_of(bounds.high);
     attributes["NORMAL"] = writer.accessor(normals, kFloat, "VEC3");
     if (mapped) attributes["TEXCOORD_0"] = writer.accessor(uv, kFloat, "VEC2");
     if (coloured) {
         attributes["COLOR_0"] = writer.accessor(colours, kByte, "VEC4");
         writer.root["accessors"].back()["normalized"] = true;
     }
-    return {{"attributes", attributes}, {"indices", writer.accessor(primitive.indices, kUnsigned, "SCALAR")}, {"material", primitive.material}};
+    return {{"attributes", attributes},
+            {"indices", writer.accessor(primitive.indices, kUnsigned, "SCALAR")},
+            {"material", primitive.material}};
 }
 
 void write_meshes(Writer& writer) {
@@ -105,7 +114,8 @@ void write_meshes(Writer& writer) {
     }
 }
 
-/// A colour of luminance 1 as one whose largest component is 1, and what that takes off the intensity (docs/photometry.md).
+/// A colour of luminance 1 as one whose largest component is 1, and what that takes off the intensity
+/// (docs/photometry.md).
 std::pair<json, double> stored(glm::vec3 colour) {
     const float brightest = std::max({colour.r, colour.g, colour.b});
     return {json_of(colour / brightest), brightest};
@@ -127,22 +137,34 @@ std::vector<json> write_lights(Writer& writer, json& block) {
             // One profile for each light: openings belong to profiles.
             const Distribution& distribution = writer.scene.distributions.at(light.distribution);
             const std::string text = write_ies(distribution);
-            profiles.push_back({{"name", light.name}, {"bufferView", writer.view(text.data(), text.size())}, {"mimeType", "application/x-ies-lm-63"}});
+            profiles.push_back({{"name", light.name},
+                                {"bufferView", writer.view(text.data(), text.size())},
+                                {"mimeType", "application/x-ies-lm-63"}});
             add_opening(openings, "profile", profiles.size() - 1, light.opening);
-            uses.push_back({{"EXT_lights_ies", {{"light", profiles.size() - 1}, {"multiplier", light.intensity * factor}, {"color", colour}}}});
+            uses.push_back(
+                {{"EXT_lights_ies",
+                  {{"light", profiles.size() - 1}, {"multiplier", light.intensity * factor}, {"color", colour}}}});
             continue;
         }
         const bool spot = light.kind == Light::Kind::Spot || light.kind == Light::Kind::CosinePower;
-        json made = {{"name", light.name}, {"intensity", light.intensity * factor}, {"color", colour},
-                     {"type", light.kind == Light::Kind::Point ? "point" : light.kind == Light::Kind::Directional ? "directional" : "spot"}};
+        json made = {{"name", light.name},
+                     {"intensity", light.intensity * factor},
+                     {"color", colour},
+                     {"type", light.kind == Light::Kind::Point         ? "point"
+                              : light.kind == Light::Kind::Directional ? "directional"
+                                                                       : "spot"}};
         if (spot) made["spot"] = {{"innerConeAngle", light.inner_cone}, {"outerConeAngle", light.outer_cone}};
-        if (light.kind == Light::Kind::CosinePower) lobes.push_back({{"light", punctual.size()}, {"type", "cosine_power"}, {"exponent", light.exponent}});
+        if (light.kind == Light::Kind::CosinePower)
+            lobes.push_back({{"light", punctual.size()}, {"type", "cosine_power"}, {"exponent", light.exponent}});
         add_opening(openings, "light", punctual.size(), light.opening);
         uses.push_back({{"KHR_lights_punctual", {{"light", punctual.size()}}}});
         punctual.push_back(std::move(made));
     }
-    if (!punctual.empty()) writer.root["extensions"]["KHR_lights_punctual"]["lights"] = std::move(punctual), writer.use("KHR_lights_punctual");
-    if (!profiles.empty()) writer.root["extensions"]["EXT_lights_ies"]["lights"] = std::move(profiles), writer.use("EXT_lights_ies");
+    if (!punctual.empty())
+        writer.root["extensions"]["KHR_lights_punctual"]["lights"] = std::move(punctual),
+        writer.use("KHR_lights_punctual");
+    if (!profiles.empty())
+        writer.root["extensions"]["EXT_lights_ies"]["lights"] = std::move(profiles), writer.use("EXT_lights_ies");
     if (!openings.empty()) block["openings"] = std::move(openings);
     if (!lobes.empty()) block["lobes"] = std::move(lobes);
     return uses;
@@ -158,7 +180,8 @@ void write_nodes(Writer& writer, const std::vector<json>& lights) {
                 for (int r = 0; r < 4; ++r) made["matrix"].push_back((*node.matrix)[c][r]);
         } else {
             if (node.translation != glm::vec3(0)) made["translation"] = json_of(node.translation);
-            if (node.rotation != glm::quat(1, 0, 0, 0)) made["rotation"] = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
+            if (node.rotation != glm::quat(1, 0, 0, 0))
+                made["rotation"] = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
             if (node.scale != glm::vec3(1)) made["scale"] = json_of(node.scale);
         }
         if (node.mesh != kNone) made["mesh"] = node.mesh;
@@ -175,7 +198,9 @@ void write_nodes(Writer& writer, const std::vector<json>& lights) {
     if (writer.scene.nodes.empty()) writer.root["scenes"][0].erase("nodes");
     writer.root["scene"] = 0;
     for (const Camera& camera : writer.scene.cameras)
-        writer.root["cameras"].push_back({{"name", camera.name}, {"type", "perspective"}, {"perspective", {{"yfov", camera.vertical_fov}, {"znear", camera.near}}}});
+        writer.root["cameras"].push_back({{"name", camera.name},
+                                          {"type", "perspective"},
+                                          {"perspective", {{"yfov", camera.vertical_fov}, {"znear", camera.near}}}});
 }
 
 void write_animation(Writer& writer) {
@@ -183,17 +208,23 @@ void write_animation(Writer& writer) {
     for (const Channel& channel : writer.scene.channels) {
         json sampler;
         sampler["input"] = writer.accessor(channel.times, kFloat, "SCALAR");
-        writer.root["accessors"].back()["min"] = {channel.times.front()}, writer.root["accessors"].back()["max"] = {channel.times.back()};
+        writer.root["accessors"].back()["min"] = {channel.times.front()},
+        writer.root["accessors"].back()["max"] = {channel.times.back()};
         const bool turns = channel.path == Channel::Path::Rotation;
         std::vector<glm::vec3> threes;
         for (const glm::vec4& value : channel.values) threes.emplace_back(value);
-        sampler["output"] = turns ? writer.accessor(channel.values, kFloat, "VEC4") : writer.accessor(threes, kFloat, "VEC3");
-        sampler["interpolation"] = channel.interpolation == Channel::Interpolation::Step ? "STEP" : channel.interpolation == Channel::Interpolation::Cubic ? "CUBICSPLINE" : "LINEAR";
+        sampler["output"] =
+            turns ? writer.accessor(channel.values, kFloat, "VEC4") : writer.accessor(threes, kFloat, "VEC3");
+        sampler["interpolation"] = channel.interpolation == Channel::Interpolation::Step    ? "STEP"
+                                   : channel.interpolation == Channel::Interpolation::Cubic ? "CUBICSPLINE"
+                                                                                            : "LINEAR";
         const char* path = turns ? "rotation" : channel.path == Channel::Path::Scale ? "scale" : "translation";
         channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", channel.node}, {"path", path}}}});
         samplers.push_back(std::move(sampler));
     }
-    if (!channels.empty()) writer.root["animations"] = json::array({{{"name", "drive"}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}}});
+    if (!channels.empty())
+        writer.root["animations"] =
+            json::array({{{"name", "drive"}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}}});
 }
 
 void write_block(Writer& writer, json& block, const std::string& source) {
@@ -203,12 +234,15 @@ void write_block(Writer& writer, json& block, const std::string& source) {
     if (scene.transfer.kind == Transfer::Kind::Gamma) block["transfer"]["gamma"] = scene.transfer.gamma;
     block["ambient"] = {{"illuminance_lx", scene.ambient_illuminance}, {"colour", json_of(scene.ambient_colour)}};
     block["sky"] = {{"luminance_cd_m2", scene.sky_luminance}, {"colour", json_of(scene.sky_colour)}};
-    for (const ReflectionTable& table : scene.reflection_tables) block["reflection_tables"].push_back(vesper::json_of(table));
+    for (const ReflectionTable& table : scene.reflection_tables)
+        block["reflection_tables"].push_back(vesper::json_of(table));
     for (const Retroreflector& one : scene.retroreflectors) block["retroreflectors"].push_back(vesper::json_of(one));
     for (size_t m = 0; m < scene.materials.size(); ++m) {
         const Material& material = scene.materials[m];
-        if (material.reflection_table != kNone) block["roads"].push_back({{"material", m}, {"table", material.reflection_table}});
-        if (material.retroreflector != kNone) block["retroreflective"].push_back({{"material", m}, {"retroreflector", material.retroreflector}});
+        if (material.reflection_table != kNone)
+            block["roads"].push_back({{"material", m}, {"table", material.reflection_table}});
+        if (material.retroreflector != kNone)
+            block["retroreflective"].push_back({{"material", m}, {"retroreflector", material.retroreflector}});
     }
     block["provenance"] = {{"input", source}, {"vesper", VESPER_VERSION}};
 }
@@ -216,7 +250,8 @@ void write_block(Writer& writer, json& block, const std::string& source) {
 }  // namespace
 
 std::vector<uint8_t> encode_scene(const Scene& scene, const std::string& source, bool binary) {
-    if (!scene.images.empty() || !scene.luminance_pictures.empty() || scene.environment) throw Error("scene '" + scene.name + "': has pictures, which only its file can give");
+    if (!scene.images.empty() || !scene.luminance_pictures.empty() || scene.environment)
+        throw Error("scene '" + scene.name + "': has pictures, which only its file can give");
     Writer writer{scene};
     json block;
     write_materials(writer);
@@ -230,7 +265,8 @@ std::vector<uint8_t> encode_scene(const Scene& scene, const std::string& source,
 
 void save_gltf(const Scene& scene, const std::string& source, const std::filesystem::path& file) {
     const std::string extension = file.extension().string();
-    if (extension != ".gltf" && extension != ".glb") throw Error(one_line(file.string()) + ": the output must be named .gltf or .glb");
+    if (extension != ".gltf" && extension != ".glb")
+        throw Error(one_line(file.string()) + ": the output must be named .gltf or .glb");
     replace_file(file, encode_scene(scene, source, extension == ".glb"));
 }
 

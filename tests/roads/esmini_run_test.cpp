@@ -43,7 +43,8 @@ std::string braking_run() {
     for (int i = 0; i <= 200; ++i) {
         const double t = i * 0.05, v = t < 4 ? 10 : t < 9 ? 10 - 2 * (t - 4) : t < 9.5 ? 0 : -1;
         char line[200];
-        std::snprintf(line, sizeof line, "%.3f, 0, Ego, %.3f, 0.000, 0.000, 0.000, 0.000, 0.000, %.3f, 0.000, 0.000\n", t, x, v);
+        std::snprintf(line, sizeof line, "%.3f, 0, Ego, %.3f, 0.000, 0.000, 0.000, 0.000, 0.000, %.3f, 0.000, 0.000\n",
+                      t, x, v);
         text += line;
         x += v * 0.05;
     }
@@ -51,29 +52,44 @@ std::string braking_run() {
 }
 
 std::string light(const char* type, const char* mode, const std::string& more = "", const std::string& of_action = "") {
-    return std::string("<PrivateAction><AppearanceAction><LightStateAction ") + of_action + "><LightType><VehicleLight vehicleLightType=\"" + type + "\"/></LightType><LightState mode=\"" + mode +
+    return std::string("<PrivateAction><AppearanceAction><LightStateAction ") + of_action +
+           "><LightType><VehicleLight vehicleLightType=\"" + type + "\"/></LightType><LightState mode=\"" + mode +
            "\" " + more + "/></LightStateAction></AppearanceAction></PrivateAction>";
 }
 
-std::string event(const std::string& name, const std::string& actions, const std::string& condition, const std::string& of_condition = "delay=\"0\" conditionEdge=\"none\"") {
-    return "<Event name=\"" + name + "\" priority=\"parallel\"><Action name=\"" + name + "Action\">" + actions + "</Action><StartTrigger><ConditionGroup><Condition name=\"c\" " + of_condition + ">" +
-           condition + "</Condition></ConditionGroup></StartTrigger></Event>";
+std::string event(const std::string& name, const std::string& actions, const std::string& condition,
+                  const std::string& of_condition = "delay=\"0\" conditionEdge=\"none\"") {
+    return "<Event name=\"" + name + "\" priority=\"parallel\"><Action name=\"" + name + "Action\">" + actions +
+           "</Action><StartTrigger><ConditionGroup><Condition name=\"c\" " + of_condition + ">" + condition +
+           "</Condition></ConditionGroup></StartTrigger></Event>";
 }
 
-std::string at_time(const std::string& value) { return "<ByValueCondition><SimulationTimeCondition value=\"" + value + "\" rule=\"greaterOrEqual\"/></ByValueCondition>"; }
+std::string at_time(const std::string& value) {
+    return "<ByValueCondition><SimulationTimeCondition value=\"" + value +
+           "\" rule=\"greaterOrEqual\"/></ByValueCondition>";
+}
 
 std::string scenario(const std::string& events, const std::string& parameters = "") {
     return "<OpenSCENARIO><ParameterDeclarations>" + parameters +
-           "</ParameterDeclarations><RoadNetwork><LogicFile filepath=\"a.xodr\"/></RoadNetwork><Entities><ScenarioObject name=\"Ego\"><Vehicle name=\"v\" vehicleCategory=\"truck\"><BoundingBox><Center x=\"1.5\" y=\"0\" "
-           "z=\"0.9\"/><Dimensions length=\"8\" width=\"2.5\" height=\"3\"/></BoundingBox></Vehicle></ScenarioObject></Entities><Storyboard><Init><Actions/></Init><Story><Act name=\"act\"><ManeuverGroup "
-           "name=\"g\"><Actors><EntityRef entityRef=\"Ego\"/></Actors><Maneuver name=\"m\">" + events + "</Maneuver></ManeuverGroup></Act></Story></Storyboard></OpenSCENARIO>";
+           "</ParameterDeclarations><RoadNetwork><LogicFile "
+           "filepath=\"a.xodr\"/></RoadNetwork><Entities><ScenarioObject name=\"Ego\"><Vehicle name=\"v\" "
+           "vehicleCategory=\"truck\"><BoundingBox><Center x=\"1.5\" y=\"0\" "
+           "z=\"0.9\"/><Dimensions length=\"8\" width=\"2.5\" "
+           "height=\"3\"/></BoundingBox></Vehicle></ScenarioObject></Entities><Storyboard><Init><Actions/></"
+           "Init><Story><Act name=\"act\"><ManeuverGroup "
+           "name=\"g\"><Actors><EntityRef entityRef=\"Ego\"/></Actors><Maneuver name=\"m\">" +
+           events + "</Maneuver></ManeuverGroup></Act></Story></Storyboard></OpenSCENARIO>";
 }
 
-const std::vector<LampEvent>& events_of(const EsminiRun& run, RunLamp lamp, size_t entity = 0) { return run.entities[entity].lamps[static_cast<size_t>(lamp)]; }
+const std::vector<LampEvent>& events_of(const EsminiRun& run, RunLamp lamp, size_t entity = 0) {
+    return run.entities[entity].lamps[static_cast<size_t>(lamp)];
+}
 
 TEST_F(EsminiRuns, PosesLieBetweenRows) {
-    const auto run = read_esmini_run(write("run.csv", "Version: 2, OpenDRIVE: a.xodr, 3DModel: \n" + kHeader +
-                                                          "0.0, 7, Car, 0, 0, 0, 3.1, 0, 0, 10, 0.1, 6.0\n0.5, 7, Car, 5, 2, 1, -3.1, 0.2, 0, 12, 0.3, 0.2\n"));
+    const auto run = read_esmini_run(
+        write("run.csv",
+              "Version: 2, OpenDRIVE: a.xodr, 3DModel: \n" + kHeader +
+                  "0.0, 7, Car, 0, 0, 0, 3.1, 0, 0, 10, 0.1, 6.0\n0.5, 7, Car, 5, 2, 1, -3.1, 0.2, 0, 12, 0.3, 0.2\n"));
     ASSERT_EQ(run.entities.size(), 1u);
     const RunEntity& car = run.entities[0];
     EXPECT_EQ(car.id, 7);
@@ -102,14 +118,20 @@ TEST_F(EsminiRuns, LampsFollowFromTheMotionWhereNothingIsStated) {
 }
 
 TEST_F(EsminiRuns, EventsSetLamps) {
-    const std::string text = scenario(event("one", light("indicatorLeft", "flashing", "luminousIntensity=\"${2 * $cd}\" flashingOnDuration=\"0.4\" flashingOffDuration=\"0.3\""), at_time("$when")) +
-                                          event("two", light("highBeam", "on", "luminousIntensity=\"30000\"", "transitionTime=\"1\""),
-                                                "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"event\" storyboardElementRef=\"one\" state=\"completeState\"/></ByValueCondition>",
-                                                "delay=\"1.5\" conditionEdge=\"rising\"") +
-                                          event("three", light("brakeLights", "on"),
-                                                "<ByEntityCondition><TriggeringEntities triggeringEntitiesRule=\"any\"><EntityRef entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><SpeedCondition value=\"5\" "
-                                                "rule=\"lessThan\"/></EntityCondition></ByEntityCondition>"),
-                                      "<ParameterDeclaration name=\"when\" value=\"2\"/><ParameterDeclaration name=\"cd\" value=\"250\"/>");
+    const std::string text =
+        scenario(event("one",
+                       light("indicatorLeft", "flashing",
+                             "luminousIntensity=\"${2 * $cd}\" flashingOnDuration=\"0.4\" flashingOffDuration=\"0.3\""),
+                       at_time("$when")) +
+                     event("two", light("highBeam", "on", "luminousIntensity=\"30000\"", "transitionTime=\"1\""),
+                           "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"event\" "
+                           "storyboardElementRef=\"one\" state=\"completeState\"/></ByValueCondition>",
+                           "delay=\"1.5\" conditionEdge=\"rising\"") +
+                     event("three", light("brakeLights", "on"),
+                           "<ByEntityCondition><TriggeringEntities triggeringEntitiesRule=\"any\"><EntityRef "
+                           "entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><SpeedCondition value=\"5\" "
+                           "rule=\"lessThan\"/></EntityCondition></ByEntityCondition>"),
+                 "<ParameterDeclaration name=\"when\" value=\"2\"/><ParameterDeclaration name=\"cd\" value=\"250\"/>");
     const auto run = read_esmini_run(write("run.csv", braking_run()), write("run.xosc", text));
     EXPECT_TRUE(run.notes.empty()) << run.notes[0];
     EXPECT_EQ(run.road_file, "a.xodr");
@@ -134,25 +156,39 @@ TEST_F(EsminiRuns, EventsSetLamps) {
 TEST_F(EsminiRuns, ErrorsNameFileAndLine) {
     EXPECT_NE(complaint("a,b,c\n1,2,3\n").find("is no table of esmini"), std::string::npos);
     EXPECT_NE(complaint(kHeader).find("no rows"), std::string::npos);
-    EXPECT_NE(complaint(kHeader + "0, 0, A, 1, 2\n").find("line 2"), std::string::npos) << complaint(kHeader + "0, 0, A, 1, 2\n");
-    EXPECT_NE(complaint(kHeader + "0, 0, A, nan, 0, 0, 0, 0, 0, 0, 0, 0\n").find("x 'nan' is no number"), std::string::npos) << complaint(kHeader + "0, 0, A, nan, 0, 0, 0, 0, 0, 0, 0, 0\n");
-    EXPECT_NE(complaint(kHeader + "1, 0, A, 0, 0, 0, 0, 0, 0, 0, 0, 0\n0, 0, A, 0, 0, 0, 0, 0, 0, 0, 0, 0\n").find("do not ascend"), std::string::npos);
+    EXPECT_NE(complaint(kHeader + "0, 0, A, 1, 2\n").find("line 2"), std::string::npos)
+        << complaint(kHeader + "0, 0, A, 1, 2\n");
+    EXPECT_NE(complaint(kHeader + "0, 0, A, nan, 0, 0, 0, 0, 0, 0, 0, 0\n").find("x 'nan' is no number"),
+              std::string::npos)
+        << complaint(kHeader + "0, 0, A, nan, 0, 0, 0, 0, 0, 0, 0, 0\n");
+    EXPECT_NE(complaint(kHeader + "1, 0, A, 0, 0, 0, 0, 0, 0, 0, 0, 0\n0, 0, A, 0, 0, 0, 0, 0, 0, 0, 0, 0\n")
+                  .find("do not ascend"),
+              std::string::npos);
     EXPECT_NE(complaint("time, id, name, x\n").find("no column 'y'"), std::string::npos);
     EXPECT_NE(complaint(braking_run(), "<OpenDRIVE/>").find("run.xosc:1: OpenDRIVE: the root"), std::string::npos);
-    EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("$nothing")))).find("there is no parameter"), std::string::npos);
-    EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("${1 +}")))).find("is no expression"), std::string::npos);
+    EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("$nothing"))))
+                  .find("there is no parameter"),
+              std::string::npos);
+    EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("${1 +}"))))
+                  .find("is no expression"),
+              std::string::npos);
 }
 
 TEST_F(EsminiRuns, WhatIsNotUnderstoodIsNoted) {
-    const auto run = read_esmini_run(write("run.csv", braking_run()),
-                                     write("run.xosc", scenario(event("e", light("lowBeam", "on"), "<ByEntityCondition><TriggeringEntities><EntityRef entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><CollisionCondition/>"
-                                                                                                 "</EntityCondition></ByEntityCondition>"))));
+    const auto run = read_esmini_run(
+        write("run.csv", braking_run()),
+        write("run.xosc",
+              scenario(event("e", light("lowBeam", "on"),
+                             "<ByEntityCondition><TriggeringEntities><EntityRef "
+                             "entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><CollisionCondition/>"
+                             "</EntityCondition></ByEntityCondition>"))));
     ASSERT_EQ(run.notes.size(), 1u);
     EXPECT_NE(run.notes[0].find("CollisionCondition that cannot be judged"), std::string::npos) << run.notes[0];
 }
 
 EsminiRun shared_run(const std::string& name, const RoadNetwork* roads = nullptr) {
-    return read_esmini_run(test::shared_data("scenario/esmini-output/" + name + ".csv"), test::shared_data("scenario/esmini/xosc/" + name + ".xosc"), roads);
+    return read_esmini_run(test::shared_data("scenario/esmini-output/" + name + ".csv"),
+                           test::shared_data("scenario/esmini/xosc/" + name + ".xosc"), roads);
 }
 
 /// When the speed of an entity first passes a value from `from` on.
@@ -182,7 +218,8 @@ TEST(SharedRuns, LampsOfLightState) {
     EXPECT_NEAR(car.length, 5.04, 1e-9);
 }
 
-// The left indicator and a lane change belong to one event: the car leaves the circle of its lane when it begins to flash.
+// The left indicator and a lane change belong to one event: the car leaves the circle of its lane when it begins to
+// flash.
 TEST(SharedRuns, IndicatorsBeginWithTheLaneChange) {
     if (!test::is_here(test::shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
     const EsminiRun run = shared_run("light_state");
@@ -199,7 +236,8 @@ TEST(SharedRuns, IndicatorsBeginWithTheLaneChange) {
 
 TEST(SharedRuns, TrafficLightsTurnWhereTheCarCounts) {
     if (!test::is_here(test::shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
-    const RoadNetwork roads = read_opendrive(test::shared_data("scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr"));
+    const RoadNetwork roads =
+        read_opendrive(test::shared_data("scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr"));
     const EsminiRun run = shared_run("traffic_lights", &roads);
     EXPECT_TRUE(run.notes.empty()) << run.notes[0];
     EXPECT_GT(run.signals.size(), 6u);
@@ -219,7 +257,8 @@ TEST(SharedRuns, AllAreRead) {
         const EsminiRun run = shared_run(name);
         EXPECT_GE(run.entities.size(), 2u);
         EXPECT_GT(run.duration, 10);
-        for (const RunEntity& entity : run.entities) EXPECT_TRUE(entity.length > 0 || entity.kind == RunEntity::Kind::Object) << entity.name;
+        for (const RunEntity& entity : run.entities)
+            EXPECT_TRUE(entity.length > 0 || entity.kind == RunEntity::Kind::Object) << entity.name;
     }
 }
 

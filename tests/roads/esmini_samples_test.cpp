@@ -1,4 +1,5 @@
-// The centre line and the outer border of every lane against those that esmini samples of the same files. SPDX-License-Identifier: MIT
+// The centre line and the outer border of every lane against those that esmini samples of the same files.
+// SPDX-License-Identifier: MIT
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -34,7 +35,7 @@ std::vector<Sampled> read_samples(const std::filesystem::path& file) {
         if (line.starts_with("lane")) {
             Sampled each;
             words >> word >> each.road >> each.section >> each.lane >> word;
-    
+
             samples.push_back(each);
         } else if (glm::dvec4 p; words >> p.x >> p.y >> p.z >> p.w) {
             samples.back().points.push_back(p);
@@ -54,16 +55,19 @@ TEST_P(EsminiSamples, AreMetWithinACentimetre) {
     ASSERT_FALSE(samples.empty());
     size_t points = 0;
     for (const Sampled& each : samples) {
-        const auto road = std::find_if(network.roads.begin(), network.roads.end(), [&](const Road& r) { return r.id == each.road; });
+        const auto road =
+            std::find_if(network.roads.begin(), network.roads.end(), [&](const Road& r) { return r.id == each.road; });
         ASSERT_NE(road, network.roads.end());
         const LaneSection& section = road->sections.at(each.section);
         ASSERT_TRUE(section.find(each.lane)) << each.lane;
         for (size_t k = 0; k < each.points.size(); ++k) {
-            const double s = section.s + (section.end - section.s) * static_cast<double>(k) / static_cast<double>(each.points.size() - 1);
+            const double s = section.s + (section.end - section.s) * static_cast<double>(k) /
+                                             static_cast<double>(each.points.size() - 1);
             const RoadPoint got = lane_point(*road, section, each.lane, s, 1);
             const double off = glm::distance(got.position, glm::dvec3(each.points[k]));
-            ASSERT_LT(off, kTolerance) << "road " << each.road << " lane " << each.lane << " s " << s << ": " << got.position.x << " " << got.position.y << " " << got.position.z
-                                       << " for " << each.points[k].x << " " << each.points[k].y << " " << each.points[k].z;
+            ASSERT_LT(off, kTolerance) << "road " << each.road << " lane " << each.lane << " s " << s << ": "
+                                       << got.position.x << " " << got.position.y << " " << got.position.z << " for "
+                                       << each.points[k].x << " " << each.points[k].y << " " << each.points[k].z;
             ASSERT_NEAR(std::remainder(got.heading - each.points[k].w, 2 * M_PI), 0, 1e-4);
             ++points;
         }

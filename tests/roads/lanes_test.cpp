@@ -24,11 +24,16 @@ uint32_t find(const LaneGraph& graph, const std::string& name) {
 /// Road a 100 m to the north, then road b on a quarter circle of 50 m radius to the left.
 RoadNetwork bend(const std::string& attributes = "") {
     const std::string links = "<link><successor id=\"1\"/></link>", back = "<link><predecessor id=\"1\"/></link>";
-    const std::string right = "<link><successor id=\"-1\"/></link>", right_back = "<link><predecessor id=\"-1\"/></link>";
+    const std::string right = "<link><successor id=\"-1\"/></link>",
+                      right_back = "<link><predecessor id=\"-1\"/></link>";
     return network_of(road("a", 100, geometry(0, 10, 20, M_PI / 2, 100, "<line/>"), two_way_section(0, links, right),
-                           "<link><successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/></link><type s=\"0\" type=\"town\"><speed max=\"50\" unit=\"km/h\"/></type>", attributes) +
-                      road("b", 25 * M_PI, geometry(0, 10, 120, M_PI / 2, 25 * M_PI, "<arc curvature=\"0.02\"/>"), two_way_section(0, back, right_back),
-                           "<link><predecessor elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/></link>", attributes));
+                           "<link><successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/></link><type "
+                           "s=\"0\" type=\"town\"><speed max=\"50\" unit=\"km/h\"/></type>",
+                           attributes) +
+                      road("b", 25 * M_PI, geometry(0, 10, 120, M_PI / 2, 25 * M_PI, "<arc curvature=\"0.02\"/>"),
+                           two_way_section(0, back, right_back),
+                           "<link><predecessor elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/></link>",
+                           attributes));
 }
 
 TEST(Lanes, LieWhereTheRoadSays) {
@@ -119,7 +124,12 @@ TEST(Lanes, NearestKnowsOffsetsAndDirections) {
     EXPECT_EQ(graph.nearest({9.6, 0, -60})->lane, left);
     EXPECT_EQ(graph.nearest_along({9.6, 0, -60}, {0, 0, -1})->lane, right);
     EXPECT_EQ(graph.nearest_along({9.6, 0, -60}, {0, 0, 1})->lane, left);
-    EXPECT_EQ(graph.lanes()[graph.nearest({15, 0, -60}, 5, [](const Lane& lane) { return lane.type == LaneType::Sidewalk; })->lane].id, -2);
+    EXPECT_EQ(
+        graph
+            .lanes()[graph.nearest({15, 0, -60}, 5, [](const Lane& lane) { return lane.type == LaneType::Sidewalk; })
+                         ->lane]
+            .id,
+        -2);
 }
 
 TEST(Lanes, KerbsLieBetweenRoadAndPavement) {

@@ -81,7 +81,9 @@ void expect_sound(const LitRoads& lit) {
     EXPECT_LE(scene.retroreflectors.size(), kMaxRetroreflectors);
     for (const char* material : {"asphalt", "asphalt shoulder", "marking white", "grass"})
         for (const Triangle& triangle : triangles_of(scene, material))
-            if (std::abs(glm::normalize(triangle.across()).y) > 0.05 || material != std::string("grass")) { EXPECT_GT(triangle.across().y, 0) << material; }
+            if (std::abs(glm::normalize(triangle.across()).y) > 0.05 || material != std::string("grass")) {
+                EXPECT_GT(triangle.across().y, 0) << material;
+            }
 }
 
 TEST(LitRoads, SurfacesHaveTheAreaOfTheirLanes) {
@@ -105,8 +107,12 @@ TEST(LitRoads, SurfacesHaveTheAreaOfTheirLanes) {
 }
 
 TEST(LitRoads, PaintHasTheAreaOfItsDashes) {
-    const std::string lanes = "<laneSection s=\"0\"><center><lane id=\"0\"><roadMark sOffset=\"0\" type=\"broken\" width=\"0.12\"><type name=\"broken\"><line length=\"3\" space=\"6\" sOffset=\"1\"/></type></roadMark></lane>"
-                              "</center><right>" + test::lane(-1, 3.5, "driving", "<roadMark sOffset=\"10\" type=\"solid\" width=\"0.2\"/>") + "</right></laneSection>";
+    const std::string lanes =
+        "<laneSection s=\"0\"><center><lane id=\"0\"><roadMark sOffset=\"0\" type=\"broken\" width=\"0.12\"><type "
+        "name=\"broken\"><line length=\"3\" space=\"6\" sOffset=\"1\"/></type></roadMark></lane>"
+        "</center><right>" +
+        test::lane(-1, 3.5, "driving", "<roadMark sOffset=\"10\" type=\"solid\" width=\"0.2\"/>") +
+        "</right></laneSection>";
     const LitRoads lit = lit_roads(straight("", 90, lanes));
     expect_sound(lit);
     EXPECT_NEAR(area_of(triangles_of(lit.scene, "marking white")), 10 * 3 * 0.12 + 80 * 0.2, 1e-3);
@@ -126,7 +132,9 @@ TEST(LitRoads, SurfacesKeepToTheChord) {
     LitRoadOptions options;
     for (const double chord : {0.05, 0.01}) {
         options.chord = chord;
-        const LitRoads lit = lit_roads(network_of(road("1", 100, geometry(0, 0, 0, 0, 100, "<arc curvature=\"0.02\"/>"), two_way_section())), options);
+        const LitRoads lit = lit_roads(
+            network_of(road("1", 100, geometry(0, 0, 0, 0, 100, "<arc curvature=\"0.02\"/>"), two_way_section())),
+            options);
         expect_sound(lit);
         double longest = 0;
         for (const Triangle& triangle : triangles_of(lit.scene, "pavement"))
@@ -157,7 +165,10 @@ TEST(LitRoads, StreetLampsStandEverySoMuchAndLightTheRoad) {
         const glm::dvec3 down = lamp.rotation * glm::vec3(0, 0, -1);
         EXPECT_NEAR(down.y, -1, 1e-6);
         // To the road and along it, more than to the other side.
-        const auto towards = [&](glm::dvec3 world) { return luminous_intensity(light, lit.scene.distributions, glm::dvec3(glm::inverse(lamp.rotation) * glm::vec3(world))); };
+        const auto towards = [&](glm::dvec3 world) {
+            return luminous_intensity(light, lit.scene.distributions,
+                                      glm::dvec3(glm::inverse(lamp.rotation) * glm::vec3(world)));
+        };
         const double road_side = lamp.translation.z > 0 ? -1 : 1;
         EXPECT_GT(towards({0.5, -1, road_side}), 1.5 * towards({0.5, -1, -road_side}));
         EXPECT_GT(towards({1.8, -1, 0.3 * road_side}), 1000);
@@ -171,7 +182,8 @@ TEST(LitRoads, StreetLampsStandEverySoMuchAndLightTheRoad) {
 }
 
 TEST(LitRoads, TheDriverFollowsTheLaneAtTheLimit) {
-    const LitRoads lit = lit_roads(straight("<type s=\"0\" type=\"town\"><speed max=\"36\" unit=\"km/h\"/></type>", 100));
+    const LitRoads lit =
+        lit_roads(straight("<type s=\"0\" type=\"town\"><speed max=\"36\" unit=\"km/h\"/></type>", 100));
     const Scene& scene = lit.scene;
     uint32_t driver = kNone;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
@@ -201,8 +213,11 @@ TEST(LitRoads, GroundLiesBelowRoads) {
 }
 
 TEST(LitRoads, SignalsFaceTheirTraffic) {
-    const std::string signals = "<signals><signal s=\"50\" t=\"-5\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"3\" type=\"1000001\" country=\"OpenDRIVE\" height=\"0.9\" width=\"0.3\"/>"
-                                "<signal s=\"60\" t=\"-5\" id=\"8\" name=\"x\" dynamic=\"no\" orientation=\"+\" zOffset=\"2\" type=\"274\" country=\"de\" value=\"50\" height=\"0.6\" width=\"0.6\"/></signals>";
+    const std::string signals =
+        "<signals><signal s=\"50\" t=\"-5\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"3\" type=\"1000001\" "
+        "country=\"OpenDRIVE\" height=\"0.9\" width=\"0.3\"/>"
+        "<signal s=\"60\" t=\"-5\" id=\"8\" name=\"x\" dynamic=\"no\" orientation=\"+\" zOffset=\"2\" type=\"274\" "
+        "country=\"de\" value=\"50\" height=\"0.6\" width=\"0.6\"/></signals>";
     const LitRoads lit = lit_roads(straight(signals));
     expect_sound(lit);
     const auto red = lamps_of(lit.scene, "signal_7/red");
@@ -220,10 +235,14 @@ TEST(LitRoads, SignalsFaceTheirTraffic) {
 }
 
 TEST(LitRoads, ObjectsStandWhereTheFileSays) {
-    const std::string objects = "<objects><object id=\"1\" type=\"building\" name=\"house\" s=\"20\" t=\"15\" length=\"10\" width=\"6\" height=\"5\"/>"
-                                "<object id=\"2\" type=\"barrier\" name=\"rail\" s=\"0\" t=\"-6\"><repeat s=\"10\" length=\"50\" distance=\"0\" tStart=\"-6\" tEnd=\"-6\" heightStart=\"0.75\" heightEnd=\"0.75\" "
-                                "zOffsetStart=\"0\" zOffsetEnd=\"0\" widthStart=\"0.2\" widthEnd=\"0.2\"/></object>"
-                                "<object id=\"3\" type=\"crosswalk\" name=\"zebra\" s=\"70\" t=\"0\" length=\"4\" width=\"7\" height=\"3\"/></objects>";
+    const std::string objects =
+        "<objects><object id=\"1\" type=\"building\" name=\"house\" s=\"20\" t=\"15\" length=\"10\" width=\"6\" "
+        "height=\"5\"/>"
+        "<object id=\"2\" type=\"barrier\" name=\"rail\" s=\"0\" t=\"-6\"><repeat s=\"10\" length=\"50\" "
+        "distance=\"0\" tStart=\"-6\" tEnd=\"-6\" heightStart=\"0.75\" heightEnd=\"0.75\" "
+        "zOffsetStart=\"0\" zOffsetEnd=\"0\" widthStart=\"0.2\" widthEnd=\"0.2\"/></object>"
+        "<object id=\"3\" type=\"crosswalk\" name=\"zebra\" s=\"70\" t=\"0\" length=\"4\" width=\"7\" "
+        "height=\"3\"/></objects>";
     LitRoadOptions options;
     options.lamps = StreetLampOptions{.spacing = 0};
     const LitRoads lit = lit_roads(straight(objects), options);

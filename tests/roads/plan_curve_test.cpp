@@ -8,8 +8,8 @@
 namespace vesper {
 namespace {
 
-/// Fresnel's integrals of cos and sin(pi u^2 / 2) by their power series (Abramowitz and Stegun 7.3.11, 7.3.13): another way
-/// than the code's quadrature.
+/// Fresnel's integrals of cos and sin(pi u^2 / 2) by their power series (Abramowitz and Stegun 7.3.11, 7.3.13): another
+/// way than the code's quadrature.
 std::pair<double, double> fresnel(double x) {
     double c = 0, s = 0, factor = 1;
     const double q = M_PI / 2;
@@ -54,7 +54,8 @@ TEST(PlanCurve, ClothoidsEndWhereTheirMirrorImageBegins) {
 }
 
 TEST(PlanCurve, ClothoidsOfOneCurvatureAreArcsAndArcsOfNoneAreLines) {
-    const PlanGeometry arc{.kind = PlanGeometry::Kind::Arc, .x = 3, .y = -2, .heading = 0.7, .length = 200, .curvature = -0.03};
+    const PlanGeometry arc{
+        .kind = PlanGeometry::Kind::Arc, .x = 3, .y = -2, .heading = 0.7, .length = 200, .curvature = -0.03};
     PlanGeometry same = spiral(-0.03, -0.03, 200);
     same.x = 3, same.y = -2, same.heading = 0.7;
     const double radius = 1 / 0.03;

@@ -1,6 +1,7 @@
 // A scene written and read again is the same scene. SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "base/luminance.h"
 #include "photometry/standard_lamps.h"
 #include "scene/gltf_save.h"
 #include "scene/light.h"
@@ -36,16 +37,26 @@ Scene example() {
         mesh.primitives.push_back(primitive);
     }
     scene.meshes.push_back(mesh);
-    Light measured{.name = "street lamp", .kind = Light::Kind::Measured, .intensity = 0.8f, .colour = glm::vec3(1), .distribution = 0};
+    Light measured{.name = "street lamp",
+                   .kind = Light::Kind::Measured,
+                   .intensity = 0.8f,
+                   .colour = glm::vec3(1),
+                   .distribution = 0};
     measured.opening.length = 0.6, measured.opening.width = 0.3;
-    Light lobe{.name = "lobe", .kind = Light::Kind::CosinePower, .intensity = 300, .inner_cone = 0, .outer_cone = 1.2f, .exponent = 8};
+    Light lobe{.name = "lobe",
+               .kind = Light::Kind::CosinePower,
+               .intensity = 300,
+               .inner_cone = 0,
+               .outer_cone = 1.2f,
+               .exponent = 8};
     Light spot{.name = "spot", .kind = Light::Kind::Spot, .intensity = 200, .inner_cone = 0.1f, .outer_cone = 0.6f};
-    spot.colour = glm::vec3(2, 0.7f, 0.5f) / (0.2126f * 2 + 0.7152f * 0.7f + 0.0722f * 0.5f);
+    spot.colour = glm::vec3(glm::dvec3(2, 0.7, 0.5) / luminance(glm::dvec3(2, 0.7, 0.5)));
     spot.opening.length = spot.opening.width = 0.2, spot.opening.round = true;
     scene.lights = {measured, lobe, spot};
     scene.distributions.push_back(standard_lamp("street-lamp"));
     scene.cameras.push_back({.name = "eye", .vertical_fov = 0.7f, .near = 0.2f});
-    Node root{.name = "root"}, car{.name = "car", .parent = 0}, lamp{.name = "lamp", .parent = 1}, second{.name = "second"};
+    Node root{.name = "root"}, car{.name = "car", .parent = 0}, lamp{.name = "lamp", .parent = 1},
+        second{.name = "second"};
     root.mesh = 0;
     car.translation = {1, 2, 3}, car.camera = 0;
     lamp.rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), lamp.light = 0;
@@ -53,8 +64,10 @@ Scene example() {
     Node third{.name = "third"};
     third.light = 1;
     scene.nodes = {root, car, lamp, second, third};
-    scene.channels.push_back({.node = 1, .path = Channel::Path::Translation, .times = {0, 2}, .values = {{1, 2, 3, 0}, {5, 2, 3, 0}}});
-    scene.channels.push_back({.node = 1, .path = Channel::Path::Rotation, .times = {0, 2}, .values = {{0, 0, 0, 1}, {0, 1, 0, 0}}});
+    scene.channels.push_back(
+        {.node = 1, .path = Channel::Path::Translation, .times = {0, 2}, .values = {{1, 2, 3, 0}, {5, 2, 3, 0}}});
+    scene.channels.push_back(
+        {.node = 1, .path = Channel::Path::Rotation, .times = {0, 2}, .values = {{0, 0, 0, 1}, {0, 1, 0, 0}}});
     scene.ambient_illuminance = 0.3f, scene.sky_luminance = 0.02f;
     return scene;
 }
@@ -102,9 +115,12 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
         EXPECT_EQ(a.opening.width, b.opening.width);
         EXPECT_EQ(a.opening.round, b.opening.round);
         for (const glm::dvec3 direction : {glm::dvec3(0.1, 0.2, -1), glm::dvec3(0.7, 0.1, -0.5)})
-            EXPECT_NEAR(luminous_intensity(a, got.distributions, direction), luminous_intensity(b, scene.distributions, direction), 1e-3 * b.intensity + 0.01);
+            EXPECT_NEAR(luminous_intensity(a, got.distributions, direction),
+                        luminous_intensity(b, scene.distributions, direction), 1e-3 * b.intensity + 0.01);
     }
-    const auto placed = [&](const Scene& of, const char* node, double time) { return world_transforms(of, time)[static_cast<size_t>(&find(of, node) - of.nodes.data())]; };
+    const auto placed = [&](const Scene& of, const char* node, double time) {
+        return world_transforms(of, time)[static_cast<size_t>(&find(of, node) - of.nodes.data())];
+    };
     for (const double time : {0.0, 1.0, 2.0})
         for (const char* node : {"car", "lamp", "second"}) {
             const glm::mat4 a = placed(got, node, time), b = placed(scene, node, time);

@@ -27,13 +27,14 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"photometry", {"base", "io"}},
     {"perception", {"base", "io", "photometry"}},
     {"scene", {"base", "io", "photometry", "perception"}},
-    {"simulation", {"base", "io", "photometry", "perception", "scene"}},
+    {"roads", {"base", "io", "photometry", "perception", "scene"}},
+    {"simulation", {"base", "io", "photometry", "perception", "scene", "roads"}},
     {"gpu", {"base"}},
     {"window", {"base", "gpu", "glsl"}},
     {"graph", {"base", "gpu"}},
     {"resident", {"base", "photometry", "perception", "scene", "gpu", "glsl"}},
     {"passes", {"base", "photometry", "perception", "scene", "gpu", "graph", "resident", "glsl"}},
-    {"", {"base", "io", "photometry", "perception", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
+    {"", {"base", "io", "photometry", "perception", "scene", "roads", "gpu", "graph", "resident", "passes", "glsl"}},
 };
 
 std::string text_of(const fs::path& file) {

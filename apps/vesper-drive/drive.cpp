@@ -14,7 +14,11 @@ void check(DriveArguments& a) {
     if (a.scene.empty() && a.replay.empty()) a.scene = VESPER_DATA_DIR "/rivoli/rivoli.world.json";
     if (!a.scene.empty() && !a.replay.empty()) throw Error("--replay " + a.replay + ": the recording names its scene; none can be given beside it");
     if (!a.replay.empty() && (a.autopilot || !a.record.empty())) throw Error("--replay " + a.replay + ": --autopilot and --record have no meaning beside it");
+    if (!a.scenario.empty() && a.run.empty()) throw Error("--storyboard " + a.scenario + ": of which run? give --scenario");
+    if (!a.run.empty() && !a.replay.empty()) throw Error("--scenario " + a.run + ": the recording names its run");
     Files files;
+    files.reads(a.run);
+    files.reads(a.scenario);
     files.reads(a.scene);
     files.reads(a.replay);
     files.reads(a.channels);
@@ -27,7 +31,9 @@ void check(DriveArguments& a) {
 
 void add_drive(CLI::App& program) {
     const auto a = std::make_shared<DriveArguments>();
-    program.add_option("scene", a->scene, "A world (.json, docs/simulator.md) or a photometric scene (.gltf, .glb); default: the street of data/rivoli");
+    program.add_option("scene", a->scene, "A world (.json, docs/simulator.md), roads (.xodr) or a photometric scene (.gltf, .glb); default: the street of data/rivoli");
+    program.add_option("--scenario", a->run, "On roads (.xodr): a run that esmini recorded there (.csv of its dat2csv), as traffic with its lamps");
+    program.add_option("--storyboard", a->scenario, "The scenario of that run (.xosc): sizes, lamps and traffic lights");
     program.add_flag("--headless", a->headless, "Without a window");
     program.add_flag("--autopilot", a->autopilot, "The car keeps to its lane and to the distance by itself");
     program.add_option("--seconds", a->seconds, "Headless: how long to drive, s")->check(between(0.0, 86400.0))->capture_default_str();

@@ -12,7 +12,7 @@ namespace vesper {
 
 /// What the command line says; windows and the headless program take from it what concerns them.
 struct DriveArguments {
-    std::string scene, device, size = "1680x1050";
+    std::string scene, run, scenario, device, size = "1680x1050";
     std::string record, replay, video, log, channels;
     std::vector<std::string> probes;
     bool headless = false, autopilot = false;

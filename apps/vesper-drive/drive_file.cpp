@@ -56,8 +56,18 @@ std::string input_text(const DriverInput& input, const DriverInput& before) {
     return made.dump();
 }
 
-std::string heading(const DriveStart& start, const std::filesystem::path& scene) {
-    const json head{{"vesper_drive", 1}, {"scene", scene.generic_string()}, {"seed", start.seed}, {"time_step_s", start.time_step}, {"settings", start.settings}};
+// A path as seen from a folder.
+std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    if (file.empty()) return "";
+    std::error_code failed;
+    const std::filesystem::path near = std::filesystem::proximate(std::filesystem::absolute(file, failed), folder, failed);
+    return (near.empty() ? file : near).generic_string();
+}
+
+std::string heading(const DriveStart& start, const std::filesystem::path& folder) {
+    json head{{"vesper_drive", 1}, {"scene", seen_from(folder, start.scene)}, {"seed", start.seed}, {"time_step_s", start.time_step}, {"settings", start.settings}};
+    if (!start.run.empty()) head["run"] = seen_from(folder, start.run);
+    if (!start.scenario.empty()) head["scenario"] = seen_from(folder, start.scenario);
     std::string text = head.dump();
     text.pop_back();
     return text + ",\"events\":[\n";
@@ -91,10 +101,11 @@ Drive read_drive(const std::filesystem::path& file) {
     Drive drive;
     const JsonFile text = parse_json(completed(read_file(file, kMostBytes), drive.complete), file.string());
     const JsonValue root(text);
-    root.allow_only({"vesper_drive", "scene", "seed", "time_step_s", "settings", "events"});
+    root.allow_only({"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "settings", "events"});
     if (root.at("vesper_drive").integer() != 1) root.at("vesper_drive").fail("this version of Vesper reads drives of version 1");
-    const std::filesystem::path scene = root.at("scene").text();
-    drive.start.scene = scene.is_absolute() ? scene : file.parent_path() / scene;
+    const auto found = [&](const std::filesystem::path& named) { return named.empty() || named.is_absolute() ? named : file.parent_path() / named; };
+    drive.start.scene = found(root.at("scene").text());
+    drive.start.run = found(root.text_or("run", "")), drive.start.scenario = found(root.text_or("scenario", ""));
     drive.start.seed = root.integer_or("seed", 1);
     drive.start.time_step = root.number_or("time_step_s", 1.0 / 60, 1e-4, 0.1);
     if (const auto settings = root.find("settings")) drive.start.settings = read_values(*settings);
@@ -156,8 +167,7 @@ void DriveRecorder::open(const std::filesystem::path& file) {
     if (descriptor_ < 0) throw Error(one_line(file.string()) + ": cannot be written: " + std::strerror(errno));
     std::error_code failed;
     const std::filesystem::path folder = std::filesystem::absolute(file, failed).parent_path();
-    const std::filesystem::path scene = std::filesystem::proximate(std::filesystem::absolute(start_.scene, failed), folder, failed);
-    write(heading(start_, scene.empty() ? start_.scene : scene) + lines_);
+    write(heading(start_, folder) + lines_);
 }
 
 void DriveRecorder::write(const std::string& text) {

@@ -23,7 +23,7 @@ struct DriveEvent {
 
 /// How a drive begins.
 struct DriveStart {
-    std::filesystem::path scene;
+    std::filesystem::path scene, run, scenario;  ///< as of SessionOptions
     uint64_t seed = 1;
     double time_step = 1.0 / 60;  ///< s
     DriveSettings::Values settings;

@@ -147,12 +147,12 @@ void run_headless(const DriveArguments& a) {
     if (!a.channels.empty()) channels = read_channels(a.channels);
     const VkExtent2D extent = channels ? extent_of(*channels) : parse_size(a.size);
     Outlet outlet(a, extent);
-    SessionOptions options{.scene = a.scene, .seed = a.seed, .settings = a.settings};
+    SessionOptions options{.scene = a.scene, .run = a.run, .scenario = a.scenario, .seed = a.seed, .settings = a.settings};
     std::vector<DriveEvent> events;
     if (!a.replay.empty()) {
         const Drive drive = read_drive(a.replay);
         if (!drive.complete) std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", a.replay.c_str());
-        options.scene = drive.start.scene, options.seed = drive.start.seed, options.time_step = drive.start.time_step;
+        options.scene = drive.start.scene, options.run = drive.start.run, options.scenario = drive.start.scenario, options.seed = drive.start.seed, options.time_step = drive.start.time_step;
         options.settings = drive.start.settings;
         for (const auto& [name, value] : a.settings) options.settings[name] = value;
         events = drive.events;

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "road_world.h"
 #include "scene/colour.h"
 #include "scene/convert.h"
 #include "scene/gltf.h"
@@ -85,9 +86,15 @@ bool contains(const std::vector<std::string>& names, const std::string& name) { 
 
 }  // namespace
 
-Scenery::Scenery(const fs::path& file) {
+Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scenario) {
     const std::string extension = file.extension().string();
-    if (extension == ".json") {
+    if (!run.empty() && extension != ".xodr") throw Error(one_line(run.string()) + ": a run needs the roads (.xodr) that it was recorded on");
+    if (extension == ".xodr") {
+        RoadWorld roads = road_world(file, run, scenario);
+        scene_ = std::move(roads.scene), notes_ = std::move(roads.notes);
+        scene_.name = file.string();
+        adopt(std::move(roads.world));
+    } else if (extension == ".json") {
         WorldFile world = read_world(file);
         LoadedScene loaded = load(world.scene, world.photometry);
         scene_ = std::move(loaded.scene), notes_ = std::move(loaded.notes);
@@ -99,7 +106,7 @@ Scenery::Scenery(const fs::path& file) {
         scene_.name = file.string();
         adopt(plain_world(scene_));
     } else {
-        throw Error(one_line(file.string()) + ": a world (.json) or a scene (.gltf, .glb) is expected");
+        throw Error(one_line(file.string()) + ": a world (.json), roads (.xodr) or a scene (.gltf, .glb) is expected");
     }
 }
 

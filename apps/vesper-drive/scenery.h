@@ -21,9 +21,10 @@ struct LampGroup {
 /// A scene that is driven in. The animations of the file do not play: what moves is the world's.
 class Scenery {
 public:
-    /// Reads a world (.json), or a scene alone (.gltf, .glb), in which one drives straight on over a plane from the first camera.
-    /// Throws Error.
-    explicit Scenery(const std::filesystem::path& file);
+    /// Reads a world (.json), roads (.xodr), or a scene alone (.gltf, .glb), in which one drives straight on over a plane from the
+    /// first camera. `run`: a run that esmini recorded on these roads, and its scenario (.xosc) where there is one; instead of
+    /// traffic. Throws Error.
+    explicit Scenery(const std::filesystem::path& file, const std::filesystem::path& run = {}, const std::filesystem::path& scenario = {});
 
     const Scene& scene() const { return scene_; }
     const std::shared_ptr<const WorldDescription>& world() const { return world_; }

@@ -6,7 +6,7 @@ namespace vesper {
 
 Session::Session(Device& device, SessionOptions options)
     : options_(std::move(options)),
-      scenery_(options_.scene),
+      scenery_(options_.scene, options_.run, options_.scenario),
       settings_(options_.settings),
       world_(std::make_unique<World>(scenery_.world(), options_.seed)),
       actors_(world_->actors()),
@@ -16,7 +16,7 @@ Session::Session(Device& device, SessionOptions options)
 
 Session::~Session() = default;
 
-DriveStart Session::start() const { return {options_.scene, options_.seed, options_.time_step, settings_.values()}; }
+DriveStart Session::start() const { return {options_.scene, options_.run, options_.scenario, options_.seed, options_.time_step, settings_.values()}; }
 
 void Session::step(const DriverInput& input) {
     input_ = input;

@@ -33,7 +33,8 @@ class DriveRecorder;
 struct DriveStart;
 
 struct SessionOptions {
-    std::filesystem::path scene;       ///< a world (.json) or a scene (.gltf, .glb)
+    std::filesystem::path scene;       ///< a world (.json), roads (.xodr) or a scene (.gltf, .glb)
+    std::filesystem::path run, scenario;  ///< as of Scenery
     uint64_t seed = 1;
     double time_step = 1.0 / 60;       ///< s
     DriveSettings::Values settings;    ///< what differs from the defaults

@@ -15,7 +15,9 @@ constexpr double kChangeSeconds = 3;        // of a change of lane
 constexpr double kPatience = 1;             // between thoughts of changing lane, s
 constexpr double kBraking = 0.7;            // deceleration beyond which the pedal is pressed, m/s^2: engines alone give about this
 constexpr double kWalkerReach = 1.2;        // beyond the edge of a lane a walker counts as on it, m
+constexpr double kRecordedReach = 0.5;      // the same of what was recorded
 constexpr double kGapSeconds = 6;           // before walkers go, nobody may be nearer in time (HCM: critical gaps of 5 to 7 s for two lanes)
+constexpr double kHidden = 50;              // m below the ground
 constexpr double kQueue = 12;              // between cars that come in anew, m
 // MOBIL (Kesting, Treiber and Helbing 2007): what others lose counts for so much, the gain must be so much, and nobody behind may
 // have to brake harder, m/s^2.
@@ -84,6 +86,13 @@ void World::occupy() {
             const double along = driver_.speed * std::cos(driver_.yaw - there.yaw);
             occupants_.push_back({lane, me.s, along, d.vehicle.length / 2, kDriver});
         }
+        for (const RecordedMover& r : d.recordings) {
+            bool there = false;
+            const Actor a = recorded(r, there);
+            if (!there) continue;
+            const Course::Beside beside = l.beside(glm::dvec2(a.position.x, a.position.z) + r.middle * glm::dvec2(-std::sin(a.yaw), -std::cos(a.yaw)));
+            if (beside.distance < l.width() / 2 + kRecordedReach) occupants_.push_back({lane, beside.s, a.speed * std::cos(a.yaw - l.at(beside.s).yaw), r.length / 2, kRecorded});
+        }
         for (size_t w = 0; w < walks_.size(); ++w) {
             if (!walks_[w].under_way) continue;
             const size_t path = d.walkers[w].path;
@@ -92,6 +101,19 @@ void World::occupy() {
             if (there.distance < l.width() / 2 + kWalkerReach && there.s > 0 && there.s < l.length()) occupants_.push_back({lane, there.s, 0, 1, kWalker});
         }
     }
+}
+
+// What is not there lies under the ground, in the dark.
+Actor World::recorded(const RecordedMover& r, bool& there) const {
+    const auto after = std::upper_bound(r.poses.begin(), r.poses.end(), seconds_, [](double t, const RecordedMover::Pose& p) { return t < p.time; });
+    there = after != r.poses.begin() && (after != r.poses.end() || seconds_ <= r.poses.back().time);
+    const RecordedMover::Pose& from = after == r.poses.begin() ? r.poses.front() : after[-1];
+    if (!there) return {.node = r.node, .position = from.position - glm::dvec3(0, kHidden, 0), .yaw = from.yaw};
+    if (after == r.poses.end()) return {r.node, from.position, from.yaw, from.pitch, from.roll, from.speed, from.lamps};
+    const double t = (seconds_ - from.time) / (after->time - from.time);
+    const auto turn = [&](double a, double b) { return a + t * std::remainder(b - a, 2 * std::numbers::pi); };
+    return {r.node, glm::mix(from.position, after->position, t), turn(from.yaw, after->yaw), turn(from.pitch, after->pitch), turn(from.roll, after->roll),
+            from.speed + t * (after->speed - from.speed), from.lamps};
 }
 
 World::Neighbour World::ahead(size_t lane, double s, double half_length, int self) const {
@@ -280,6 +302,10 @@ std::vector<Actor> World::actors() const {
         const Walk& walk = walks_[i];
         const Course::Place at = (walk.back ? back_ : d.paths)[d.walkers[i].path].at(walk.s);
         actors.push_back({.node = d.walkers[i].node, .position = at.position, .yaw = at.yaw, .speed = walk.speed});
+    }
+    for (const RecordedMover& r : d.recordings) {
+        bool there = false;
+        actors.push_back(recorded(r, there));
     }
     return actors;
 }

@@ -36,6 +36,21 @@ struct Walker {
     double s = 0;      ///< m of the path that are behind at the start; more than 0: under way
 };
 
+/// Something that moves as it did when it was recorded; it is there from its first pose to its last.
+struct RecordedMover {
+    struct Pose {
+        double time = 0;                     ///< s
+        glm::dvec3 position{0};              ///< of the node's origin, m
+        double yaw = 0, pitch = 0, roll = 0; ///< as of Actor
+        double speed = 0;                    ///< m/s
+        VehicleLamps lamps;                  ///< until the next
+    };
+    std::string node;
+    double length = 4.4;       ///< m
+    double middle = 0;         ///< of it before the node's origin, m
+    std::vector<Pose> poses;   ///< times ascending, at least one
+};
+
 /// What is there before anything moves.
 struct WorldDescription {
     std::vector<Course> lanes;
@@ -43,6 +58,7 @@ struct WorldDescription {
     std::vector<Barrier> barriers;
     std::vector<TrafficCar> cars;
     std::vector<Walker> walkers;
+    std::vector<RecordedMover> recordings;
     VehicleParameters vehicle;       ///< of the driver
     std::string driver_node;
     size_t driver_lane = 0;
@@ -72,7 +88,7 @@ public:
     const WorldDescription& description() const { return *description_; }
     size_t driver_lane() const { return driver_lane_; }  ///< the one the autopilot keeps to
     bool touched() const { return touched_; }            ///< a barrier in the last step
-    /// The driver's car first, then traffic, then walkers, in the order of the description.
+    /// The driver's car first, then traffic, walkers and recordings, in the order of the description.
     std::vector<Actor> actors() const;
 
 private:
@@ -97,7 +113,7 @@ private:
         double s, speed, half_length;
         int who;  // index of a car, or one of these
     };
-    static constexpr int kDriver = -1, kWalker = -2;
+    static constexpr int kDriver = -1, kWalker = -2, kRecorded = -3;
 
     void occupy();
     Neighbour ahead(size_t lane, double s, double half_length, int self) const;
@@ -110,6 +126,7 @@ private:
     void find_crossings(const Course& path, size_t lane);
     bool way_is_free(size_t path) const;
     Course::Place place_of(size_t car) const;
+    Actor recorded(const RecordedMover&, bool& there) const;
     double draw(double low, double high);
 
     std::shared_ptr<const WorldDescription> description_;

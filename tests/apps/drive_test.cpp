@@ -102,7 +102,7 @@ TEST(Drive, AReplayHasTheSameBytes) {
 TEST(Drive, ARecordingThatBreaksOffCanBeRead) {
     const TempFolder scratch;
     {
-        DriveRecorder recorder({.scene = kWorld, .seed = 1, .time_step = 1.0 / 60, .settings = {}});
+        DriveRecorder recorder({.scene = kWorld, .run = {}, .scenario = {}, .seed = 1, .time_step = 1.0 / 60, .settings = {}});
         recorder.open(scratch / "whole.json");
         for (const DriveEvent& event : adventure()) recorder.add(event);
         recorder.close();

@@ -31,7 +31,7 @@ constexpr Named kNames[]{{"veil", &GlareReport::veil},           {"road_veil", &
 }  // namespace
 
 void add_glare_options(CLI::App& command, GlareArguments& a) {
-    command.add_option("--lamps", a.lamps, "CSV file of lamps on other screens, to be scattered into this one with --glare cie or spencer: degrees to the right, degrees up, lx at the eye");
+    command.add_option("--lamps", a.lamps, "CSV file of lamps on other screens, to be scattered into this one with --glare cie, spencer or ward: degrees to the right, degrees up, lx at the eye");
     command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: reports how visible it is")->delimiter(',')->expected(4)->check(between(0.0, 1.0));
 }
 
@@ -76,8 +76,7 @@ GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& s
 
 Header describe_glare(const ToneChainSettings& settings, const GlareReport& report) {
     const ScatterSettings& s = settings.scatter;
-    const bool cie = s.model == ScatterSettings::Model::Cie;
-    Header header{{"vesper:glare", settings.glare == Glare::None ? "none" : settings.glare == Glare::Ldr ? "ldr" : cie ? "cie" : "spencer"},
+    Header header{{"vesper:glare", settings.glare == Glare::None ? "none" : settings.glare == Glare::Ldr ? "ldr" : name_of(s.model)},
                   {"vesper:glare:age", digits(s.eye.age)},
                   {"vesper:glare:iris", digits(s.eye.pigmentation)}};
     for (const Named& n : kNames) header.emplace_back(std::string("vesper:glare:") + n.name, digits(report.*n.value));

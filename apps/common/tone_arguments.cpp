@@ -1,5 +1,6 @@
 #include "tone_arguments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -12,7 +13,8 @@
 namespace vesper {
 namespace {
 
-const std::map<std::string, Glare> kGlares{{"none", Glare::None}, {"ldr", Glare::Ldr}, {"cie", Glare::Scatter}, {"spencer", Glare::Scatter}};
+const std::map<std::string, Glare> kGlares{{"none", Glare::None}, {"ldr", Glare::Ldr}, {"cie", Glare::Scatter}, {"spencer", Glare::Scatter}, {"ward", Glare::Scatter}};
+const std::map<std::string, ScatterSettings::Model> kScatters{{"cie", ScatterSettings::Model::Cie}, {"spencer", ScatterSettings::Model::Spencer}, {"ward", ScatterSettings::Model::Ward}};
 const std::map<std::string, SpencerState> kPupils{{"photopic", SpencerState::Photopic}, {"mesopic", SpencerState::Mesopic}, {"scotopic", SpencerState::Scotopic}};
 
 Display display_of(const ToneArguments& arguments) {
@@ -33,7 +35,7 @@ Display display_of(const ToneArguments& arguments) {
 
 void add_tone_options(CLI::App& command, ToneArguments& a) {
     add_eye_options(command, a.eye, a.histogram, a.tone);
-    command.add_option("--glare", a.glare, "Light scattered in the eye: cie (CIE 135/1 total glare function), spencer (1995), both in cd/m^2 before the operator; ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr", "cie", "spencer"}))->capture_default_str();
+    command.add_option("--glare", a.glare, "Light scattered in the eye: cie (CIE 135/1 total glare function), spencer (1995), ward (the veil of 1997), all in cd/m^2 before the operator; ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr", "cie", "spencer", "ward"}))->capture_default_str();
     command.add_option("--iris", a.iris, "cie: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")->check(between(0.0, 1.5))->capture_default_str();
     command.add_option("--pupil", a.pupil, "spencer: of what size, for the eye's adaptation")->check(CLI::IsMember({"photopic", "mesopic", "scotopic"}))->capture_default_str();
     command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
@@ -56,7 +58,7 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
 ToneChainSettings tone_settings(const ToneArguments& arguments) {
     ToneChainSettings settings;
     settings.glare = kGlares.at(arguments.glare);
-    settings.scatter = {arguments.glare == "spencer" ? ScatterSettings::Model::Spencer : ScatterSettings::Model::Cie, {arguments.tone.observer.age, arguments.iris}, kPupils.at(arguments.pupil)};
+    settings.scatter = {settings.glare == Glare::Scatter ? kScatters.at(arguments.glare) : ScatterSettings::Model::Cie, {arguments.tone.observer.age, arguments.iris}, kPupils.at(arguments.pupil)};
     settings.histogram = arguments.histogram;
     settings.tone = arguments.tone;
     apply(arguments.eye, settings);
@@ -68,6 +70,10 @@ ToneChainSettings tone_settings(const ToneArguments& arguments) {
     if (settings.glare == Glare::Scatter && settings.tone_operator == Operator::Ldr) throw Error("--glare " + arguments.glare + ": the ldr operator has no luminances to scatter");
     settings.display = display_of(arguments);
     return settings;
+}
+
+std::string name_of(ScatterSettings::Model wanted) {
+    return std::find_if(kScatters.begin(), kScatters.end(), [&](const auto& named) { return named.second == wanted; })->first;
 }
 
 std::string name_of(Operator wanted) { return std::string(operator_info(wanted).name); }

@@ -43,6 +43,7 @@ std::vector<glm::vec4> transposed(const std::vector<float>& matrix, size_t rows)
 
 EyeScatter eye_scatter(const ScatterSettings& settings) {
     if (settings.model == ScatterSettings::Model::Cie) return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
+    if (settings.model == ScatterSettings::Model::Ward) return EyeScatter(ward_veil);
     return EyeScatter([w = spencer_weights(settings.state)](double theta) { return spencer_smooth_glare(theta, w); });
 }
 

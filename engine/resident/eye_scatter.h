@@ -11,7 +11,7 @@ namespace vesper {
 
 /// Which published function scatters, and in whose eye.
 struct ScatterSettings {
-    enum class Model : uint8_t { Cie, Spencer };
+    enum class Model : uint8_t { Cie, Spencer, Ward };
     Model model = Model::Cie;
     ScatteringEye eye;                             ///< CIE
     SpencerState state = SpencerState::Photopic;   ///< Spencer; without its halo and needles

@@ -41,10 +41,8 @@ public:
     const ImageAngles& image() const { return image_; }
     int levels() const { return levels_; }
     glm::ivec2 nodes() const { return nodes_; }
-    uint32_t node_texels() const;                ///< of the taps of one node
-    static uint32_t first_texel(int level);      ///< of a level's taps among them
-    Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node
-    Texels top() const { return top_texels_; }    ///< r32f, for each texel that gives those that take
+    Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node, level by level (shared/scatter.h)
+    Texels top() const { return top_texels_; }    ///< rgba32f, for each texel that gives those that take, by four
 
     /// Lamps whose light begins at a level, two texels each (shared/scatter.h).
     std::vector<glm::vec4> lamps_of(int level, const std::vector<OutsideLamp>&) const;

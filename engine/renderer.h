@@ -79,8 +79,10 @@ private:
     float ambient_illuminance_, sky_luminance_;
     glm::vec3 ambient_colour_, sky_colour_;
     ScatterCache scatter_;
+    CoronaCache corona_;
     Executor executor_;
     std::optional<shared::EyeState> eye_;  // set for the next frame
+    shared::EyeState last_eye_{};          // what the last frame left
     std::string plan_;
 };
 

@@ -1,6 +1,7 @@
 #include "glare_arguments.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -26,7 +27,8 @@ constexpr Named kNames[]{{"veil", &GlareReport::veil},           {"road_veil", &
                          {"ti", &GlareReport::increment},        {"background", &GlareReport::background},
                          {"glare_lux", &GlareReport::illuminance}, {"target", &GlareReport::target},
                          {"around", &GlareReport::around},       {"target_veil", &GlareReport::target_veil},
-                         {"visibility", &GlareReport::visibility}};
+                         {"visibility", &GlareReport::visibility}, {"pupil", &GlareReport::pupil},
+                         {"eye_seed", &GlareReport::eye_seed}};
 
 }  // namespace
 
@@ -71,13 +73,16 @@ GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& s
     for (const OutsideLamp& lamp : outside) lights.push_back({lamp.direction, luminance(lamp.illuminance)});
     GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze), .source_luminance = kSourceContrast * double(shown.curve.log_average)};
     if (const auto& t = arguments.target; t.size() == 4) question.target = MarkedTarget{{t[0], t[1]}, {t[2], t[3]}};
-    return report_glare(image, shown.scene, lights, question);
+    GlareReport report = report_glare(image, shown.scene, lights, question);
+    report.pupil = shown.pupil;
+    if (settings.glare == Glare::Scatter && settings.scatter.has_corona()) report.eye_seed = settings.scatter.aperture.seed;
+    return report;
 }
 
 Header describe_glare(const ToneChainSettings& settings, const GlareReport& report) {
+    constexpr std::array kModels{"cie", "spencer", "temporal"};
     const ScatterSettings& s = settings.scatter;
-    const bool cie = s.model == ScatterSettings::Model::Cie;
-    Header header{{"vesper:glare", settings.glare == Glare::None ? "none" : settings.glare == Glare::Ldr ? "ldr" : cie ? "cie" : "spencer"},
+    Header header{{"vesper:glare", settings.glare == Glare::None ? "none" : settings.glare == Glare::Ldr ? "ldr" : kModels[size_t(s.model)]},
                   {"vesper:glare:age", digits(s.eye.age)},
                   {"vesper:glare:iris", digits(s.eye.pigmentation)}};
     for (const Named& n : kNames) header.emplace_back(std::string("vesper:glare:") + n.name, digits(report.*n.value));

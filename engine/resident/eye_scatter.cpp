@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "perception/glare_pattern.h"
 #include "resident/resident_scene.h"
 #include "shared/scatter.h"
 
@@ -44,8 +45,8 @@ std::vector<float> transposed(const std::vector<float>& matrix, size_t rows) {
 }  // namespace
 
 EyeScatter eye_scatter(const ScatterSettings& settings) {
-    if (settings.model == ScatterSettings::Model::Cie) return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
-    return EyeScatter([w = spencer_weights(settings.state)](double theta) { return spencer_smooth_glare(theta, w); });
+    if (settings.model == ScatterSettings::Model::Spencer) return EyeScatter([state = settings.state](double theta) { return spencer_veil(theta, state); });
+    return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
 }
 
 ImageAngles angles_of(const View& view) {

@@ -44,21 +44,21 @@ bool cone_reaches(int light) {
     const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
     const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
     const float lobe_b = texelFetch(lights, light * int(kTexelsPerLight) + 2).w;
-    const float largest = a.w * largest_cone(b.w, lobe_b, nearest_cosine(a.xyz, b.xyz, centre, radius));
+    const float largest = a.w * largest_cone(b.w, lobe_b, cosines_to(a.xyz, b.xyz, centre, radius).x);
     return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
 bool map_reaches(int light) {
     const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
     const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
-    const float largest = a.w * largest_map(maps, b.w, nearest_cosine(a.xyz, b.xyz, centre, radius));
+    const float largest = a.w * largest_map(maps, b.w, cosines_to(a.xyz, b.xyz, centre, radius));
     return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
 bool power_reaches(int light) {
     const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
     const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
-    const float largest = a.w * largest_power(b.w, nearest_cosine(a.xyz, b.xyz, centre, radius));
+    const float largest = a.w * largest_power(b.w, cosines_to(a.xyz, b.xyz, centre, radius).x);
     return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
 }
 

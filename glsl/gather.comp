@@ -110,10 +110,11 @@ float widest_cone(Lamp lamp, bool cone) {
     return min(0.5 * beam, kWidestCone);
 }
 
-// Adds a lamp if it is smooth over the plane. Returns whether it stays on the list.
+// Adds a lamp if it is smooth over the plane: wrong by at most the tolerance, or by a quarter of the threshold, below which lamps are left out
+// anyway. Such a lamp counts where it gives less than that, too. Returns whether it stays on the list.
 bool remains(Lamp lamp, bool cone) {
     float value[kPoints];
-    bool all_count = true, none_counts = true, even = true;
+    bool lit = true, none_counts = true, even = true;
     float least = 1e30, nearest = 0.0;  // the inverse of a distance
     [[unroll]] for (uint k = 0u; k < kPoints; ++k) {
         const vec3 to = lamp.position - points[k];
@@ -121,11 +122,10 @@ bool remains(Lamp lamp, bool cone) {
         const float normal_light = dot(normal, to) * inverse;
         const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone);
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
-        const bool counts_here = facing * (paved ? 1.0 : normal_light) >= push.view.threshold && normal_light > 0.0;
         float weight = normal_light;
         if (kRoads != 0u) weight = paved ? road_coefficient(roads[k], to, inverse, normal_light) : weight;
         value[k] = facing * weight;
-        all_count = all_count && counts_here;
+        lit = lit && relative > 0.0 && normal_light > 0.0;
         // Where it is dark a beam may still reach in between the points.
         none_counts = none_counts && (normal_light <= 0.0 || (relative > 0.0 && 2.0 * facing * (paved ? 1.0 : normal_light) < push.view.threshold));
         // Light that grazes sees the least unevenness.
@@ -136,7 +136,7 @@ bool remains(Lamp lamp, bool cone) {
     float error = 0.0;
     [[unroll]] for (uint k = kNodes; k < kPoints; ++k) error = max(error, abs(between(value, k) - value[k]));
     const bool resolved = radius * nearest <= widest_cone(lamp, cone);
-    const bool taken = resolved && even && all_count && error <= push.tolerance * least;
+    const bool taken = resolved && even && lit && error <= max(push.tolerance * least, 0.25 * push.view.threshold);
     [[unroll]] for (uint k = 0u; k < kNodes; ++k) sum[k] += lamp.colour * (taken ? value[k] : 0.0);
     return !(taken || (resolved && none_counts));
 }

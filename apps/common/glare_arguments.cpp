@@ -1,7 +1,6 @@
 #include "glare_arguments.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -33,7 +32,7 @@ constexpr Named kNames[]{{"veil", &GlareReport::veil},           {"road_veil", &
 }  // namespace
 
 void add_glare_options(CLI::App& command, GlareArguments& a) {
-    command.add_option("--lamps", a.lamps, "CSV file of lamps on other screens, to be scattered into this one with --glare cie or spencer: degrees to the right, degrees up, lx at the eye");
+    command.add_option("--lamps", a.lamps, "CSV file of lamps on other screens, to be scattered into this one with --glare cie, spencer or ward: degrees to the right, degrees up, lx at the eye");
     command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: reports how visible it is")->delimiter(',')->expected(4)->check(between(0.0, 1.0));
 }
 
@@ -80,9 +79,8 @@ GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& s
 }
 
 Header describe_glare(const ToneChainSettings& settings, const GlareReport& report) {
-    constexpr std::array kModels{"cie", "spencer", "temporal"};
     const ScatterSettings& s = settings.scatter;
-    Header header{{"vesper:glare", settings.glare == Glare::None ? "none" : settings.glare == Glare::Ldr ? "ldr" : kModels[size_t(s.model)]},
+    Header header{{"vesper:glare", settings.glare == Glare::None ? "none" : settings.glare == Glare::Ldr ? "ldr" : name_of(s.model)},
                   {"vesper:glare:age", digits(s.eye.age)},
                   {"vesper:glare:iris", digits(s.eye.pigmentation)}};
     for (const Named& n : kNames) header.emplace_back(std::string("vesper:glare:") + n.name, digits(report.*n.value));

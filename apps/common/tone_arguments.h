@@ -30,6 +30,7 @@ ToneChainSettings tone_settings(const ToneArguments&);
 
 /// The name an operator has on the command line.
 std::string name_of(Operator);
+std::string name_of(ScatterSettings::Model);
 /// What a picture's header should say of how it is shown.
 Header describe_tone(const ToneChainSettings&, const ToneMapped&);
 /// Nine digits, as in headers.

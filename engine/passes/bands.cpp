@@ -5,16 +5,16 @@ namespace vesper {
 
 Resource add_bands(FrameGraph& graph, const Kernels& kernels, Resource scene, const Pyramid& pyramid, uint32_t foveal_level, Resource curve, uint32_t tone, float cone_break, VkExtent2D extent) {
     Resource shown;
-    for (uint32_t level = foveal_level; level-- > 0;) {
-        const bool topmost = level + 1 == foveal_level, finest = level == 0;
-        const Resource finer = finest ? scene : pyramid.levels[level - 1], coarser = pyramid.levels[level];
-        const VkExtent2D size = finest ? extent : pyramid.extents[level - 1], above = pyramid.extents[level];
-        const Resource made = graph.transient(finest ? "bands" : "bands " + std::to_string(level), image_shape(kSceneFormat, size));
-        const Kernel& kernel = kernels.bands({tone, topmost, finest});
-        graph.dispatch(finest ? "bands" : "bands " + std::to_string(level), kernel, {load(finer), load(coarser), load(topmost ? coarser : shown), sample(curve), store(made)},
-                       shared::BandsPush{{size.width, size.height}, {above.width, above.height}, cone_break},
-                       cover(size.width, size.height, kernel.group[0], kernel.group[1]));
-        shown = made;
+    for (uint32_t level = foveal_level + 1; level-- > 0;) {
+        const uint32_t band = level == foveal_level ? shared::kBandTop : level > 0 ? shared::kBandMiddle : shared::kBandFinest;
+        const Resource here = level == 0 ? scene : pyramid.levels[level - 1], above = band == shared::kBandTop ? here : shown;
+        const VkExtent2D size = level == 0 ? extent : pyramid.extents[level - 1], coarse = pyramid.extents[std::min(level, foveal_level - 1)];
+        const std::string name = level == 0 ? "bands" : "bands " + std::to_string(level);
+        shown = graph.transient(name, image_shape(kSceneFormat, size));
+        const Kernel& kernel = kernels.bands({tone, band});
+        graph.dispatch(name, kernel, {load(here), load(above), sample(curve), store(shown)},
+                       shared::BandsPush{{size.width, size.height}, {coarse.width, coarse.height}, cone_break},
+                       cover(size.width / 2 + 1, size.height / 2 + 1, kernel.group[0], kernel.group[1]));
     }
     return shown;
 }

@@ -1,5 +1,5 @@
 // Every pass of the frame: its inputs, its output, its settings. SPDX-License-Identifier: MIT
-// Pixels count from the top left. RGB is linear Rec. 709; luminance is 0.2126 R + 0.7152 G + 0.0722 B.
+// Pixels count from the top left. RGB is linear Rec. 709; luminance is 0.212639 R + 0.715169 G + 0.072192 B.
 #pragma once
 
 #include <algorithm>
@@ -205,8 +205,8 @@ Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource 
                           uint32_t foveal_level, const shared::EyeState* remembered = nullptr, const Colours& colours = {});
 
 /// The scene as bands of contrast between the levels of the pyramid (log averages), up to the foveal one, each with the visibility
-/// level it has in the scene: contrast over what cones adapted to the level above just see (Ferwerda et al. 1996; Grave and
-/// Bremond 2008, reconstructed). What is above is mapped by `curve`. rgba32f, cd/m^2 on the display, before its limits.
+/// level it has in the scene: contrast over what cones adapted to a texel of the level above just see (Ferwerda et al. 1996; Grave and
+/// Bremond 2008, reconstructed), linear between such texels. What is above is mapped by `curve`. rgba32f, cd/m^2 on the display, before its limits.
 /// `tone`: kToneCurve and how dim light is perceived. `cone_break`: as ToneParameters has it.
 Resource add_bands(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, uint32_t foveal_level, Resource curve, uint32_t tone, float cone_break,
                    VkExtent2D extent);

@@ -78,7 +78,15 @@ double ring(const std::function<double(double)>& psf, double low, double high) {
     return std::numbers::pi * (high - low) * kDegree * sum;
 }
 
+double ward_scattered(double t) { return std::cos(t * kDegree) / square(std::max(t, 0.5)); }
+
 }  // namespace
+
+double ward_veil(double t) {
+    constexpr double kCore = 0.005;  // deg: far below any pixel
+    static const double scattered = EyeScatter(ward_scattered).total();
+    return 0.92 * std::exp(-square(t / kCore)) / (std::numbers::pi * square(kCore * kDegree)) + 0.08 * ward_scattered(t) / scattered;
+}
 
 EyeScatter::EyeScatter(std::function<double(double)> psf) : psf_(std::move(psf)), angles_{0}, sums_{0} {
     for (int i = 0; angles_.back() < 90; ++i) {

@@ -40,6 +40,10 @@ double spencer_smooth_glare(double theta, const SpencerWeights&);
 /// The sum of the weighted parts.
 double spencer_glare(double theta, SpencerState, double nanometres = 568);
 
+/// Ward Larson, Rushmeier and Piatko 1997 (their program: `pcond -v`): 0.92 stays and 0.08 is scattered as cos(theta) / theta^2 from
+/// half a degree on, the radius of the fovea, and evenly within it. Integrates to 1.
+double ward_veil(double theta);
+
 /// A point spread function about its axis, scaled so that it integrates to 1 over the hemisphere: it moves light, and makes none.
 class EyeScatter {
 public:

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "io/primaries.h"
+
 namespace vesper {
 namespace {
 
@@ -28,16 +30,12 @@ double black_body(double nanometres, double kelvin) {
     return std::pow(560e-9 / metres, 5) * std::expm1(kSecondRadiation / (560e-9 * kelvin)) / std::expm1(kSecondRadiation / (metres * kelvin));
 }
 
-glm::dvec3 rec709_of_xyz(glm::dvec3 c) {
-    return {3.2404542 * c.x - 1.5371385 * c.y - 0.4985314 * c.z, -0.9692660 * c.x + 1.8760108 * c.y + 0.0415560 * c.z,
-            0.0556434 * c.x - 0.2040259 * c.y + 1.0572252 * c.z};
-}
-
 std::array<glm::dvec3, kWavelengths> white_light() {
     std::array<glm::dvec3, kWavelengths> parts;
+    const glm::dmat3 rec709 = to_rec709(kXyz);
     glm::dvec3 sum(0);
     for (int i = 0; i < kWavelengths; ++i) {
-        parts[size_t(i)] = black_body(wavelength(i), 6500) * rec709_of_xyz(kObserver[size_t(i)]);
+        parts[size_t(i)] = black_body(wavelength(i), 6500) * (rec709 * kObserver[size_t(i)]);
         sum += parts[size_t(i)];
     }
     for (glm::dvec3& part : parts) part /= sum;

@@ -17,9 +17,6 @@ extern const std::array<glm::dvec3, kWavelengths> kObserver;
 /// Radiance of a black body (Planck) over that at 560 nm.
 double black_body(double nanometres, double kelvin);
 
-/// Linear Rec. 709 of CIE 1931 XYZ (IEC 61966-2-1).
-glm::dvec3 rec709_of_xyz(glm::dvec3 xyz);
-
 /// Which part of R, G and B of white light (a black body of 6500 K) each wavelength makes: each channel's sum is 1. Parts may be negative.
 std::array<glm::dvec3, kWavelengths> white_light();
 

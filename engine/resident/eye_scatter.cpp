@@ -46,6 +46,7 @@ std::vector<float> transposed(const std::vector<float>& matrix, size_t rows) {
 
 EyeScatter eye_scatter(const ScatterSettings& settings) {
     if (settings.model == ScatterSettings::Model::Spencer) return EyeScatter([state = settings.state](double theta) { return spencer_veil(theta, state); });
+    if (settings.model == ScatterSettings::Model::Ward) return EyeScatter(ward_veil);
     return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
 }
 

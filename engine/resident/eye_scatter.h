@@ -12,14 +12,14 @@ namespace vesper {
 
 /// Which published function scatters, and in whose eye.
 struct ScatterSettings {
-    enum class Model : uint8_t { Cie, Spencer, Temporal };
+    enum class Model : uint8_t { Cie, Spencer, Ward, Temporal };
     Model model = Model::Cie;
     ScatteringEye eye;                             ///< CIE; Temporal, whose mean it is
     SpencerState state = SpencerState::Photopic;   ///< Spencer
     ApertureSettings aperture;                     ///< Temporal; Spencer's needles have its seed
 
     /// Whether bright lamps have needles and a halo (perception/glare_pattern.h).
-    bool has_corona() const { return model != Model::Cie; }
+    bool has_corona() const { return model == Model::Spencer || model == Model::Temporal; }
     bool operator==(const ScatterSettings&) const = default;
 };
 

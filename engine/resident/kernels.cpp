@@ -93,7 +93,7 @@ const Kernel& Kernels::bright(uint32_t tone) const {
 }
 
 const Kernel& Kernels::bands(const BandsVariant& variant) const {
-    return once(bands_, variant, [&] { return Kernel(device_, "bands.comp", bands_comp, {variant.tone, variant.topmost, variant.finest}); });
+    return once(bands_, variant, [&] { return Kernel(device_, "bands.comp", bands_comp, {variant.tone, variant.band}); });
 }
 
 const Kernel& Kernels::composite(const CompositeVariant& variant) const {

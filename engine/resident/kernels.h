@@ -37,7 +37,7 @@ struct Kernels {
     /// What bands.comp has code for. Made when first asked for.
     struct BandsVariant {
         uint32_t tone = 0;  ///< shared::kTone*
-        bool topmost = false, finest = false;
+        uint32_t band = 0;  ///< shared::kBand*
         auto operator<=>(const BandsVariant&) const = default;
     };
     const Kernel& bands(const BandsVariant&) const;

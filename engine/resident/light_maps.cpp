@@ -107,8 +107,36 @@ private:
     std::vector<float> values_;
 };
 
-// sin(a / 2) of the angle between a direction and the axis -Z.
-double sin_half(glm::dvec3 d) { return std::sqrt(std::max(0.0, (1 + d.z / glm::length(d)) / 2)); }
+// The least and the greatest cosine from one angle to another, deg.
+glm::dvec2 cosines(double low, double high) {
+    const double a = std::cos(glm::radians(low)), b = std::cos(glm::radians(high));
+    const auto passes = [&](double angle) { return angle + 360 * std::ceil((low - angle) / 360) <= high; };
+    return {passes(180) ? -1 : std::min(a, b), passes(0) ? 1 : std::max(a, b)};
+}
+
+// sin(a / 2) of the least and of the largest angle between a direction of a cell and the axis -Z, of which the cosine is that of the
+// polar angle in type C, and sin(polar) cos(azimuth) in the others. Angles in deg.
+glm::dvec2 angles_from_axis(Goniometry goniometry, glm::dvec2 azimuth, glm::dvec2 polar) {
+    polar = glm::clamp(polar, 0.0, 180.0);
+    glm::dvec2 cosine = cosines(polar.x, polar.y);
+    if (goniometry != Goniometry::CGamma) {
+        const glm::dvec2 turn = cosines(azimuth.x, azimuth.y), sine = cosines(polar.x - 90, polar.y - 90);
+        cosine = {turn.x * (turn.x > 0 ? sine.x : sine.y), turn.y * (turn.y > 0 ? sine.y : sine.x)};
+    }
+    return glm::sqrt(glm::max(glm::dvec2(1 - cosine.y, 1 - cosine.x) / 2.0, 0.0));
+}
+
+// The rows of the envelope, from the first.
+std::vector<glm::vec4> envelope_rows(const std::array<float, shared::kEnvelope>& rings) {
+    std::vector<glm::vec4> rows;
+    for (const float value : rings) rows.emplace_back(value * 1.001f);
+    for (uint32_t row = 1; row < shared::kEnvelopeRows; ++row)
+        for (uint32_t k = 0; k < shared::kEnvelope; ++k) {
+            const uint32_t before = (row - 1) * shared::kEnvelope, half = 1u << (row - 1);
+            rows.push_back(glm::max(rows[before + k], rows[before + std::min(k + half, shared::kEnvelope - 1)]));
+        }
+    return rows;
+}
 
 LightMaps::Intensities add_intensities(const Distribution& d, std::vector<glm::vec4>& texels) {
     LightMaps::Intensities map;
@@ -124,7 +152,7 @@ LightMaps::Intensities add_intensities(const Distribution& d, std::vector<glm::v
         throw Error("the light distribution '" + d.name + "' is too fine: " + std::to_string(map.cells.x) + " x " + std::to_string(map.cells.y) + " cells");
 
     const Grid grid(d, range, largest);
-    std::array<float, shared::kEnvelope> envelope{};
+    std::array<float, shared::kEnvelope> rings{};
     std::vector<glm::vec4> cells;
     for (int64_t i = 0; i < map.cells.x; ++i)
         for (int64_t j = 0; j < map.cells.y; ++j) {
@@ -132,18 +160,13 @@ LightMaps::Intensities add_intensities(const Distribution& d, std::vector<glm::v
             cells.push_back(corners);
             const float value = std::max({corners.x, corners.y, corners.z, corners.w});
             if (!(value > 0)) continue;
-            double farthest = 0;
-            for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}})
-                farthest = std::max(farthest, sin_half(direction(d.goniometry, range.azimuth.at(i - 1 + di), std::clamp(range.polar.at(j - 1 + dj), 0.0, 180.0))));
-            // Between its corners a cell may bulge away from the axis, by less than its own diagonal.
-            const double bulge = 0.5 * glm::length(map.step);
-            const auto bin = std::min(uint32_t((farthest + bulge) * shared::kEnvelope), shared::kEnvelope - 1);
-            envelope[bin] = std::max(envelope[bin], value);
+            const auto span = [](const Nodes& nodes, int64_t first) { return glm::dvec2(nodes.at(first), nodes.at(first + 1)); };
+            const glm::dvec2 angles = angles_from_axis(d.goniometry, span(range.azimuth, i - 1), span(range.polar, j - 1)) * double(shared::kEnvelope);
+            for (auto ring = uint32_t(angles.x); ring <= std::min(uint32_t(angles.y), shared::kEnvelope - 1); ++ring) rings[ring] = std::max(rings[ring], value);
         }
-    for (uint32_t bin = shared::kEnvelope - 1; bin-- > 0;) envelope[bin] = std::max(envelope[bin], envelope[bin + 1]);
-
     map.envelope = uint32_t(texels.size());
-    for (const float value : envelope) texels.emplace_back(value * 1.001f);
+    const std::vector<glm::vec4> envelope = envelope_rows(rings);
+    texels.insert(texels.end(), envelope.begin(), envelope.end());
     map.first = uint32_t(texels.size());
     texels.insert(texels.end(), cells.begin(), cells.end());
     return map;

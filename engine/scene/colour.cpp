@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "io/primaries.h"
 #include "photometry/observer.h"
 
 namespace vesper {
@@ -19,13 +20,12 @@ glm::dvec3 xyz_of_black_body(double kelvin) {
 
 glm::vec3 colour_of_temperature(double kelvin) {
     if (!(kelvin >= 1000 && kelvin <= 25000)) throw Error("colour temperature must be from 1000 to 25000 K");
-    const glm::dvec3 rgb = glm::max(rec709_of_xyz(xyz_of_black_body(kelvin)), glm::dvec3(0));
+    const glm::dvec3 rgb = glm::max(to_rec709(kXyz) * xyz_of_black_body(kelvin), glm::dvec3(0));
     return glm::vec3(rgb / luminance(rgb));
 }
 
 glm::dvec2 chromaticity(glm::dvec3 c) {
-    const glm::dvec3 xyz(0.4124564 * c.r + 0.3575761 * c.g + 0.1804375 * c.b, 0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b,
-                         0.0193339 * c.r + 0.1191920 * c.g + 0.9503041 * c.b);
+    const glm::dvec3 xyz = glm::inverse(to_rec709(kXyz)) * c;
     const double sum = xyz.x + xyz.y + xyz.z;
     return sum == 0 ? glm::dvec2(0) : glm::dvec2(xyz) / sum;
 }

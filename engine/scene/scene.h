@@ -103,7 +103,7 @@ struct Light {
     Kind kind = Kind::Point;
     float intensity = 0;        ///< on the axis, cd; Directional: illuminance on a surface facing it, lx; Measured: factor
                                 ///< on the candela of the distribution (flux scale, maintenance factor, dimming)
-    glm::vec3 colour{1};        ///< linear Rec. 709 of luminance 1: (0.2126, 0.7152, 0.0722) . colour == 1
+    glm::vec3 colour{1};        ///< linear Rec. 709 of luminance 1: (0.212639, 0.715169, 0.072192) . colour == 1
     float inner_cone = 0;       ///< Spot: half angle of full intensity, rad
     float outer_cone = 0.785f;  ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
     float exponent = 1;         ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind

@@ -4,9 +4,12 @@
 #include "types.h"
 SHARED_BEGIN
 
+// The topmost level, one below it, or pixels.
+const uint kBandTop = 0u, kBandMiddle = 1u, kBandFinest = 2u;
+
 struct BandsPush {
-    uvec2 size;         // texels of the finer level, or px
-    uvec2 coarse_size;  // texels of the level above
+    uvec2 size;         // texels of the level, or px
+    uvec2 above_size;   // texels of the level above
     float cone_break;   // log10 L from which Weber's law holds
 };
 SHARED_SIZE(BandsPush, 20)

@@ -9,9 +9,9 @@ SHARED_BEGIN
 // Intensities relative to the largest, over azimuth about the pole of the measurement and the angle from that pole, with
 // one more cell before and behind in either direction: what lies outside the measured range. See Light.
 
-// The largest relative intensity beyond an angle a from the axis, for a culling that may not lose anything: texel k is for
-// sin(a / 2) * kEnvelope >= k, rounded up.
-const uint kEnvelope = 64u;
+// The largest relative intensity of some rings about the axis, for a culling that may not lose anything: ring k has angles a with
+// sin(a / 2) * kEnvelope from k to k + 1, and texel k of row l is for the 2^l rings from k on.
+const uint kEnvelope = 64u, kEnvelopeRows = 7u;
 
 // r x 1e4 (sr^-1) of a road surface over tan(gamma), 0 to that of the table's last row, and beta, a degree a cell; the nodes
 // of the standard tables are among its own. Before the cells one texel: cells per unit of tan(gamma), and the last

@@ -120,7 +120,7 @@ TEST_F(Inspect, APicture) {
     EXPECT_EQ(found["luminance"]["non_finite_pixels"], 1);
     EXPECT_EQ(found["luminance"]["negative_pixels"], 1);
     EXPECT_EQ(found["luminance"]["zero_pixels"], 1);
-    EXPECT_NEAR(found["probes"][0]["luminance"].get<double>(), 4 * 0.2126 + 0.7152, 1e-5);
+    EXPECT_NEAR(found["probes"][0]["luminance"].get<double>(), 4 * 0.212639 + 0.715169, 1e-5);
     EXPECT_NEAR(found["probes"][1]["chromaticity"][0].get<double>(), 0.3127, 1e-3);  // D65
     EXPECT_NEAR(found["probes"][1]["chromaticity"][1].get<double>(), 0.3290, 1e-3);
     // Twice the unit is twice the luminance.

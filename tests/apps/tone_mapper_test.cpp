@@ -78,7 +78,7 @@ TEST_F(ToneMapperTest, LightOfTheDisplayGoesBeyondWhite) {
     const ToneMapped got = mapper.map(settings, {.extent = {2, 1}, .values = rgb}, 0, {.light = true});
     const double low = double(settings.display.low()), high = double(settings.display.high());
     ASSERT_EQ(got.light.size(), 8u);
-    EXPECT_NEAR(double(got.light[2]), low + (high - low) / 0.0722, 0.05);
+    EXPECT_NEAR(double(got.light[2]), low + (high - low) / 0.072192, 0.05);
     EXPECT_NEAR(double(got.light[0]), low, 1e-5);
     EXPECT_EQ(got.display[2], 255);
 }

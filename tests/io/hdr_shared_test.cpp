@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 const fs::path kHdr = shared_data("hdr");
 
-/// Positive luminances, ascending.
+/// Positive luminances, ascending; the weights are those of the list.
 std::vector<double> luminances(const HdrImage& image) {
     std::vector<double> found;
     for (size_t i = 0; i < image.rgb.size(); i += 3) {

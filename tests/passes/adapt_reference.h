@@ -56,7 +56,7 @@ inline dvec3 lagging_node(const pattanaik::Appearance& appearance, uint32_t i, c
 
 /// Responses of cones to linear Rec. 709: XYZ (IEC 61966-2-1) through Estevez 1979.
 inline dvec3 cone_responses(dvec3 rgb) {
-    const glm::dmat3 xyz = glm::transpose(glm::dmat3(0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505));
+    const glm::dmat3 xyz = glm::transpose(glm::dmat3(0.412391, 0.357584, 0.180481, 0.212639, 0.715169, 0.072192, 0.019331, 0.119195, 0.950532));
     const glm::dmat3 estevez = glm::transpose(glm::dmat3(0.38971, 0.68898, -0.07868, -0.22981, 1.18340, 0.04641, 0, 0, 1));
     return estevez * (xyz * rgb);
 }

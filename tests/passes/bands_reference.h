@@ -27,10 +27,19 @@ double expanded(const PyramidLevel& level, uint32_t x, uint32_t y, const Value& 
     return weights > 0 ? sum / weights : 0;
 }
 
+/// ln of display luminance, cd/m^2, at luminance `ln` as a texel sees it, of log average `adapted`, shown at `shown`.
+inline double seen_from(double ln, double adapted, double shown, const shared::ToneCurve& curve, ThresholdBreaks breaks, double& terms) {
+    const auto just_seen = [&](double l) { return cone_threshold(std::exp(l), breaks) / std::exp(l); };
+    const double steepness = just_seen(node_at(std::exp(adapted), curve).x) / just_seen(adapted);
+    terms = std::abs(shown) + (1 + std::abs(ln) + std::abs(adapted)) * steepness;
+    return shown + (ln - adapted) * steepness;
+}
+
 /// Of pixels with `luminance`, of which `levels` is the pyramid; bands up to level `top`, 1-based.
 inline Bands bands(const std::vector<double>& luminance, uint32_t width, uint32_t height, const std::vector<PyramidLevel>& levels, uint32_t top,
                    const shared::ToneCurve& curve, ThresholdBreaks breaks) {
     Bands above;
+    for (const dvec4& texel : levels[top - 1].texels) above.shown.push_back(node_at(std::exp(texel.z), curve).x), above.terms.push_back(std::abs(above.shown.back()));
     for (uint32_t k = top; k-- > 0;) {
         const PyramidLevel& coarse = levels[k];
         const uint32_t w = k > 0 ? levels[k - 1].width : width, h = k > 0 ? levels[k - 1].height : height;
@@ -38,13 +47,10 @@ inline Bands bands(const std::vector<double>& luminance, uint32_t width, uint32_
         for (uint32_t y = 0; y < h; ++y)
             for (uint32_t x = 0; x < w; ++x) {
                 const double ln = k > 0 ? levels[k - 1].at(x, y).z : std::log(std::max(luminance[size_t(y) * w + x], kFloor));
-                const double adapted = expanded(coarse, x, y, [&](size_t i) { return coarse.texels[i].z; }), adapted_shown = node_at(std::exp(adapted), curve).x;
-                const auto just_seen = [&](double ln_l) { return cone_threshold(std::exp(ln_l), breaks) / std::exp(ln_l); };
-                const double steepness = just_seen(adapted_shown) / just_seen(adapted);
-                const bool topmost = k + 1 == top;
-                const double base = topmost ? adapted_shown : expanded(coarse, x, y, [&](size_t i) { return above.shown[i]; });
-                here.shown.push_back(std::min(base + (ln - adapted) * steepness, std::log(1e6)));
-                here.terms.push_back((topmost ? std::abs(adapted_shown) : expanded(coarse, x, y, [&](size_t i) { return above.terms[i]; })) + (1 + std::abs(ln) + std::abs(adapted)) * steepness);
+                double terms = 0;
+                const auto parent = [&](size_t i) { return seen_from(ln, coarse.texels[i].z, above.shown[i], curve, breaks, terms); };
+                here.shown.push_back(std::min(expanded(coarse, x, y, parent), std::log(1e6)));
+                here.terms.push_back(expanded(coarse, x, y, [&](size_t i) { return parent(i), terms + above.terms[i]; }));
             }
         above = std::move(here);
     }

@@ -78,16 +78,20 @@ inline std::array<dvec2, 4> between_nodes(const Block& block) {
     return {first + dvec2(1, 1), first + dvec2(6, 1), first + dvec2(1, 6), first + dvec2(6, 6)};
 }
 
-/// The largest error of the polynomial there, relative to the least value at nodes and these pixels.
-inline double roughness_of(const Block& block, const OfPlace& f) {
-    double error = 0, least = 1e300;
-    for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) least = std::min(least, f(node(block, i, j)));
+/// Of nodes and these pixels.
+struct Extremes {
+    double error = 0;  ///< the largest of the polynomial, at the pixels
+    double least = 1e300;
+};
+inline Extremes extremes_of(const Block& block, const OfPlace& f) {
+    Extremes found;
+    const auto look_at = [&](double value) { found.least = std::min(found.least, value); };
+    for (int n = 0; n < 9; ++n) look_at(f(node(block, n % 3, n / 3)));
     for (const dvec2 place : between_nodes(block)) {
-        error = std::max(error, std::abs(polynomial(block, f, place) - f(place)));
-        least = std::min(least, f(place));
+        found.error = std::max(found.error, std::abs(polynomial(block, f, place) - f(place)));
+        look_at(f(place));
     }
-    return error / least;
+    return found;
 }
 
 /// Whether the nodes and points between tell all of a lamp: they lie in a cone of directions no wider than half its beam (to where a
@@ -110,13 +114,13 @@ inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, c
     return radius / nearest <= slack * std::min(0.5 * beam, 0.35);
 }
 
-/// The illuminance, lx, of a lamp on the plane where a pixel sees it; 0 where it gives less than the threshold.
-inline double light_on_plane(const BlockPlane& plane, const shared::ClusterGrid& grid, const shared::Light& light, LightKind kind, double threshold, dvec2 place) {
+/// The illuminance, lx, of a lamp on the plane where a pixel sees it.
+inline double light_on_plane(const BlockPlane& plane, const shared::ClusterGrid& grid, const shared::Light& light, LightKind kind, dvec2 place) {
     const dvec3 ray = view_position(grid, place, 1), point = ray * (plane.away / glm::dot(plane.normal, ray));
     const dvec3 path = dvec3(light.position) - point;
     const double d = glm::length(path), cosine = glm::dot(plane.normal, path) / d;
     const double e = intensity(light, kind, -glm::dot(dvec3(light.axis), path) / d) * cosine / (d * d);
-    return cosine > 0 && e >= threshold ? e : 0;
+    return cosine > 0 ? e : 0;
 }
 
 }  // namespace vesper::reference

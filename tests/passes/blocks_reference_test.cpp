@@ -15,20 +15,22 @@ TEST(BlocksReference, ThePolynomialMeetsItsNodesAndEveryQuadratic) {
     const OfPlace quadratic = [](dvec2 p) { return 3 + p.x - 2 * p.y + 0.5 * p.x * p.x + p.x * p.y - p.y * p.y + 0.1 * p.x * p.x * p.y * p.y; };
     for (const dvec2 place : {dvec2(16.5, 8.5), dvec2(20, 12), dvec2(23.5, 15.5), dvec2(17.3, 14.9)})
         EXPECT_NEAR(polynomial(block, quadratic, place), quadratic(place), 1e-9 * std::abs(quadratic(place)));
-    EXPECT_LT(roughness_of(block, [&](dvec2 p) { return 1e6 + quadratic(p); }), 1e-12);
+    EXPECT_LT(extremes_of(block, [&](dvec2 p) { return 1e6 + quadratic(p); }).error, 1e-6);
     const OfPlace exponential = [](dvec2 p) { return std::exp(p.x + p.y); };
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) EXPECT_NEAR(polynomial(block, exponential, node(block, i, j)) / exponential(node(block, i, j)), 1, 1e-12);
 }
 
 // t (t - 1) (t - 2) is zero at the nodes 0, 1, 2; at 2/7 and 12/7 it is 120/343 and -120/343.
-TEST(BlocksReference, RoughnessIsTheErrorBetweenNodes) {
+TEST(BlocksReference, ExtremesAreOfNodesAndTheErrorBetweenThem) {
     const Block block{{0, 0}, {}, {}};
     const OfPlace cubic = [](dvec2 p) {
         const double t = (p.x - 0.5) / 3.5;
         return 2 + t * (t - 1) * (t - 2);
     };
-    EXPECT_NEAR(roughness_of(block, cubic), (120 / 343.0) / (2 - 120 / 343.0), 1e-12);
+    const Extremes found = extremes_of(block, cubic);
+    EXPECT_NEAR(found.error, 120 / 343.0, 1e-12);
+    EXPECT_NEAR(found.least, 2 - 120 / 343.0, 1e-12);
 }
 
 TEST(BlocksReference, ABlockIsWhatIsDrawnInIt) {
@@ -71,9 +73,9 @@ TEST(BlocksReference, LightOnAPlaneIsTheInverseSquareLaw) {
     grid.ray_scale = {1, -1}, grid.ray_offset = {0, 0};
     const shared::Light lamp{{0, 4, -1.2f}, 1000, {0, -1, 0}, 0, {1, 1, 1}, 1};
     const BlockPlane road{{0, 1, 0}, -1.0, 0};
-    EXPECT_NEAR(light_on_plane(road, grid, lamp, LightKind::Cone, 1e-3, {0, 1 / 1.2}), 40, 1e-5);
-    EXPECT_NEAR(light_on_plane(road, grid, lamp, LightKind::Cone, 1e-3, {2 / 1.2, 1 / 1.2}), 40 * std::pow(5 / std::sqrt(29.0), 3), 1e-5);
-    EXPECT_EQ(light_on_plane(road, grid, lamp, LightKind::Cone, 41, {0, 1 / 1.2}), 0);
+    EXPECT_NEAR(light_on_plane(road, grid, lamp, LightKind::Cone, {0, 1 / 1.2}), 40, 1e-5);
+    EXPECT_NEAR(light_on_plane(road, grid, lamp, LightKind::Cone, {2 / 1.2, 1 / 1.2}), 40 * std::pow(5 / std::sqrt(29.0), 3), 1e-5);
+    EXPECT_EQ(light_on_plane({{0, -1, 0}, 1.0, 0}, grid, lamp, LightKind::Cone, {0, 1 / 1.2}), 0) << "from behind";
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Blocks of the image on the device: their classes, and the lamps that are added up over them. SPDX-License-Identifier: MIT
 #include "passes/blocks_reference.h"
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
@@ -14,6 +15,7 @@ namespace vesper::test {
 namespace {
 
 constexpr float kTolerance = 1e-3f;
+constexpr float kAll = 1e-9f;  // lx: a threshold that leaves no lamp out
 
 /// A road of some kind 1.2 m under the eye between walls at 8 m, sky above 20 m; and, in squares here and there, what makes other classes.
 Surfaces canyon(VkExtent2D extent, float road_kind = 0, bool mixed = true, bool sheets = false) {
@@ -108,26 +110,31 @@ TEST(Blocks, EveryLampIsListedOrAddedUp) {
             for (const reference::SurfaceTexel& t : block.texels) slices.insert(reference::slice_of(got.cluster.grid, t.surface.z));
             const bool many = slices.size() > 3;  // a lamp is listed several times and may not be added up
             sliced += plane && many ? 1 : 0;
-            glm::dvec3 expected[9]{};
+            glm::dvec3 expected[9]{}, possible[9]{};  // lamps that give the threshold nowhere may be left out
             bool doubtful = false;
             for (uint32_t l = 0; plane && l < list.lamps(); ++l) {
-                const reference::OfPlace e = [&](glm::dvec2 p) { return reference::light_on_plane(*plane, got.cluster.grid, list.lights[l], reference::kind_of(l, list.counts), got.cluster.threshold, p); };
-                const double roughness = reference::roughness_of(block, e);  // infinite or NaN where it gives nothing at some point
+                const reference::OfPlace e = [&](glm::dvec2 p) { return reference::light_on_plane(*plane, got.cluster.grid, list.lights[l], reference::kind_of(l, list.counts), p); };
+                const reference::Extremes of = reference::extremes_of(block, e);
+                const double threshold = double(got.cluster.threshold), bearable = std::max(kTolerance * of.least, 0.25 * threshold);
                 // Single precision: errors of a few 1e-6 of a value are a few 1e-3 of the tolerance.
                 const auto is_resolved = [&](double slack) { return reference::resolved(*plane, got.cluster.grid, block, list.lights[l], reference::kind_of(l, list.counts), slack); };
-                const bool smooth = roughness < kTolerance && is_resolved(1);
-                const bool close = std::abs(roughness - kTolerance) < 0.01 * kTolerance || is_resolved(0.999) != is_resolved(1.001);
+                const bool smooth = of.least > 0 && of.error < bearable && is_resolved(1),
+                           slight = std::none_of(block.pixels.begin(), block.pixels.end(), [&](glm::uvec2 p) { return e(glm::dvec2(p) + 0.5) > 0.999 * threshold; });
+                const bool close = std::abs(of.error - bearable) < 0.01 * bearable || is_resolved(0.999) != is_resolved(1.001);
                 doubtful = doubtful || close;
-                EXPECT_FALSE(smooth && !close && !many && listed.contains(l)) << "block " << b << ", lamp " << l << " of roughness " << roughness;
+                EXPECT_FALSE(smooth && !close && !many && listed.contains(l)) << "block " << b << ", lamp " << l << ", wrong by " << of.error << " lx";
                 if (listed.contains(l) || !smooth) continue;
                 ++taken;
-                for (int n = 0; n < 9; ++n) expected[n] += e(reference::node(block, n % 3, n / 3)) * glm::dvec3(list.lights[l].colour);
+                for (int n = 0; n < 9; ++n) (slight ? possible : expected)[n] += e(reference::node(block, n % 3, n / 3)) * glm::dvec3(list.lights[l].colour);
             }
             planes += plane ? 1 : 0;
             if (doubtful) continue;
             for (int n = 0; n < 9; ++n)
-                for (int c = 0; c < 3; ++c)  // 1e-4: positions on planes seen at grazing angles, in floats
-                    EXPECT_NEAR(got.sum(b, n % 3, n / 3)[c], expected[n][c], 1e-4 * expected[n][c] + 1e-6) << "block " << b << ", node " << n;
+                for (int c = 0; c < 3; ++c) {  // 1e-4: positions on planes seen at grazing angles, in floats
+                    const double sum = got.sum(b, n % 3, n / 3)[c], error = 1e-4 * expected[n][c] + 1e-6;
+                    EXPECT_GE(sum, expected[n][c] - error) << "block " << b << ", node " << n;
+                    EXPECT_LE(sum, expected[n][c] + possible[n][c] + error) << "block " << b << ", node " << n;
+                }
         }
         if (far > 0) { EXPECT_GT(sliced, 0u); }
         if (extent.width > 100) {
@@ -176,12 +183,33 @@ TEST(Blocks, ShadingWithSumsIsShadingLampByLamp) {
     const Surfaces s = canyon({333, 211});
     const LightList list = street_lamps({60, 60, 1}, 300, 7);
     for (const float far : {0.0f, 60.0f}) {
-        const Shot gathered = shade(rig, s, list, {.far = far}, {}), one_by_one = shade(rig, s, list, {.far = far}, {.gather_tolerance = -1});
+        const Shot gathered = shade(rig, s, list, {.threshold = kAll, .far = far}, {}), one_by_one = shade(rig, s, list, {.threshold = kAll, .far = far}, {.gather_tolerance = -1});
         EXPECT_TRUE(same_light("gathered", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.2 * kTolerance, 1e-7})) << far;
         EXPECT_NE(gathered.pixels, one_by_one.pixels) << "nothing was added up";
-        const Shot again = shade(rig, s, list, {.far = far}, {});
+        const Shot again = shade(rig, s, list, {.threshold = kAll, .far = far}, {});
         EXPECT_EQ(gathered.pixels, again.pixels) << "blocks come in any order, pictures may not tell";
     }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Where a lamp gives less than the threshold it may count or not: pictures lie between that without such light and that with all of it. An
+// error of a quarter of the threshold on top is borne.
+TEST(Blocks, LampsNearTheThresholdCountOrNot) {
+    PassRig rig;
+    const Surfaces s = canyon({333, 211}, 0, false);
+    const LightList list = street_lamps({60, 0, 0}, 300, 7);
+    const float threshold = 0.5f;
+    const Shot got = shade(rig, s, list, {.threshold = threshold}, {}), without = shade(rig, s, list, {.threshold = threshold}, {.gather_tolerance = -1}),
+               with = shade(rig, s, list, {.threshold = kAll}, {.gather_tolerance = -1});
+    size_t between = 0;
+    for (size_t i = 0; i < got.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double error = 1.2 * double(kTolerance * with.pixels[i][c]) + 60 * 0.25 * double(threshold) * 1.2 / 3.14159 * double(s.reflectance[i][c]);
+            ASSERT_GE(got.pixels[i][c], double(without.pixels[i][c]) - error) << i;
+            ASSERT_LE(got.pixels[i][c], double(with.pixels[i][c]) + error) << i;
+            between += got.pixels[i][c] != without.pixels[i][c] ? 1 : 0;
+        }
+    EXPECT_GT(between, got.pixels.size() / 10);
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -196,7 +224,7 @@ TEST(Blocks, LightThatGrazesUnevenGroundIsShadedLampByLamp) {
     }
     LightList list = street_lamps({2, 0, 0}, 1);
     for (int i = 0; i < 2; ++i) list.lights[size_t(i)] = {{float(i) - 0.5f, -1.0f, -90}, 1e4f, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
-    const Shot gathered = shade(rig, s, list, {}, {}), one_by_one = shade(rig, s, list, {}, {.gather_tolerance = -1});
+    const Shot gathered = shade(rig, s, list, {.threshold = kAll}, {}), one_by_one = shade(rig, s, list, {.threshold = kAll}, {.gather_tolerance = -1});
     EXPECT_TRUE(same_light("uneven", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.6 * kTolerance, 1e-7}));
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -205,13 +233,13 @@ TEST(Blocks, WhatIsNoNumberStaysInItsPixel) {
     PassRig rig;
     Surfaces s = canyon({61, 43}, 0, false);
     const LightList list = street_lamps({20, 20, 0}, 300, 8);
-    const Shot clean = shade(rig, s, list, {}, {});
+    const Shot clean = shade(rig, s, list, {.threshold = kAll}, {});
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     const std::set<size_t> spoiled{0, 700, 1500, 2000, 2222, size_t(61 * 43 - 1)};
     const glm::vec4 broken[] = {{nan, 0, 5, 1}, {0, 0, nan, 1}, {0, 0, infinite, 1}, {0, 0, 5, nan}, {infinite, 0, 5, 1}, {0, nan, nan, nan}};
     uint32_t turn = 0;
     for (const size_t i : spoiled) s.surface[i] = broken[turn++];
-    const Shot got = shade(rig, s, list, {}, {});
+    const Shot got = shade(rig, s, list, {.threshold = kAll}, {});
     for (size_t i = 0; i < got.pixels.size(); ++i)
         for (int c = 0; c < 3 && !spoiled.contains(i); ++c)  // its block is shaded lamp by lamp now
             EXPECT_NEAR(got.pixels[i][c], clean.pixels[i][c], 1.2 * kTolerance * std::abs(clean.pixels[i][c]) + 1e-7) << "pixel " << i;

@@ -26,9 +26,9 @@ inline dvec4 node_at(double y, const shared::ToneCurve& c) {
 /// What rods see of a colour over what they see of white (Ward Larson et al. 1997); or its luminance.
 inline double scotopic(dvec3 rgb, uint32_t tone) {
     if (tone & shared::kTonePhotopicRods) return luminance(rgb);
-    const glm::dmat3 xyz = glm::transpose(glm::dmat3(0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505));  // IEC 61966-2-1
+    const glm::dmat3 xyz = glm::transpose(glm::dmat3(0.412391, 0.357584, 0.180481, 0.212639, 0.715169, 0.072192, 0.019331, 0.119195, 0.950532));
     const dvec3 c = xyz * glm::max(rgb, dvec3(0));
-    return scotopic_luminance(c.x, c.y, c.z) / scotopic_luminance(0.9505, 1, 1.0890);
+    return scotopic_luminance(c.x, c.y, c.z) / scotopic_luminance(0.950456, 1, 1.089058);
 }
 
 /// Displayed luminance of a scene colour, relative, before the display's limits.

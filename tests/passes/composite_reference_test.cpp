@@ -109,12 +109,12 @@ TEST(CompositeReference, NoLightIsShownAsHardlyAny) {
 // Rods are blind to red lamps, and see blue ones well; white counts as its luminance.
 TEST(CompositeReference, RodsSeeColours) {
     EXPECT_NEAR(scotopic(dvec3(3), 0), 3, 1e-12);
-    EXPECT_NEAR(scotopic({1, 0, 0}, 0), 0.0846 / 2.57306, 1e-4);
-    EXPECT_NEAR(scotopic({0, 0, 1}, 0), 0.5188 / 2.57306, 1e-4);
+    EXPECT_NEAR(scotopic({1, 0, 0}, 0), 0.08466 / 2.57328, 1e-4);
+    EXPECT_NEAR(scotopic({0, 0, 1}, 0), 0.51882 / 2.57328, 1e-5);
     EXPECT_NEAR(scotopic({1, 0.5, -1}, 0), scotopic({1, 0.5, 0}, 0), 1e-12);
-    EXPECT_NEAR(scotopic({1, 0, 0}, shared::kTonePhotopicRods), 0.2126, 1e-12);
+    EXPECT_NEAR(scotopic({1, 0, 0}, shared::kTonePhotopicRods), 0.212639, 1e-12);
     const dvec3 dim = perceived({0, 0, 1e-3}, shared::kTonePurkinje, {});
-    EXPECT_NEAR(dim.z, 1e-3 * 0.5188 / 2.57306 / 0.0722, 1e-6) << "blue grows brighter in the dark";
+    EXPECT_NEAR(dim.z, 1e-3 * 0.51882 / 2.57328 / 0.072192, 1e-6) << "blue grows brighter in the dark";
 }
 
 TEST(CompositeReference, NeitherNanNorInfinityNorNegativeLightIsShown) {

@@ -52,7 +52,7 @@ inline std::vector<CoronaLight> corona_lights(const View& view, const std::vecto
                         dvec3 rgb = scene[size_t(y) * size_t(width) + size_t(x)];
                         if (!std::isfinite(rgb.r + rgb.g + rgb.b)) continue;
                         rgb = glm::max(rgb, dvec3(0));
-                        pixel(rgb, 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b, dvec2(x + 0.5, y + 0.5));
+                        pixel(rgb, 0.212639 * rgb.r + 0.715169 * rgb.g + 0.072192 * rgb.b, dvec2(x + 0.5, y + 0.5));
                     }
             };
             each([&](dvec3 rgb, double l, dvec2 at) { light += rgb, sum += l, place += l * at; });

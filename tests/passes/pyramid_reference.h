@@ -18,7 +18,7 @@ using glm::dvec2, glm::dvec3, glm::dvec4;
 constexpr double kFloor = 1e-4;
 
 /// Relative luminance of linear Rec. 709 (ITU-R BT.709-6, item 3.2).
-inline double luminance(dvec3 rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
+inline double luminance(dvec3 rgb) { return 0.212639 * rgb.x + 0.715169 * rgb.y + 0.072192 * rgb.z; }
 
 /// False for a pixel with a NaN or an infinity in any channel.
 inline bool finite(dvec3 rgb) { return std::isfinite(rgb.x) && std::isfinite(rgb.y) && std::isfinite(rgb.z); }

@@ -128,9 +128,11 @@ TEST(ScatterFit, ResponseAtFullSizeIsNearTheDefinition) {
     expect_response(psf, fit, {1679, 3}, 4e-3);
 }
 
-TEST(ScatterFit, SpencerAndSmallPictures) {
+TEST(ScatterFit, SpencerWardAndSmallPictures) {
     const EyeScatter spencer = eye_scatter({ScatterSettings::Model::Spencer, {}, SpencerState::Photopic});
     expect_response(spencer, fit_scatter(spencer, driver(420, 262)), {300, 100}, 1e-3);
+    const EyeScatter ward = eye_scatter({ScatterSettings::Model::Ward, {}, SpencerState::Photopic});
+    expect_response(ward, fit_scatter(ward, driver(420, 262)), {300, 100}, 1e-3);
     const EyeScatter psf = eye(35);
     expect_response(psf, fit_scatter(psf, driver(37, 22)), {18, 11}, 1e-3);
     for (const ImageAngles& tiny : {driver(1, 1), driver(7, 5), driver(2, 1)})

@@ -94,7 +94,7 @@ double illuminance(const View& view, const std::vector<Pixel>& pixels) {
     for (uint32_t y = 0; y < view.extent.height; ++y)
         for (uint32_t x = 0; x < view.extent.width; ++x) {
             const dvec3 rgb(pixels[size_t(y) * view.extent.width + x]);
-            sum += glm::dot(rgb, dvec3(0.2126, 0.7152, 0.0722)) * solid_angle(view, x, y);
+            sum += glm::dot(rgb, dvec3(0.212639, 0.715169, 0.072192)) * solid_angle(view, x, y);
         }
     return sum;
 }

@@ -94,6 +94,14 @@ TEST(Glare, EveryPartOfSpencerIntegratesToOne) {
     }
 }
 
+TEST(Glare, WardScattersAnEighthAsTheSquareOfTheAngleFalls) {
+    const EyeScatter psf(ward_veil);
+    EXPECT_NEAR(psf.total(), 1, 1e-6);
+    EXPECT_NEAR(1 - psf.within(0.02), 0.08, 2e-5);  // 1.3e-5 of it is scattered within
+    EXPECT_NEAR(psf(1) / psf(2), 4 * std::cos(1 * 3.14159265 / 180) / std::cos(2 * 3.14159265 / 180), 1e-6);
+    EXPECT_NEAR(psf(0.1) / psf(0.4), 1, 1e-4);
+}
+
 TEST(Glare, TheHaloIsARingWhoseRadiusFollowsTheWavelength) {
     for (const auto& [nanometres, radius] : {std::pair{450.0, 2.38}, {530.0, 2.80}, {610.0, 3.22}}) {
         double brightest = 0;

@@ -89,7 +89,7 @@ TEST(Thresholds, OlderEyesNeedMore) {
 TEST(Thresholds, ScotopicLuminanceOfAColour) {
     EXPECT_NEAR(scotopic_luminance(1, 1, 1), 2.31, 1e-12);
     EXPECT_NEAR(scotopic_luminance(2 * 1.0985, 2, 2 * 0.3558), 2 * 1.29156, 1e-4);
-    EXPECT_NEAR(scotopic_luminance(0.9505, 1, 1.0890), 2.57306, 1e-5);
+    EXPECT_NEAR(scotopic_luminance(0.950456, 1, 1.089058), 2.57328, 1e-5);
     EXPECT_EQ(scotopic_luminance(0.73, 0.1, 0), 0) << "deep red";
     EXPECT_EQ(scotopic_luminance(0, 0, 0), 0);
 }

@@ -95,8 +95,8 @@ TEST(Merge, ScalesToAKnownLuminance) {
     MergedImage merged = merge_exposures(exposures, srgb_response());
     const auto luminance_at = [&](const HdrImage& image, size_t x, size_t y) {
         const float* p = image.rgb.data() + 3 * (y * image.width + x);
-        return 0.2126 * static_cast<double>(p[0]) + 0.7152 * static_cast<double>(p[1]) +
-               0.0722 * static_cast<double>(p[2]);
+        return 0.212639 * static_cast<double>(p[0]) + 0.715169 * static_cast<double>(p[1]) +
+               0.072192 * static_cast<double>(p[2]);
     };
     double mean = 0;
     for (size_t y = 20; y < 24; ++y)

@@ -75,8 +75,8 @@ TEST(RoadView, ReadsBetweenCentresOfPixels) {
         EXPECT_NEAR(luminance_at(rgba, extent, place), 1 + 2 * place.x + 3 * place.y, 1e-5);
     for (const glm::dvec2 place : {glm::dvec2(0.4, 2), glm::dvec2(4.6, 2), glm::dvec2(2, 0), glm::dvec2(2, 3.8), glm::dvec2(NAN, 1)})
         EXPECT_TRUE(std::isnan(luminance_at(rgba, extent, place)));
-    rgba[4 * (5 * 1 + 2)] = 1e6f;  // red counts by 0.2126
-    EXPECT_NEAR(luminance_at(rgba, extent, {2.5, 1.5}), 0.2126e6 + 0.7874 * 10.5, 1);
+    rgba[4 * (5 * 1 + 2)] = 1e6f;  // red counts by 0.212639
+    EXPECT_NEAR(luminance_at(rgba, extent, {2.5, 1.5}), 0.212639e6 + 0.787361 * 10.5, 1);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ double at_eye(const Light& light, const glm::mat4& world, std::vector<Distributi
     lamps.add(light, world);
     const SourceList list = lamps.seen(kView);
     if (list.sources.empty()) return 0;
-    const double luminance = glm::dot(dvec3(list.sources[0].luminance), dvec3(0.2126, 0.7152, 0.0722));
+    const double luminance = glm::dot(dvec3(list.sources[0].luminance), dvec3(0.212639, 0.715169, 0.072192));
     return luminance * reference::solid_angle(kView, outline_of(list));
 }
 

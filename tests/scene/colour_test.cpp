@@ -9,9 +9,9 @@ namespace vesper {
 namespace {
 
 glm::dvec2 chromaticity(glm::dvec3 c) {
-    const glm::dvec3 xyz(0.4124564 * c.r + 0.3575761 * c.g + 0.1804375 * c.b,
-                         0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b,
-                         0.0193339 * c.r + 0.1191920 * c.g + 0.9503041 * c.b);
+    const glm::dvec3 xyz(0.412391 * c.r + 0.357584 * c.g + 0.180481 * c.b,
+                         0.212639 * c.r + 0.715169 * c.g + 0.072192 * c.b,
+                         0.019331 * c.r + 0.119195 * c.g + 0.950532 * c.b);
     return {xyz.x / (xyz.x + xyz.y + xyz.z), xyz.y / (xyz.x + xyz.y + xyz.z)};
 }
 
@@ -43,8 +43,8 @@ TEST(Colour, TemperatureOfABlackBodyIsFoundAgain) {
         EXPECT_NEAR(temperature_of(glm::dvec3(colour_of_temperature(kelvin))) / kelvin, 1, 0.02) << kelvin;
     EXPECT_EQ(temperature_of({1, 0, 0}), 0);
     EXPECT_EQ(temperature_of({0, 1, 0}), 0);
-    EXPECT_NEAR(vesper::chromaticity({1, 1, 1}).x, 0.3127, 1e-4);  // D65
-    EXPECT_NEAR(vesper::chromaticity({1, 1, 1}).y, 0.3290, 1e-4);
+    EXPECT_NEAR(vesper::chromaticity({1, 1, 1}).x, 0.3127, 1e-12);  // D65
+    EXPECT_NEAR(vesper::chromaticity({1, 1, 1}).y, 0.3290, 1e-12);
     EXPECT_EQ(vesper::chromaticity({0, 0, 0}), glm::dvec2(0));
 }
 

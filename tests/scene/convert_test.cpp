@@ -101,7 +101,7 @@ TEST_F(ConvertTest, StoresStandardGltf) {
     const json root = json::parse(read_text(folder_ / "out.gltf"));
     for (const json& light : root["extensions"]["KHR_lights_punctual"]["lights"]) {
         double brightest = 0, y = 0;
-        const double weights[] = {0.2126, 0.7152, 0.0722};
+        const double weights[] = {0.212639, 0.715169, 0.072192};
         for (size_t c = 0; c < 3; ++c) {
             brightest = std::max(brightest, light["color"][c].get<double>());
             y += weights[c] * light["color"][c].get<double>();

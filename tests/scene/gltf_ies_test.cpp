@@ -48,7 +48,7 @@ TEST(GltfIes, ReadsProfilesAndTheirUse) {
     EXPECT_EQ(first.distribution, 0u);
     EXPECT_EQ(first.intensity, 1);
     EXPECT_EQ(first.colour, glm::vec3(1));
-    const double y = 0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722;
+    const double y = 0.212639 * 0.5 + 0.715169 * 0.25 + 0.072192;
     EXPECT_EQ(second.distribution, 1u);
     EXPECT_NEAR(second.intensity, 3 * y, 1e-6);
     EXPECT_NEAR(second.colour.r, 0.5 / y, 1e-6);

@@ -33,7 +33,7 @@ inline LightList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
     };
     const auto colour = [&] {
         const glm::vec3 c(0.4f + unit(random), 0.4f + unit(random), 0.4f + unit(random));
-        return c / glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+        return c / glm::dot(c, glm::vec3(0.212639f, 0.715169f, 0.072192f));
     };
     LightList list;
     list.counts = {mix.cones, mix.powers, 0, mix.directional};

@@ -21,6 +21,7 @@ const std::regex kInclude(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"([^"]+)")re");
 // of glsl/shared/ and the embedded shaders. Folders that do not appear here are refused, so a new one has to find its
 // place.
 const std::map<std::string, std::set<std::string>> kMayInclude{
+    {"include", {}},  // the public interface
     {"base", {}},
     {"io", {"base"}},
     {"photometry", {"base", "io"}},

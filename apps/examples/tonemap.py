@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Tone-maps a numpy array through the C interface. SPDX-License-Identifier: MIT
+
+    python3 tonemap.py [libvesper-c.so] OUT.ppm
+"""
+import ctypes as c
+import sys
+
+import numpy as np
+
+OPERATORS = ["irawan", "ward", "reinhard", "linear", None, "pattanaik", "ferwerda", "durand", "grave"]
+
+
+class Error(c.Structure):
+    _fields_ = [("message", c.c_char * 1024)]
+
+
+class Sized(c.Structure):
+    """A structure that begins with its size, as all of vesper.h do."""
+
+    def __init__(self, **values):
+        super().__init__(size=c.sizeof(self), **values)
+
+
+class ToneSettings(Sized):
+    _fields_ = [("size", c.c_uint32), ("tone_operator", c.c_uint32), ("glare", c.c_uint32), ("bins", c.c_uint32), ("age", c.c_float),
+                ("pigmentation", c.c_float), ("gaze", c.c_float * 2), ("colour_loss", c.c_int32), ("acuity_loss", c.c_int32),
+                ("purkinje", c.c_int32), ("display", c.c_char_p), ("display_peak", c.c_float), ("display_black", c.c_float),
+                ("display_ambient", c.c_float)]
+
+
+class Picture(Sized):
+    _fields_ = [("size", c.c_uint32), ("width", c.c_uint32), ("height", c.c_uint32), ("channels", c.c_uint32),
+                ("values", c.POINTER(c.c_float)), ("scale", c.c_float), ("vertical_fov", c.c_float)]
+
+
+class Outputs(Sized):
+    _fields_ = [("size", c.c_uint32), ("codes", c.POINTER(c.c_uint8)), ("luminance", c.POINTER(c.c_float)),
+                ("display_light", c.POINTER(c.c_float)), ("report", c.c_void_p)]
+
+
+class ToneMapper:
+    """Maps pictures one after the other; the eye adapts from each to the next."""
+
+    def __init__(self, library="libvesper-c.so"):
+        self.calls = c.CDLL(library)
+        self.device, self.mapper = c.c_void_p(), c.c_void_p()
+        self.check(self.calls.vesper_device_open, None, c.byref(self.device))
+        self.check(self.calls.vesper_tone_mapper_create, self.device, c.byref(self.mapper))
+
+    def check(self, call, *arguments):
+        error = Error()
+        if call(*arguments, c.byref(error)) != 0:
+            raise RuntimeError(error.message.decode())
+
+    def close(self):
+        self.calls.vesper_tone_mapper_destroy(self.mapper)
+        self.calls.vesper_device_close(self.device)
+
+    def map(self, luminance, operator="irawan", seconds=0.0, vertical_fov=0.7, **settings):
+        """`luminance`: height x width x 3, float32, cd/m^2. Returns height x width x 4 codes."""
+        values = np.ascontiguousarray(luminance, np.float32)
+        height, width, channels = values.shape
+        codes = np.empty((height, width, 4), np.uint8)
+        tone = ToneSettings()
+        self.calls.vesper_tone_settings_defaults(c.byref(tone))
+        tone.tone_operator = OPERATORS.index(operator)
+        for name, value in settings.items():
+            setattr(tone, name, value)
+        picture = Picture(width=width, height=height, channels=channels, values=values.ctypes.data_as(c.POINTER(c.c_float)), scale=1.0,
+                          vertical_fov=vertical_fov)
+        outputs = Outputs(codes=codes.ctypes.data_as(c.POINTER(c.c_uint8)))
+        self.check(self.calls.vesper_tone_map, self.mapper, c.byref(tone), c.byref(picture), c.c_float(seconds), c.byref(outputs))
+        return codes
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
+    mapper = ToneMapper(*sys.argv[1:-1])
+    ramp = np.geomspace(1e-3, 1e4, 512, dtype=np.float32)
+    codes = mapper.map(np.broadcast_to(ramp[None, :, None], (128, 512, 3)))
+    mapper.close()
+    with open(sys.argv[-1], "wb") as file:
+        file.write(b"P6\n512 128\n255\n" + codes[:, :, :3].tobytes())
+    print("codes", codes[0, 0, 0], "to", codes[0, -1, 0])

@@ -1,0 +1,233 @@
+// The C interface: what it refuses, and that it shows what the engine shows. SPDX-License-Identifier: MIT
+#include <vesper/vesper.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "renderer.h"
+#include "scene/display_file.h"
+#include "scene/gltf.h"
+#include "tone_mapper.h"
+
+namespace vesper::test {
+namespace {
+
+// The messages of the validation layer, together.
+void collect(const char* message, void* user) { *static_cast<std::string*>(user) += message; }
+
+class CInterface : public ::testing::Test {
+protected:
+    void SetUp() override {
+        VesperDeviceOptions options = VESPER_INIT(VesperDeviceOptions);
+        options.validation = 1, options.on_message = collect, options.user = &complaints;
+        ASSERT_EQ(vesper_device_open(&options, &device, &error), VESPER_OK) << error.message;
+    }
+    void TearDown() override {
+        vesper_device_close(device);
+        EXPECT_EQ(complaints, "");
+    }
+    std::string complaints;
+    VesperDevice* device = nullptr;
+    VesperError error;
+};
+
+std::vector<float> night(uint32_t width, uint32_t height) {
+    std::vector<float> rgb;
+    for (uint32_t i = 0; i < width * height; ++i) {
+        const float l = std::pow(10.0f, -2 + 5 * float(i % 101) / 101);
+        rgb.insert(rgb.end(), {l, 0.7f * l, 0.4f * l});
+    }
+    return rgb;
+}
+
+VesperPicture picture_of(const std::vector<float>& rgb, uint32_t width, uint32_t height) {
+    VesperPicture picture = VESPER_INIT(VesperPicture);
+    picture.width = width, picture.height = height, picture.channels = 3, picture.values = rgb.data(), picture.scale = 1, picture.vertical_fov = 0.7f;
+    return picture;
+}
+
+TEST_F(CInterface, MapsAsTheEngineDoes) {
+    VesperToneMapper* mapper = nullptr;
+    ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK) << error.message;
+    Device own;
+    ToneMapper engine(own);
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 5u}, {65u, 33u}}) {
+        const std::vector<float> rgb = night(width, height);
+        const VesperPicture picture = picture_of(rgb, width, height);
+        VesperToneSettings settings;
+        vesper_tone_settings_defaults(&settings);
+        settings.tone_operator = VESPER_WARD, settings.display_peak = 150, settings.bins = 64;
+        std::vector<uint8_t> codes(4 * width * height);
+        std::vector<float> light(4 * width * height);
+        VesperFrameReport report = VESPER_INIT(VesperFrameReport);
+        VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+        outputs.codes = codes.data(), outputs.display_light = light.data(), outputs.report = &report;
+        ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0.5f, &outputs, &error), VESPER_OK) << error.message;
+
+        ToneChainSettings same;
+        same.tone_operator = Operator::Ward, same.histogram.bins = 64;
+        same.display = known_displays().front().display, same.display.peak = 150;
+        const ToneMapped want = engine.map(same, {.extent = {width, height}, .values = rgb, .vertical_fov = double(0.7f)}, 0.5f, {.light = true});
+        EXPECT_EQ(codes, want.display);
+        EXPECT_EQ(light, want.light);
+        EXPECT_EQ(report.adaptation, want.curve.adaptation);
+        EXPECT_EQ(report.not_finite, 0u);
+        EXPECT_GT(report.milliseconds, 0);
+    }
+    vesper_tone_mapper_destroy(mapper);
+}
+
+TEST_F(CInterface, WhatTheEyeRemembersCanBeKept) {
+    VesperToneMapper* mapper = nullptr;
+    ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
+    std::vector<float> dark(3 * 64, 0.1f), bright(3 * 64, 1000.0f);
+    std::vector<uint8_t> codes(4 * 64);
+    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+    outputs.codes = codes.data();
+    const auto show = [&](const std::vector<float>& rgb, float seconds) {
+        const VesperPicture picture = picture_of(rgb, 8, 8);
+        EXPECT_EQ(vesper_tone_map(mapper, nullptr, &picture, seconds, &outputs, &error), VESPER_OK) << error.message;
+        return codes;
+    };
+    show(dark, 0);
+    std::vector<unsigned char> eye(vesper_eye_size());
+    ASSERT_EQ(vesper_tone_mapper_eye(mapper, eye.data(), &error), VESPER_OK);
+    const auto dazzled = show(bright, 0.05f);
+    show(bright, 10);
+    const auto settled = show(bright, 10);
+    ASSERT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size(), &error), VESPER_OK);
+    EXPECT_EQ(show(bright, 0.05f), dazzled);
+    EXPECT_NE(dazzled, settled);
+    EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), 3, &error), VESPER_BAD_ARGUMENT);
+    vesper_tone_mapper_reset(mapper);
+    show(bright, 0);
+    vesper_tone_mapper_destroy(mapper);
+}
+
+TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
+    VesperToneMapper* mapper = nullptr;
+    ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
+    const std::vector<float> rgb(12, 1.0f);
+    std::vector<uint8_t> codes(16, 77);
+    const auto refuses = [&](auto change) {
+        VesperPicture picture = picture_of(rgb, 2, 2);
+        VesperToneSettings settings;
+        vesper_tone_settings_defaults(&settings);
+        VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+        outputs.codes = codes.data();
+        float seconds = 0;
+        change(picture, settings, outputs, seconds);
+        error = {};
+        const VesperResult result = vesper_tone_map(mapper, &settings, &picture, seconds, &outputs, &error);
+        EXPECT_NE(result, VESPER_OK);
+        EXPECT_GT(std::strlen(error.message), 10u);
+        EXPECT_EQ(codes, std::vector<uint8_t>(16, 77));
+        return std::string(error.message);
+    };
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    refuses([](auto& p, auto&, auto&, auto&) { p.size = 0; });
+    refuses([](auto& p, auto&, auto&, auto&) { p.width = 0; });
+    refuses([](auto& p, auto&, auto&, auto&) { p.height = 1u << 31; });
+    refuses([](auto& p, auto&, auto&, auto&) { p.channels = 2; });
+    refuses([](auto& p, auto&, auto&, auto&) { p.values = nullptr; });
+    refuses([](auto& p, auto&, auto&, auto&) { p.scale = kNan; });
+    refuses([](auto& p, auto&, auto&, auto&) { p.vertical_fov = 4; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.tone_operator = uint32_t(Operator::Ldr); });
+    refuses([](auto&, auto& s, auto&, auto&) { s.tone_operator = 99; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.glare = 9; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.bins = 257; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.age = kNan; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.gaze[1] = kNan; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.display_peak = -1; });
+    EXPECT_NE(refuses([](auto&, auto& s, auto&, auto&) { s.display = "no such display"; }).find("no such display"), std::string::npos);
+    refuses([](auto&, auto&, auto& o, auto&) { o.size = 0; });
+    refuses([](auto&, auto&, auto&, auto& seconds) { seconds = -1; });
+    refuses([](auto&, auto&, auto&, auto& seconds) { seconds = kNan; });
+    EXPECT_EQ(vesper_tone_map(nullptr, nullptr, nullptr, 0, nullptr, nullptr), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_tone_mapper_create(nullptr, &mapper, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_scene_read("/nothing.gltf", nullptr, &error), VESPER_BAD_ARGUMENT);
+    VesperScene* scene = nullptr;
+    EXPECT_EQ(vesper_scene_read("/nothing.gltf", &scene, &error), VESPER_FAILED);
+    EXPECT_NE(std::string(error.message).find("/nothing.gltf"), std::string::npos);
+    vesper_tone_mapper_destroy(mapper);
+    vesper_tone_mapper_destroy(nullptr), vesper_renderer_destroy(nullptr), vesper_scene_destroy(nullptr), vesper_device_close(nullptr);
+}
+
+// Fields are added at the end: a caller that knows fewer has the defaults of the rest.
+TEST_F(CInterface, OlderCallersHaveDefaults) {
+    VesperToneMapper* mapper = nullptr;
+    ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
+    const std::vector<float> rgb = night(9, 9);
+    const VesperPicture picture = picture_of(rgb, 9, 9);
+    std::vector<uint8_t> old(4 * 81), now(4 * 81);
+    VesperToneSettings settings;
+    vesper_tone_settings_defaults(&settings);
+    settings.tone_operator = VESPER_REINHARD;
+    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+    outputs.codes = now.data();
+    ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_OK);
+    settings.size = offsetof(VesperToneSettings, display_peak);
+    settings.display_peak = -5;
+    outputs.codes = old.data();
+    ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_OK) << error.message;
+    EXPECT_EQ(old, now);
+    vesper_tone_mapper_destroy(mapper);
+}
+
+// 1 cd at 1 m on ground of reflectance 1 gives 1 / pi cd/m^2; moved 3 m up, a ninth.
+TEST_F(CInterface, LampsOfOnesOwnLightAndMove) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / ("c_interface_" + std::to_string(::getpid()) + ".gltf");
+    std::ofstream(file) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "ground", "mesh": 0}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2, "material": 0}]}], "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0}}],
+ "buffers": [{"byteLength": 108, "uri": "data:application/octet-stream;base64,AACgwQAAAAAAAKBBAACgQQAAAAAAAKBBAACgQQAAAAAAAKDBAACgwQAAAAAAAKDBAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAABAAIAAAACAAMA"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 48}, {"buffer": 0, "byteOffset": 96, "byteLength": 12}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-20, 0, -20], "max": [20, 0, 20]},
+               {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"}, {"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}]})";
+    VesperScene* scene = nullptr;
+    ASSERT_EQ(vesper_scene_read(file.c_str(), &scene, &error), VESPER_OK) << error.message;
+    std::filesystem::remove(file);
+    EXPECT_STREQ(vesper_scene_node_name(scene, 0), "ground");
+    EXPECT_EQ(vesper_scene_node_name(scene, 1), nullptr);
+    VesperLamp lamp = VESPER_INIT(VesperLamp);
+    lamp.position[1] = 1, lamp.intensity = 1, lamp.colour[0] = lamp.colour[1] = lamp.colour[2] = 3;
+    uint32_t node = 99;
+    ASSERT_EQ(vesper_scene_add_lamp(scene, &lamp, &node, &error), VESPER_OK) << error.message;
+    EXPECT_EQ(node, 1u);
+    EXPECT_EQ(vesper_scene_node_count(scene), 2u);
+    lamp.colour[0] = -1;
+    EXPECT_EQ(vesper_scene_add_lamp(scene, &lamp, &node, &error), VESPER_BAD_ARGUMENT);
+    VesperRenderer* renderer = nullptr;
+    ASSERT_EQ(vesper_renderer_create(device, scene, &renderer, &error), VESPER_OK) << error.message;
+
+    VesperView view = VESPER_INIT(VesperView);
+    view.width = view.height = 9, view.eye[1] = 0.5f, view.forward[1] = -2, view.up[2] = -3, view.vertical_fov = 0.02f, view.near_plane = 0.1f;
+    std::vector<float> luminance(4 * 81);
+    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+    outputs.luminance = luminance.data();
+    ASSERT_EQ(vesper_render(renderer, nullptr, &view, 0, &outputs, &error), VESPER_OK) << error.message;
+    EXPECT_NEAR(luminance[4 * 40] * 3.14159265f, 1, 2e-3);  // F0 of the surface is 0.04 (1 - 1), roughness 1: matt
+    const float up[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 3, 0, 1};
+    ASSERT_EQ(vesper_renderer_place(renderer, node, up, &error), VESPER_OK);
+    ASSERT_EQ(vesper_render(renderer, nullptr, &view, 0, &outputs, &error), VESPER_OK);
+    EXPECT_NEAR(luminance[4 * 40] * 3.14159265f, 1.0 / 9, 3e-4);
+    const float flat[16] = {};
+    EXPECT_EQ(vesper_renderer_place(renderer, node, flat, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_renderer_place(renderer, 7, up, &error), VESPER_BAD_ARGUMENT);
+    view.up[2] = 0, view.up[1] = 1;
+    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, &outputs, &error), VESPER_BAD_ARGUMENT) << "up and forward are one line";
+    view.camera = "nobody";
+    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, &outputs, &error), VESPER_FAILED);
+    vesper_renderer_destroy(renderer);
+    vesper_scene_destroy(scene);
+}
+
+}  // namespace
+}  // namespace vesper::test

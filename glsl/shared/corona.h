@@ -32,8 +32,8 @@ struct CoronaPush {
 };
 SHARED_SIZE(CoronaPush, 24)
 
-// The pattern: what is seen beside the veil, sr^-1, times the square of the angle in degrees. Row by row: its columns, their means in pairs, and so on to
-// the mean of all.
+// The pattern: what is seen beside the veil, sr^-1, times the square of the angle in degrees. Row by row: its columns, their means in pairs and over as
+// many rows, and so on to the mean of all.
 const uint kPatternColumns = 512u, kPatternRows = 448u, kPatternLevels = 10u;
 const uint kPatternStride = 2u * kPatternColumns - 1u;  // texels of a row
 const uint kPatternReach = 6u;  // degrees

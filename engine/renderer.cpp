@@ -72,9 +72,11 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     if (ldr) set_to_one(lights, settings.ldr_reference_distance);
     SourceList sources = source_list(sources_, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
 
-    ChainInputs given{.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = nullptr, .outside = {}};
+    ChainInputs given{.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = {}};
     if (!ldr) {
+        const shared::EyeState& before = eye_ ? *eye_ : last_eye_;
         if (settings.glare == Glare::Scatter) given.scatter = &scatter_.at(settings.scatter, view);
+        if (given.scatter && settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.adaptation), double(before.seconds + seconds));
         given.outside = settings.lamps_elsewhere;
         for (const GlareSource& source : sources.dazzling)
             if (source.inside < 1) given.outside.push_back({source.direction, (1 - source.inside) * source.illuminance});
@@ -90,6 +92,8 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
 
     Frame result;
     read_tone_chain(executor_, declared.chain, view.extent, result);
+    last_eye_ = result.eye;
+    if (given.corona) result.pupil = given.corona->pupil, result.pattern_milliseconds = given.corona->milliseconds;
     result.clusters = read_one<shared::ClusterReport>(executor_, declared.clusters);
     result.lights = uint32_t(lights.lights.size());
     result.sources = uint32_t(sources.sources.size());
@@ -104,6 +108,7 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
 void Renderer::reset_adaptation() {
     executor_.reset(kEyeHistory);
     eye_.reset();
+    last_eye_ = {};
 }
 
 }  // namespace vesper

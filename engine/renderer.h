@@ -78,8 +78,10 @@ private:
     uint32_t sky_sharp_side_ = 0;
     AmbientLight ambient_;        // of the scene
     ScatterCache scatter_;
+    CoronaCache corona_;
     Executor executor_;
     std::optional<shared::EyeState> eye_;  // set for the next frame
+    shared::EyeState last_eye_{};          // what the last frame left
     std::string plan_;
 };
 

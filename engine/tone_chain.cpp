@@ -24,7 +24,9 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     uint32_t tone = op.form | (settings.tone.colour_loss ? shared::kToneColourLoss : 0) | (settings.tone.purkinje ? shared::kTonePurkinje : 0) |
                     (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0);
     // What the eye adapts to and the histogram counts is what falls on the retina.
-    const Resource scene = given.scatter ? add_scatter(graph, kernels, rendered, *given.scatter, given.outside) : rendered;
+    Resource scene = rendered;
+    if (given.scatter) scene = add_scatter(graph, kernels, rendered, *given.scatter, given.outside);
+    if (given.scatter && given.corona) scene = add_corona(graph, kernels, rendered, scene, given.corona->texels, view);
     const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
     if (outputs.retina) {
         ToneChain chain;

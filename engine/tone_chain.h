@@ -7,6 +7,7 @@
 
 #include "graph/executor.h"
 #include "passes/passes.h"
+#include "resident/eye_corona.h"
 #include "resident/kernels.h"
 
 namespace vesper {
@@ -46,6 +47,7 @@ struct ChainInputs {
     float seconds = 0;                              ///< since the last frame
     const shared::EyeState* remembered = nullptr;   ///< stands for the last frame
     const ResidentScatter* scatter = nullptr;       ///< of the settings and the view; nothing: no light is scattered
+    const Corona* corona = nullptr;                 ///< of the settings; nothing: lamps have neither needles nor halo
     std::vector<OutsideLamp> outside;               ///< lamps whose light is scattered into the picture
 };
 
@@ -66,6 +68,8 @@ struct ToneMapped {
     uint32_t foveal_level = 0;
     std::vector<Timing> timings;
     HostTimes host_times;
+    double pupil = 0;               ///< mm, whose glare is shown; 0: of a model without one
+    double pattern_milliseconds = 0;  ///< of needles and halo, on the host
     double milliseconds = 0;        ///< from declaring the frame to the device being done, on the host's clock
 };
 

@@ -222,6 +222,11 @@ Resource add_bands(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, 
 /// is not finite stays and scatters nothing. `fit` is of the same size as the scene.
 Resource add_scatter(FrameGraph&, const Kernels&, Resource scene, const ResidentScatter& fit, const std::vector<OutsideLamp>&);
 
+/// Adds needles and halo of the brightest lamps to what add_scatter made of `scene`, in place. A lamp is the light of a square of
+/// shared::kCoronaTile px of the picture, wherever it comes from; what is hidden has none. The shared::kCoronaLamps brightest count, each less as the
+/// next one is nearer to it. `pattern` are the texels of corona_texels.
+Resource add_corona(FrameGraph&, const Kernels&, Resource scene, Resource seen, const std::vector<glm::vec4>& pattern, const View&);
+
 struct LdrGlareSettings {
     float threshold = 0.9f;      ///< light of its brightest channel, relative to white, from which a pixel glares
     float sigma_degrees = 0.35f; ///< of the Gaussian

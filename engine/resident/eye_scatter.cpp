@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "perception/glare_pattern.h"
 #include "resident/resident_scene.h"
 #include "shared/scatter.h"
 
@@ -42,9 +43,9 @@ std::vector<glm::vec4> transposed(const std::vector<float>& matrix, size_t rows)
 }  // namespace
 
 EyeScatter eye_scatter(const ScatterSettings& settings) {
-    if (settings.model == ScatterSettings::Model::Cie) return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
+    if (settings.model == ScatterSettings::Model::Spencer) return EyeScatter([state = settings.state](double theta) { return spencer_veil(theta, state); });
     if (settings.model == ScatterSettings::Model::Ward) return EyeScatter(ward_veil);
-    return EyeScatter([w = spencer_weights(settings.state)](double theta) { return spencer_smooth_glare(theta, w); });
+    return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
 }
 
 ImageAngles angles_of(const View& view) {

@@ -8,6 +8,9 @@
 #include "shaders/cluster.comp.inc"
 #include "shaders/colours.comp.inc"
 #include "shaders/composite.comp.inc"
+#include "shaders/corona.comp.inc"
+#include "shaders/corona_pick.comp.inc"
+#include "shaders/corona_tiles.comp.inc"
 #include "shaders/daylight.comp.inc"
 #include "shaders/display_light.comp.inc"
 #include "shaders/gather.comp.inc"
@@ -55,6 +58,9 @@ Kernels::Kernels(const Device& device)
       scatter_top(device, "scatter_top.comp", scatter_top_comp),
       scatter_down(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 0}),
       scatter_down_last(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 1}),
+      corona_tiles(device, "corona_tiles.comp", corona_tiles_comp),
+      corona_pick(device, "corona_pick.comp", corona_pick_comp),
+      corona(device, "corona.comp", corona_comp),
       composite_rows(device.is_cpu() ? 4 : 1),
       device_(device) {}
 

@@ -190,7 +190,8 @@ Face face_of(const RoadSignal& s) {
 
 void add_sign(RoadMesh& mesh, const BodyFrame& frame, const RoadSignal& signal, double width, double height) {
     const Face face = face_of(signal);
-    const Panel panel{mesh, frame, width, height};
+    // The back lies at the signal's place, so that two signs may stand there back to back.
+    const Panel panel{mesh, frame.moved(kThick, 0, 0), width, height};
     const auto outline = panel.outline(face.shape, 1);
     panel.back(outline);
     panel.print(face.rim, outline, 0);

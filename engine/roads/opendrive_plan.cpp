@@ -63,8 +63,8 @@ void measure_checked(OpenDriveReader& reader, const XmlElement& element, PlanGeo
 void check_joints(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     for (size_t i = 1; i < road.plan.size(); ++i) {
         const PlanGeometry &before = road.plan[i - 1], &g = road.plan[i];
-        const PlanPoint end = plan_point(before, g.s - before.s);
-        const double gap = std::hypot(end.x - g.x, end.y - g.y);
+        const PlanPoint end = plan_point(before, g.s - before.s), begin = plan_point(g, 0);
+        const double gap = std::hypot(end.x - begin.x, end.y - begin.y);
         if (!(gap <= kTorn))
             element.fail("road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
                          " m at s = " + std::to_string(g.s));

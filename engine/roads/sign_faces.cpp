@@ -11,6 +11,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kLayer = 0.002;  // m between prints
 constexpr double kThick = 0.02;   // m of a panel
+constexpr double kBefore = 0.05;  // m from the signal's place to the back of a panel
 
 enum class Shape : uint8_t { Round, Triangle, Inverted, Octagon, Diamond, Rectangle };
 
@@ -190,7 +191,8 @@ Face face_of(const RoadSignal& s) {
 
 void add_sign(RoadMesh& mesh, const BodyFrame& frame, const RoadSignal& signal, double width, double height) {
     const Face face = face_of(signal);
-    const Panel panel{mesh, frame, width, height};
+    // Before the signal's place, where files have poles, and other signs back to back.
+    const Panel panel{mesh, frame.moved(kBefore + kThick, 0, 0), width, height};
     const auto outline = panel.outline(face.shape, 1);
     panel.back(outline);
     panel.print(face.rim, outline, 0);

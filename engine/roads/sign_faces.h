@@ -5,8 +5,9 @@
 
 namespace vesper {
 
-/// A sign's panel, its front in the plane x = 0 of the frame, looking along +x (who reads it has +y to the right), its
-/// bottom edge at z = 0. Speed limits show their number, known signs their shape and colours, others a white panel.
+/// A sign's panel, its back 5 cm before the plane x = 0 of the frame, looking along +x (who reads it has +y to the
+/// right), its bottom edge at z = 0. Speed limits show their number, known signs their shape and colours, others a
+/// white panel.
 void add_sign(RoadMesh& mesh, const BodyFrame& frame, const RoadSignal& signal, double width, double height);
 
 /// Whether the signal is painted on the road (stop lines and the like) rather than put up.

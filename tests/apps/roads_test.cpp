@@ -39,7 +39,7 @@ TEST_F(Roads, LampsAreChosen) {
 }
 
 TEST_F(Roads, BadInputEndsInOneLine) {
-    write_text(folder / "bad.xodr", "<OpenDRIVE>\n<road id=\"1\" length=\"5\"/>\n</OpenDRIVE>");
+    std::ofstream(folder / "bad.xodr") << "<OpenDRIVE>\n<road id=\"1\" length=\"5\"/>\n</OpenDRIVE>";
     expect_refused("convert bad.xodr", {"bad.xodr:2: road: road '1' has no planView"});
     EXPECT_FALSE(exists("bad.gltf"));
     expect_refused("convert none.xodr", {"none.xodr"});

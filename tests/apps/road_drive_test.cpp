@@ -65,7 +65,8 @@ TEST(RoadDrive, TheAutopilotFollowsTheRoadAmongTraffic) {
 TEST(RoadDrive, PlainBodiesHaveTheirLamps) {
     const TempFolder folder;
     const Scenery scenery(kRoads, folder.write("run.csv", kRun));
-    const auto names = scenery.lamp_names();
+    std::vector<std::string> names;
+    for (const LampGroup& group : scenery.lamp_groups()) names.push_back(group.name);
     for (const char* name : {"low beam", "high beam", "tail lamp", "brake lamp", "left front indicator", "right rear indicator"}) EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
     EXPECT_THROW(Scenery(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json", folder / "run.csv"), Error);
 }

@@ -15,10 +15,7 @@ Renderer::Renderer(Device& device, const Scene& scene)
       maps_(light_maps(scene)),
       map_arena_(device),
       map_texels_(upload_texels(device, maps_.texels)),
-      ambient_illuminance_(scene.ambient_illuminance),
-      sky_luminance_(scene.sky_luminance),
-      ambient_colour_(scene.ambient_colour),
-      sky_colour_(scene.sky_colour),
+      ambient_{scene.ambient_illuminance * scene.ambient_colour, scene.sky_luminance * scene.sky_colour},
       scatter_(device),
       executor_(device) {
     maps_.texels = std::vector<glm::vec4>();  // the device has them
@@ -46,16 +43,18 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
     clustering.far = resident_.farthest_depth(frame, view.world_to_view);
     ShadeSettings shading{.all_lights = settings.all_lights};
     if (ldr || settings.paper_lambert) shading.lambert = 1;
+    const AmbientLight ambient = frame.ambient.value_or(ambient_);
     if (ldr)
         shading.emission_limit = 1;
     else
-        shading.ambient = ambient_illuminance_ * ambient_colour_, shading.sky = sky_luminance_ * sky_colour_;
+        shading.ambient = frame.tunnels.empty() ? ambient.illuminance : glm::vec3(0), shading.sky = ambient.sky;
 
     const GBuffer surfaces = add_gbuffer(graph, resident_, frame, view);
     const MapTexels maps{map_texels_.in(graph, "maps"), maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};
     const Clusters clusters = add_clusters(graph, kernels_, lights, maps, view, clustering);
     if (retro_ && !ldr) shading.retro = retro_.in(graph, "retroreflection");
     Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
+    if (!frame.tunnels.empty() && !ldr) scene = add_daylight(graph, kernels_, surfaces, scene, frame.tunnels, view, ambient.illuminance, shading.lambert);
     if (sky_ && !ldr) {
         const Resource sky = sky_.in(graph, "sky map");
         scene = add_sky(graph, kernels_, surfaces, scene, sky, sky_sharp_side_, view, shading.lambert);
@@ -73,9 +72,11 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     if (ldr) set_to_one(lights, settings.ldr_reference_distance);
     SourceList sources = source_list(sources_, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
 
-    ChainInputs given{.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = nullptr, .outside = {}};
+    ChainInputs given{.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = {}};
     if (!ldr) {
+        const shared::EyeState& before = eye_ ? *eye_ : last_eye_;
         if (settings.glare == Glare::Scatter) given.scatter = &scatter_.at(settings.scatter, view);
+        if (given.scatter && settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.adaptation), double(before.seconds + seconds));
         given.outside = settings.lamps_elsewhere;
         for (const GlareSource& source : sources.dazzling)
             if (source.inside < 1) given.outside.push_back({source.direction, (1 - source.inside) * source.illuminance});
@@ -91,6 +92,8 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
 
     Frame result;
     read_tone_chain(executor_, declared.chain, view.extent, result);
+    last_eye_ = result.eye;
+    if (given.corona) result.pupil = given.corona->pupil, result.pattern_milliseconds = given.corona->milliseconds;
     result.clusters = read_one<shared::ClusterReport>(executor_, declared.clusters);
     result.lights = uint32_t(lights.lights.size());
     result.sources = uint32_t(sources.sources.size());
@@ -105,6 +108,7 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
 void Renderer::reset_adaptation() {
     executor_.reset(kEyeHistory);
     eye_.reset();
+    last_eye_ = {};
 }
 
 }  // namespace vesper

@@ -76,11 +76,12 @@ private:
     TexelBuffer map_texels_;
     TexelBuffer sky_, retro_;     // without buffers where the scene has no picture of a sky, nothing retroreflective
     uint32_t sky_sharp_side_ = 0;
-    float ambient_illuminance_, sky_luminance_;
-    glm::vec3 ambient_colour_, sky_colour_;
+    AmbientLight ambient_;        // of the scene
     ScatterCache scatter_;
+    CoronaCache corona_;
     Executor executor_;
     std::optional<shared::EyeState> eye_;  // set for the next frame
+    shared::EyeState last_eye_{};          // what the last frame left
     std::string plan_;
 };
 

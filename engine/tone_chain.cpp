@@ -24,7 +24,15 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     uint32_t tone = op.form | (settings.tone.colour_loss ? shared::kToneColourLoss : 0) | (settings.tone.purkinje ? shared::kTonePurkinje : 0) |
                     (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0);
     // What the eye adapts to and the histogram counts is what falls on the retina.
-    const Resource scene = given.scatter ? add_scatter(graph, kernels, rendered, *given.scatter, given.outside) : rendered;
+    Resource scene = rendered;
+    if (given.scatter) scene = add_scatter(graph, kernels, rendered, *given.scatter, given.outside);
+    if (given.scatter && given.corona) scene = add_corona(graph, kernels, rendered, scene, given.corona->texels, view);
+    const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
+    if (outputs.retina) {
+        ToneChain chain;
+        chain.scene = bring_back(graph, "retina", scene, pixels * 16);
+        return chain;
+    }
     const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent, settings.tone.log_epsilon);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
     HistogramSettings votes = settings.histogram;
@@ -46,7 +54,6 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     const CompositeInputs inputs{.scene = seen, .curve = adaptation.curve, .luminance_glare = {}, .ldr_glare = glare};
     const Resource display = add_composite(graph, kernels, inputs, tone, view, settings.display, settings.ldr_glare.gain);
 
-    const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
     ToneChain chain{.display = {}, .scene = {}, .light = {},
                     .curve = bring_back(graph, "tone curve", adaptation.curve, sizeof(shared::ToneCurve)),
                     .histogram = bring_back(graph, "histogram", histogram, sizeof(shared::Histogram)),
@@ -66,9 +73,11 @@ void read_tone_chain(const Executor& executor, const ToneChain& chain, VkExtent2
     read_all(executor, chain.display, to.display);
     read_all(executor, chain.scene, to.scene);
     read_all(executor, chain.light, to.light);
-    to.curve = read_one<shared::ToneCurve>(executor, chain.curve);
-    to.histogram = read_one<shared::Histogram>(executor, chain.histogram);
-    to.eye = read_one<shared::EyeState>(executor, chain.eye);
+    if (chain.curve) {
+        to.curve = read_one<shared::ToneCurve>(executor, chain.curve);
+        to.histogram = read_one<shared::Histogram>(executor, chain.histogram);
+        to.eye = read_one<shared::EyeState>(executor, chain.eye);
+    }
     to.foveal_level = chain.foveal_level;
     to.timings = executor.timings();
     to.host_times = executor.host_times();

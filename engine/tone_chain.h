@@ -7,6 +7,7 @@
 
 #include "graph/executor.h"
 #include "passes/passes.h"
+#include "resident/eye_corona.h"
 #include "resident/kernels.h"
 
 namespace vesper {
@@ -30,6 +31,9 @@ struct Outputs {
     bool display = true;  ///< codes
     bool scene = false;   ///< luminance
     bool light = false;   ///< luminance of the display, without its limits
+    /// Only `scene`, but as it falls on the retina, with what the eye scatters; no eye adapts and nothing is shown. For several
+    /// pictures of one eye.
+    bool retina = false;
 };
 
 /// What the chain leaves for the host. Resources that were not asked for are none.
@@ -43,6 +47,7 @@ struct ChainInputs {
     float seconds = 0;                              ///< since the last frame
     const shared::EyeState* remembered = nullptr;   ///< stands for the last frame
     const ResidentScatter* scatter = nullptr;       ///< of the settings and the view; nothing: no light is scattered
+    const Corona* corona = nullptr;                 ///< of the settings; nothing: lamps have neither needles nor halo
     std::vector<OutsideLamp> outside;               ///< lamps whose light is scattered into the picture
 };
 
@@ -63,6 +68,8 @@ struct ToneMapped {
     uint32_t foveal_level = 0;
     std::vector<Timing> timings;
     HostTimes host_times;
+    double pupil = 0;               ///< mm, whose glare is shown; 0: of a model without one
+    double pattern_milliseconds = 0;  ///< of needles and halo, on the host
     double milliseconds = 0;        ///< from declaring the frame to the device being done, on the host's clock
 };
 

@@ -31,7 +31,11 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
     const Resource scene = graph.transient("scene", image_shape(kSceneFormat, picture.extent));
     graph.copy("picture", graph.external("picture", pixels_.buffer(), bytes), scene);
     const View view = View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1));
-    const ToneChain chain = add_tone_chain(graph, kernels_, scene, view, settings, {.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = settings.glare == Glare::Scatter ? &scatter_.at(settings.scatter, view) : nullptr, .outside = picture.outside}, outputs);
+    ChainInputs given{.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = picture.outside};
+    const shared::EyeState& before = eye_ ? *eye_ : last_eye_;
+    if (settings.glare == Glare::Scatter) given.scatter = &scatter_.at(settings.scatter, view);
+    if (given.scatter && settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.adaptation), double(before.seconds + seconds));
+    const ToneChain chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs);
     const double declared_after = watch.milliseconds();
     executor_.run(graph);
     eye_.reset();
@@ -39,6 +43,8 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
 
     ToneMapped result;
     read_tone_chain(executor_, chain, picture.extent, result);
+    last_eye_ = result.eye;
+    if (given.corona) result.pupil = given.corona->pupil, result.pattern_milliseconds = given.corona->milliseconds;
     result.host_times.declare = declared_after;
     result.milliseconds = watch.milliseconds();
     return result;

@@ -32,6 +32,7 @@ public:
     void reset_adaptation() {
         executor_.reset(kEyeHistory);
         eye_.reset();
+        last_eye_ = {};
     }
     /// The next picture goes on from this state, such as ToneMapped::eye of an earlier run.
     void set_eye(const shared::EyeState& eye) { eye_ = eye; }
@@ -44,7 +45,9 @@ private:
     Executor executor_;
     HostBuffer pixels_;
     ScatterCache scatter_;
+    CoronaCache corona_;
     std::optional<shared::EyeState> eye_;  // set for the next picture
+    shared::EyeState last_eye_{};          // what the last picture left
     std::string plan_;
 };
 

@@ -4,12 +4,13 @@
 #extension GL_EXT_control_flow_attributes : require
 
 // Light scattered in the eye, on the way up: means of a level under the weights of the quartic B-spline. Pixels that are not
-// finite scatter nothing. Beyond the picture there is no light but that of the lamps given.
+// finite scatter nothing. Beyond the picture there is no light but that of the lamps given. An invocation goes down a strip; every
+// two rows read are added to the three that they have a part in, so that they are read once.
 
 #include "shared/scatter.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint kColumns = 1u;    // texels that one invocation does
+layout(constant_id = 0) const uint kColumns = 1u;    // texels of a strip
 layout(constant_id = 1) const uint kRows = 1u;
 layout(constant_id = 2) const uint kFromScene = 0u;  // 1: reads the picture, which has no margin
 
@@ -18,7 +19,7 @@ layout(binding = 1) uniform samplerBuffer lamps;
 layout(binding = 2, rgba32f) writeonly uniform image2D means;
 layout(push_constant, scalar) uniform Push { ScatterUpPush push; };
 
-const float kFilter[6] = float[](1.0 / 32.0, 5.0 / 32.0, 10.0 / 32.0, 10.0 / 32.0, 5.0 / 32.0, 1.0 / 32.0);
+const uint kWide = 2u * kColumns + 4u;
 
 vec3 light_at(ivec2 at) {
     const ivec2 last = ivec2(push.from_size) - 1;
@@ -38,27 +39,33 @@ void main() {
     const ivec2 at = ivec2(gl_GlobalInvocationID.xy * uvec2(kColumns, kRows));
     const int margin = int(kScatterUpMargin);
     const ivec2 first = 2 * (at - margin) - 2 + (kFromScene != 0u ? 0 : margin);
-    vec3 sum[kRows * kColumns];
-    [[unroll]] for (uint i = 0u; i < kRows * kColumns; ++i) sum[i] = vec3(0.0);
-    [[unroll]] for (uint row = 0u; row < 2u * kRows + 4u; ++row) {
-        vec3 light[2u * kColumns + 4u];
-        [[unroll]] for (uint i = 0u; i < 2u * kColumns + 4u; ++i) light[i] = light_at(first + ivec2(i, row));
-        [[unroll]] for (uint column = 0u; column < kColumns; ++column) {
-            vec3 across = vec3(0.0);
-            [[unroll]] for (uint k = 0u; k < 6u; ++k) across += kFilter[k] * light[2u * column + k];
-            // The texels of this column that the row has a part in.
-            [[unroll]] for (uint to = 0u; to < kRows; ++to)
-                if (row >= 2u * to && row < 2u * to + 6u) sum[to * kColumns + column] += kFilter[row - 2u * to] * across;
+    vec3 one_read[kColumns], two_read[kColumns];  // texels of which two rows of six are in, and four
+    [[unroll]] for (uint i = 0u; i < kColumns; ++i) one_read[i] = two_read[i] = vec3(0.0);
+    // Unrolled, this is many times as long to compile, and slower on a CPU.
+    [[dont_unroll]] for (int y = -2; y < int(kRows); ++y) {
+        vec3 across[2u * kColumns];
+        [[unroll]] for (uint row = 0u; row < 2u; ++row) {
+            vec3 light[kWide];
+            [[unroll]] for (uint i = 0u; i < kWide; ++i) light[i] = light_at(first + ivec2(int(i), 2 * (y + 2) + int(row)));
+            [[unroll]] for (uint i = 0u; i < kColumns; ++i)
+                across[row * kColumns + i] = (10.0 * (light[2u * i + 2u] + light[2u * i + 3u]) + 5.0 * (light[2u * i + 1u] + light[2u * i + 4u]) +
+                                              (light[2u * i] + light[2u * i + 5u])) / 1024.0;
+        }
+        vec3 mean[kColumns];
+        [[unroll]] for (uint i = 0u; i < kColumns; ++i) {
+            const vec3 upper = across[i], lower = across[kColumns + i];
+            mean[i] = two_read[i] + 5.0 * upper + lower;
+            two_read[i] = one_read[i] + 10.0 * (upper + lower);
+            one_read[i] = upper + 5.0 * lower;
+        }
+        for (uint lamp = 0u; lamp < push.lamps; ++lamp) {
+            const vec2 away = vec2(at + ivec2(0, y) - margin) + 0.5 - texelFetch(lamps, int(2u * lamp)).xy;
+            const vec3 light = spline(away.y) * texelFetch(lamps, int(2u * lamp + 1u)).rgb;
+            [[unroll]] for (uint i = 0u; i < kColumns; ++i) mean[i] += spline(away.x + float(i)) * light;
+        }
+        [[unroll]] for (uint i = 0u; i < kColumns; ++i) {
+            const ivec2 texel = at + ivec2(int(i), y);
+            if (y >= 0 && all(lessThan(texel, ivec2(push.to_size)))) imageStore(means, texel, vec4(mean[i], 1.0));
         }
     }
-    [[unroll]] for (uint row = 0u; row < kRows; ++row)
-        [[unroll]] for (uint column = 0u; column < kColumns; ++column) {
-            const ivec2 texel = at + ivec2(column, row);
-            vec3 mean = sum[row * kColumns + column];
-            for (uint i = 0u; i < push.lamps; ++i) {
-                const vec2 away = vec2(texel - margin) + 0.5 - texelFetch(lamps, int(2u * i)).xy;
-                mean += spline(away.x) * spline(away.y) * texelFetch(lamps, int(2u * i + 1u)).rgb;
-            }
-            if (all(lessThan(texel, ivec2(push.to_size)))) imageStore(means, texel, vec4(mean, 1.0));
-        }
 }

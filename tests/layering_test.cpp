@@ -27,11 +27,14 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"photometry", {"base", "io"}},
     {"perception", {"base", "io", "photometry"}},
     {"scene", {"base", "io", "photometry", "perception"}},
+    {"roads", {"base", "io", "photometry", "perception", "scene"}},
+    {"simulation", {"base", "io", "photometry", "perception", "scene", "roads"}},
     {"gpu", {"base"}},
+    {"window", {"base", "gpu", "glsl"}},
     {"graph", {"base", "gpu"}},
     {"resident", {"base", "photometry", "perception", "scene", "gpu", "glsl"}},
     {"passes", {"base", "photometry", "perception", "scene", "gpu", "graph", "resident", "glsl"}},
-    {"", {"base", "io", "photometry", "perception", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
+    {"", {"base", "io", "photometry", "perception", "scene", "roads", "gpu", "graph", "resident", "passes", "glsl"}},
 };
 
 std::string text_of(const fs::path& file) {
@@ -62,7 +65,7 @@ std::string objection(const fs::path& from, const std::string& what) {
     const std::string layer = glsl ? "glsl" : top;
     // Pictures are part of a scene and are decoded by io; that is all io knows of it, and no header of scene knows io.
     if (folder == "io" && what == "scene/scene.h") return {};
-    if (folder == "scene" && layer == "io" && from.extension() != ".cpp") return "is a header of scene/";
+    if ((folder == "scene" || folder == "simulation") && layer == "io" && from.extension() != ".cpp") return "is a header of " + folder + "/";
     if (layer != folder && !kMayInclude.at(folder).contains(layer)) return "is a step up";
     return {};
 }

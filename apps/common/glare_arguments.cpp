@@ -26,7 +26,8 @@ constexpr Named kNames[]{{"veil", &GlareReport::veil},           {"road_veil", &
                          {"ti", &GlareReport::increment},        {"background", &GlareReport::background},
                          {"glare_lux", &GlareReport::illuminance}, {"target", &GlareReport::target},
                          {"around", &GlareReport::around},       {"target_veil", &GlareReport::target_veil},
-                         {"visibility", &GlareReport::visibility}};
+                         {"visibility", &GlareReport::visibility}, {"pupil", &GlareReport::pupil},
+                         {"eye_seed", &GlareReport::eye_seed}};
 
 }  // namespace
 
@@ -71,7 +72,10 @@ GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& s
     for (const OutsideLamp& lamp : outside) lights.push_back({lamp.direction, luminance(lamp.illuminance)});
     GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze), .source_luminance = kSourceContrast * double(shown.curve.log_average)};
     if (const auto& t = arguments.target; t.size() == 4) question.target = MarkedTarget{{t[0], t[1]}, {t[2], t[3]}};
-    return report_glare(image, shown.scene, lights, question);
+    GlareReport report = report_glare(image, shown.scene, lights, question);
+    report.pupil = shown.pupil;
+    if (settings.glare == Glare::Scatter && settings.scatter.has_corona()) report.eye_seed = settings.scatter.aperture.seed;
+    return report;
 }
 
 Header describe_glare(const ToneChainSettings& settings, const GlareReport& report) {

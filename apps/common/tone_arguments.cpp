@@ -13,8 +13,8 @@
 namespace vesper {
 namespace {
 
-const std::map<std::string, Glare> kGlares{{"none", Glare::None}, {"ldr", Glare::Ldr}, {"cie", Glare::Scatter}, {"spencer", Glare::Scatter}, {"ward", Glare::Scatter}};
-const std::map<std::string, ScatterSettings::Model> kScatters{{"cie", ScatterSettings::Model::Cie}, {"spencer", ScatterSettings::Model::Spencer}, {"ward", ScatterSettings::Model::Ward}};
+const std::map<std::string, Glare> kGlares{{"none", Glare::None}, {"ldr", Glare::Ldr}, {"cie", Glare::Scatter}, {"spencer", Glare::Scatter}, {"ward", Glare::Scatter}, {"temporal", Glare::Scatter}};
+const std::map<std::string, ScatterSettings::Model> kScatters{{"cie", ScatterSettings::Model::Cie}, {"spencer", ScatterSettings::Model::Spencer}, {"ward", ScatterSettings::Model::Ward}, {"temporal", ScatterSettings::Model::Temporal}};
 const std::map<std::string, SpencerState> kPupils{{"photopic", SpencerState::Photopic}, {"mesopic", SpencerState::Mesopic}, {"scotopic", SpencerState::Scotopic}};
 
 Display display_of(const ToneArguments& arguments) {
@@ -35,9 +35,11 @@ Display display_of(const ToneArguments& arguments) {
 
 void add_tone_options(CLI::App& command, ToneArguments& a) {
     add_eye_options(command, a.eye, a.histogram, a.tone);
-    command.add_option("--glare", a.glare, "Light scattered in the eye: cie (CIE 135/1 total glare function), spencer (1995), ward (the veil of 1997), all in cd/m^2 before the operator; ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr", "cie", "spencer", "ward"}))->capture_default_str();
-    command.add_option("--iris", a.iris, "cie: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")->check(between(0.0, 1.5))->capture_default_str();
+    command.add_option("--glare", a.glare, "Light scattered in the eye: cie (CIE 135/1 total glare function), spencer (1995; needles and halo), ward (the veil of 1997), temporal (cie with needles and halo that move, after Ritschel 2009), all in cd/m^2 before the operator; ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr", "cie", "spencer", "ward", "temporal"}))->capture_default_str();
+    command.add_option("--iris", a.iris, "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")->check(between(0.0, 1.5))->capture_default_str();
     command.add_option("--pupil", a.pupil, "spencer: of what size, for the eye's adaptation")->check(CLI::IsMember({"photopic", "mesopic", "scotopic"}))->capture_default_str();
+    command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: whose eye: what needles it has, and when it moves")->check(CLI::Range(0u, 0xffffffffu))->capture_default_str();
+    command.add_flag("--lashes", a.lashes, "temporal: the eye squints, and lashes hang before its pupil");
     command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
     command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
     command.add_option("--key", a.tone.key, "Reinhard: what the log average is scaled to, relative to white, before compression")->check(between(1e-4, 10.0))->capture_default_str();
@@ -58,7 +60,7 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
 ToneChainSettings tone_settings(const ToneArguments& arguments) {
     ToneChainSettings settings;
     settings.glare = kGlares.at(arguments.glare);
-    settings.scatter = {settings.glare == Glare::Scatter ? kScatters.at(arguments.glare) : ScatterSettings::Model::Cie, {arguments.tone.observer.age, arguments.iris}, kPupils.at(arguments.pupil)};
+    settings.scatter = {settings.glare == Glare::Scatter ? kScatters.at(arguments.glare) : ScatterSettings::Model::Cie, {arguments.tone.observer.age, arguments.iris}, kPupils.at(arguments.pupil), {arguments.eye_seed, arguments.lashes}};
     settings.histogram = arguments.histogram;
     settings.tone = arguments.tone;
     apply(arguments.eye, settings);

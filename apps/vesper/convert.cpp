@@ -1,40 +1,105 @@
 #include "scene/convert.h"
 
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
+#include "base/error.h"
 #include "commands.h"
+#include "photometry/distribution.h"
+#include "roads/lit_roads.h"
+#include "roads/opendrive.h"
+#include "scene/gltf_save.h"
 
 namespace vesper {
 namespace {
 
+const std::map<std::string, StreetLampOptions::Side> kSides{{"auto", StreetLampOptions::Side::Auto},
+                                                            {"right", StreetLampOptions::Side::Right},
+                                                            {"left", StreetLampOptions::Side::Left},
+                                                            {"both", StreetLampOptions::Side::Both},
+                                                            {"alternating", StreetLampOptions::Side::Alternating}};
+
 struct ConvertArguments {
     std::string input, photometry, output;
     bool srgb = false;
+    StreetLampOptions lamps;
+    std::string luminaire;
+    std::vector<const CLI::Option*> for_databases, for_lamps;
 };
 
+void print(const std::vector<std::string>& changes, const std::vector<std::string>& warnings,
+           const std::string& output) {
+    for (const std::string& line : changes) std::printf("%s\n", line.c_str());
+    for (const std::string& line : warnings) std::fprintf(stderr, "warning: %s\n", line.c_str());
+    std::printf("wrote %s\n", output.c_str());
+}
+
+void refuse(const std::vector<const CLI::Option*>& options, const std::string& why) {
+    for (const CLI::Option* option : options)
+        if (option->count() > 0) throw Error(option->get_name() + why);
+}
+
+void run_roads(const ConvertArguments& arguments) {
+    refuse(arguments.for_databases, " has no meaning for an OpenDRIVE file: it has no materials and no nodes");
+    const std::filesystem::path input = arguments.input;
+    const std::string output = arguments.output.empty() ? input.stem().string() + ".gltf" : arguments.output;
+    LitRoadOptions options;
+    for (const CLI::Option* option : arguments.for_lamps)
+        if (option->count() > 0) options.lamps = arguments.lamps;
+    if (!arguments.luminaire.empty()) options.lamps->luminaire = read_distribution(arguments.luminaire);
+    const RoadNetwork network = read_opendrive(input);
+    const LitRoads lit = lit_roads(network, options);
+    save_gltf(lit.scene, input.filename().string(), output);
+    print(lit.notes, network.notes, output);
+}
+
 void run(const ConvertArguments& arguments) {
+    if (arguments.input.ends_with(".xodr")) return run_roads(arguments);
+    refuse(arguments.for_lamps, " has a meaning only for an OpenDRIVE file (.xodr)");
+    if (arguments.photometry.empty()) throw Error("--photometry is required for a glTF database");
+    if (arguments.output.empty()) throw Error("--output is required for a glTF database");
     std::optional<Transfer> transfer;
     if (arguments.srgb) transfer = Transfer{Transfer::Kind::Srgb};
     const ConversionReport report = convert(arguments.input, arguments.photometry, arguments.output, transfer);
-    for (const std::string& line : report.changes) std::printf("%s\n", line.c_str());
-    for (const std::string& line : report.warnings) std::fprintf(stderr, "warning: %s\n", line.c_str());
-    std::printf("wrote %s\n", arguments.output.c_str());
+    print(report.changes, report.warnings, arguments.output);
 }
 
 }  // namespace
 
 void add_convert(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("convert", "Make a daytime glTF database photometric");
-    const auto arguments = std::make_shared<ConvertArguments>();
-    command->add_option("input", arguments->input, "The database: .gltf or .glb")->required();
-    command->add_option("--photometry,-p", arguments->photometry, "Which nodes are lamps, which materials shine (docs/photometry.md)")->required();
-    command->add_option("--output,-o", arguments->output, "One self-contained .gltf or .glb")->required();
-    command->add_flag("--srgb", arguments->srgb, "Decode textures as sRGB instead of with the gamma of the photometry file");
-    command->footer("Example:\n  vesper convert data/rivoli/rivoli.gltf --photometry data/rivoli/rivoli.photometry.json -o out/night.gltf\n");
-    command->callback([arguments] { run(*arguments); });
+    CLI::App* command = program.add_subcommand(
+        "convert", "Make a daytime glTF database photometric, or a night street of an OpenDRIVE file");
+    const auto a = std::make_shared<ConvertArguments>();
+    command->add_option("input", a->input, "The database: .gltf or .glb; or roads: .xodr (docs/roads.md)")->required();
+    a->for_databases = {
+        command->add_option(
+            "--photometry,-p", a->photometry,
+            "Which nodes are lamps, which materials shine (docs/photometry.md); required for databases"),
+        command->add_flag("--srgb", a->srgb,
+                          "Decode textures as sRGB instead of with the gamma of the photometry file")};
+    command->add_option("--output,-o", a->output,
+                        "One self-contained .gltf or .glb (default for roads: the input's name with .gltf)");
+    a->for_lamps = {command
+                        ->add_option("--lamp-spacing", a->lamps.spacing,
+                                     "Roads: m between street lamps, 0 for none (default: 30, or those of the file)")
+                        ->check(CLI::Range(0.0, 1000.0)),
+                    command
+                        ->add_option("--lamp-height", a->lamps.height,
+                                     "Roads: m, of the light points (default: 8, up to 12 on wide roads)")
+                        ->check(CLI::Range(2.0, 60.0)),
+                    command->add_option("--lamp-side", a->lamps.side, "Roads: auto, right, left, both, alternating")
+                        ->transform(CLI::CheckedTransformer(kSides)),
+                    command->add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
+                        ->check(CLI::Range(0.1, 20.0)),
+                    command->add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
+    command->footer(
+        "Examples:\n  vesper convert data/rivoli/rivoli.gltf --photometry data/rivoli/rivoli.photometry.json -o "
+        "out/night.gltf\n"
+        "  vesper convert data/rivoli/rivoli.xodr --lamp-spacing 25 --lamp-side both -o out/lanes.gltf\n");
+    command->callback([a] { run(*a); });
 }
 
 }  // namespace vesper

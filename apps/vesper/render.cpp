@@ -84,6 +84,7 @@ void print_statistics(const RenderArguments& arguments, const Device& device, co
         total += timing.milliseconds;
     }
     std::printf("  %-24s %8.3f\n", "sum", total);
+    if (frame.pupil > 0) std::printf("pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", frame.pupil, frame.pattern_milliseconds);
     // The first frame makes the driver compile its shaders.
     if (milliseconds.size() > 1) milliseconds.erase(milliseconds.begin());
     std::sort(milliseconds.begin(), milliseconds.end());

@@ -164,6 +164,7 @@ void report(const TonemapArguments& arguments, const Job& job, const Shown& show
                 one_line(job.input).c_str(), p.extent.width, p.extent.height, shown.scale, double(p.curve.adaptation), double(p.curve.maximum), p.foveal_level, shown.fov,
                 p.milliseconds, device);
     std::printf("  veil %.4g cd/m^2, threshold increment %.3g %%, background %.4g cd/m^2\n", shown.glare.veil, shown.glare.increment, shown.glare.background);
+    if (p.pupil > 0) std::printf("  pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", p.pupil, p.pattern_milliseconds);
     for (const Timing& timing : p.timings) std::printf("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
 }
 

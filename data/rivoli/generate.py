@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Generate the *Rivoli* street database beside this file, or check that the files here are what it generates.
 
-python3 data/rivoli/generate.py            write rivoli.gltf, rivoli.bin, rivoli.*.json, signs.exr, textures/
+python3 data/rivoli/generate.py            write rivoli*.gltf, *.bin, *.json, rivoli.xodr, signs.exr, textures/
 python3 data/rivoli/generate.py --check    regenerate into a temporary folder and compare byte for byte
 """
 
@@ -13,9 +13,11 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 
+from street.drive import write_drive  # noqa: E402
 from street.exr import write_exr  # noqa: E402
 from street.neon import neon_signs  # noqa: E402
 from street.photometry import write_photometry  # noqa: E402
+from street.roads import roads  # noqa: E402
 from street.scene import build_scene  # noqa: E402
 from street.textures import write_textures  # noqa: E402
 
@@ -28,7 +30,9 @@ def generate(folder):
     document, counts = build_scene()
     document.write(folder, NAME)
     write_photometry(folder, NAME)
+    (folder / f"{NAME}.xodr").write_text(roads())
     write_exr(folder / "signs.exr", neon_signs())
+    counts["drive triangles"] = write_drive(folder)["triangles"]
     counts["texels"] = write_textures(folder / "textures")
     counts["bytes"] = sum((folder / file).stat().st_size for file in _products(folder))
     return counts
@@ -46,7 +50,8 @@ def check():
 
 def _products(folder):
     """Generated files in ``folder``, relative and sorted."""
-    fixed = [f"{NAME}.gltf", f"{NAME}.bin", f"{NAME}.photometry.json", f"{NAME}.measured.photometry.json", "signs.exr"]
+    suffixes = (".gltf", ".bin", ".photometry.json", ".measured.photometry.json", ".world.json", ".xodr")
+    fixed = [NAME + suffix for suffix in suffixes] + [f"{NAME}-drive{suffix}" for suffix in suffixes[:3]] + ["signs.exr"]
     textures = sorted(f"textures/{path.name}" for path in (folder / "textures").glob("*"))
     return [file for file in fixed if (folder / file).exists()] + textures
 

@@ -38,14 +38,23 @@ bool has_extension(VkPhysicalDevice device, const char* name) {
     return std::any_of(all.begin(), all.end(), [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
-std::optional<uint32_t> graphics_queue_family(VkPhysicalDevice device) {
+bool has_instance_extension(const char* name) {
+    uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> all(count);
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, all.data());
+    return std::any_of(all.begin(), all.end(), [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+/// The first family for graphics and compute that `also` takes.
+std::optional<uint32_t> graphics_queue_family(VkPhysicalDevice device, const std::function<bool(uint32_t)>& also = {}) {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     for (uint32_t i = 0; i < count; ++i)
-        if ((families[i].queueFlags & wanted) == wanted) return i;
+        if ((families[i].queueFlags & wanted) == wanted && (!also || also(i))) return i;
     return std::nullopt;
 }
 
@@ -125,6 +134,8 @@ std::string text_of(VkResult result) {
         case VK_ERROR_DEVICE_LOST: return "the device was lost";
         case VK_ERROR_MEMORY_MAP_FAILED: return "memory could not be mapped";
         case VK_ERROR_EXTENSION_NOT_PRESENT: return "an extension is missing";
+        case VK_ERROR_SURFACE_LOST_KHR: return "the window was lost";
+        case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR: return "the window is in use";
         case VK_ERROR_FEATURE_NOT_PRESENT: return "a feature is missing";
         case VK_ERROR_FORMAT_NOT_SUPPORTED: return "a format is not supported";
         default: return "Vulkan result " + std::to_string(result);
@@ -151,7 +162,7 @@ std::vector<std::string> list_devices() {
     return lines;
 }
 
-Device::Device(const DeviceOptions& options) : on_message_(options.on_message) {
+Device::Device(const DeviceOptions& options) : on_message_(options.on_message), presentation_(options.presentation) {
     try {
         open_instance(options.validation);
         const char* variable = std::getenv("VESPER_DEVICE");
@@ -174,11 +185,29 @@ void Device::close() noexcept {
     if (instance_) vkDestroyInstance(instance_, nullptr);
 }
 
+std::optional<uint32_t> Device::queue_family(VkPhysicalDevice device) const {
+    if (!presentation_) return graphics_queue_family(device);
+    return graphics_queue_family(device, [&](uint32_t family) { return presentation_->possible(instance_, device, family); });
+}
+
+std::string Device::missing(VkPhysicalDevice device) const {
+    const std::string reason = vesper::missing(device);
+    if (!reason.empty() || !presentation_) return reason;
+    if (!has_extension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) return "no VK_KHR_swapchain";
+    return queue_family(device) ? "" : "cannot show pictures in this window system";
+}
+
 void Device::open_instance(bool validation) {
+    std::vector<const char*> extensions;
+    if (presentation_) {
+        for (const std::string& name : presentation_->instance_extensions) extensions.push_back(name.c_str());
+        if (has_instance_extension(VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME)) extensions.push_back(VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME);
+    }
     if (!validation) {
-        instance_ = make_instance(nullptr, {}, {});
+        instance_ = make_instance(nullptr, {}, extensions);
         return;
     }
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const VkDebugUtilsMessengerCreateInfoEXT messages{
         .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
         .messageSeverity =
@@ -191,7 +220,7 @@ void Device::open_instance(bool validation) {
                                            .pNext = &messages,
                                            .enabledValidationFeatureCount = 1,
                                            .pEnabledValidationFeatures = enable};
-    instance_ = make_instance(&features, {kValidationLayer}, {VK_EXT_DEBUG_UTILS_EXTENSION_NAME});
+    instance_ = make_instance(&features, {kValidationLayer}, extensions);
     const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
     if (create) check(create(instance_, &messages, nullptr, &messenger_), "listening to validation");
@@ -224,7 +253,7 @@ void Device::open_device() {
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
     vkGetPhysicalDeviceProperties2(physical_, &properties);
     driver_ = std::string(driver.driverName) + " " + driver.driverInfo;
-    queue_family_ = *graphics_queue_family(physical_);
+    queue_family_ = *queue_family(physical_);
     has_timestamps_ = properties_.limits.timestampComputeAndGraphics;
 
     VkPhysicalDeviceFeatures available;
@@ -247,13 +276,18 @@ void Device::open_device() {
     const VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                                              .pNext = &f12,
                                              .features = {.independentBlend = VK_TRUE, .samplerAnisotropy = has_anisotropy_}};
-    const char* extensions[] = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    std::vector<const char*> extensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    if (presentation_) {
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+        has_hdr_metadata_ = has_extension(physical_, VK_EXT_HDR_METADATA_EXTENSION_NAME);
+        if (has_hdr_metadata_) extensions.push_back(VK_EXT_HDR_METADATA_EXTENSION_NAME);
+    }
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue,
-                                  .enabledExtensionCount = 1,
-                                  .ppEnabledExtensionNames = extensions};
+                                  .enabledExtensionCount = uint32_t(extensions.size()),
+                                  .ppEnabledExtensionNames = extensions.data()};
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "opening " + name());
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
     push_descriptors =

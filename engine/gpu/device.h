@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,10 +41,17 @@ private:
     T handle_ = VK_NULL_HANDLE;
 };
 
+/// What a window system asks of a device that is to show pictures in its windows.
+struct Presentation {
+    std::vector<std::string> instance_extensions;
+    std::function<bool(VkInstance, VkPhysicalDevice, uint32_t family)> possible;  ///< whether a queue of this family can
+};
+
 struct DeviceOptions {
     std::string select;       ///< part of a name, "cpu", or an index; empty: VESPER_DEVICE, else the best there is
     bool validation = false;  ///< core, synchronization and best-practice-free checks of the Khronos layer
     std::function<void(const std::string&)> on_message;  ///< called for every validation message
+    std::optional<Presentation> presentation;  ///< for windows (window/swapchain.h); a device that shows none needs none
 };
 
 /// What a device has been asked for since it was opened.
@@ -65,6 +73,7 @@ public:
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
+    VkInstance instance() const { return instance_; }
     VkDevice handle() const { return device_; }
     VkPhysicalDevice physical() const { return physical_; }
     VkQueue queue() const { return queue_; }
@@ -73,6 +82,7 @@ public:
     bool is_cpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     bool has_timestamps() const { return has_timestamps_; }
     bool has_anisotropy() const { return has_anisotropy_; }
+    bool has_hdr_metadata() const { return has_hdr_metadata_; }  ///< VK_EXT_hdr_metadata; only with a presentation
     std::string name() const { return properties_.deviceName; }
     std::string driver() const { return driver_; }  ///< name and version
 
@@ -95,13 +105,16 @@ private:
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     uint32_t queue_family_ = 0;
-    bool has_timestamps_ = false, has_anisotropy_ = false;
+    bool has_timestamps_ = false, has_anisotropy_ = false, has_hdr_metadata_ = false;
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceMemoryProperties memory_{};
     mutable DeviceUse use_;
     std::string driver_;
     std::function<void(const std::string&)> on_message_;
+    std::optional<Presentation> presentation_;
 
+    std::string missing(VkPhysicalDevice device) const;
+    std::optional<uint32_t> queue_family(VkPhysicalDevice device) const;
     void open_instance(bool validation);
     void choose(const std::string& select);
     void open_device();

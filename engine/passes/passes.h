@@ -111,6 +111,12 @@ Resource add_shading(FrameGraph&, const Kernels&, const GBuffer&, const Clusters
 Resource add_sky(FrameGraph&, const Kernels&, const GBuffer&, Resource scene, Resource sky, uint32_t sharp_side, const View&,
                  float lambert);
 
+/// Adds light from everywhere, `illuminance` (RGB lx) on any surface in the open, to shaded luminance, in place: E rho lambert. What
+/// lies in a tunnel gets what of it comes through the tunnel's ends, without what its walls send on. For days: ShadeSettings::ambient,
+/// which is the same light without tunnels, is then none.
+Resource add_daylight(FrameGraph&, const Kernels&, const GBuffer&, Resource scene, const std::vector<Tunnel>&, const View&,
+                      glm::vec3 illuminance, float lambert);
+
 /// Adds to the scene image, in place, the lamps of `list` seen directly: their luminance times the part of each pixel that
 /// their outline covers, exactly, where no `surface` (GBuffer::surface) lies before them. However small a lamp is, the sum
 /// over the image of luminance times solid angle is I / d^2. Without anything to see there is no pass.
@@ -215,6 +221,11 @@ Resource add_bands(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, 
 /// outside of the picture scatter theirs into it. rgba32f, cd/m^2. What a picture loses is what falls beside it. A pixel that
 /// is not finite stays and scatters nothing. `fit` is of the same size as the scene.
 Resource add_scatter(FrameGraph&, const Kernels&, Resource scene, const ResidentScatter& fit, const std::vector<OutsideLamp>&);
+
+/// Adds needles and halo of the brightest lamps to what add_scatter made of `scene`, in place. A lamp is the light of a square of
+/// shared::kCoronaTile px of the picture, wherever it comes from; what is hidden has none. The shared::kCoronaLamps brightest count, each less as the
+/// next one is nearer to it. `pattern` are the texels of corona_texels.
+Resource add_corona(FrameGraph&, const Kernels&, Resource scene, Resource seen, const std::vector<glm::vec4>& pattern, const View&);
 
 struct LdrGlareSettings {
     float threshold = 0.9f;      ///< light of its brightest channel, relative to white, from which a pixel glares

@@ -4,8 +4,8 @@
 namespace vesper {
 namespace {
 
-Groups cover_blocks(VkExtent2D size, const Kernel& kernel, VkExtent2D block) {
-    return cover(size.width, size.height, kernel.group[0] * block.width, kernel.group[1] * block.height);
+Groups cover_strips(VkExtent2D size, const Kernel& kernel, VkExtent2D strip) {
+    return cover(size.width, size.height, kernel.group[0] * strip.width, kernel.group[1] * strip.height);
 }
 
 VkExtent2D with_margin(VkExtent2D size, uint32_t margin) { return {size.width + 2 * margin, size.height + 2 * margin}; }
@@ -31,27 +31,28 @@ Resource add_scatter(FrameGraph& graph, const Kernels& kernels, Resource scene, 
         const Kernel& kernel = l == 1 ? kernels.scatter_up_first : kernels.scatter_up;
         graph.dispatch(name, kernel, {load(levels.back()), sample(list), store(image)},
                        ScatterUpPush{{from.width, from.height}, {to.width, to.height}, uint32_t(outside.size() / 2)},
-                       cover_blocks(to, kernel, kernels.scatter_up_block));
+                       cover_strips(to, kernel, kernels.scatter_up_strip));
         levels.push_back(image);
         sizes.push_back(size);
     }
 
     const VkExtent2D takes = with_margin(sizes.back(), kScatterDownMargin);
     Resource seen = graph.transient("scatter top", image_shape(kSceneFormat, takes));
-    const Resource weights = texels("scatter weights", fit.top(), VK_FORMAT_R32_SFLOAT);
+    const Resource weights = texels("scatter weights", fit.top(), VK_FORMAT_R32G32B32A32_SFLOAT);
     const Resource veil = graph.upload("veil of far lamps", fit.far_veil(lamps), VK_FORMAT_R32G32B32A32_SFLOAT);
     graph.dispatch("scatter top", kernels.scatter_top, {load(levels.back()), sample(weights), sample(veil), store(seen)},
-                   ScatterTopPush{{sizes.back().width, sizes.back().height}}, cover(takes.width * takes.height, 1, kernels.scatter_top.group[0], 1));
+                   ScatterTopPush{{sizes.back().width, sizes.back().height}}, cover((takes.width * takes.height + 3) / 4, 1, kernels.scatter_top.group[0], 1));
 
     for (int l = top - 1; l >= 0; --l) {
         const VkExtent2D size = l == 0 ? sizes[0] : with_margin(sizes[size_t(l)], kScatterDownMargin);
         const std::string name = "scatter down " + std::to_string(l);
         const Resource image = graph.transient(name, image_shape(kSceneFormat, size));
         const Kernel& kernel = l == 0 ? kernels.scatter_down_last : kernels.scatter_down;
+        const auto rows = uint32_t(scatter_strip(fit.image(), fit.nodes(), l, int(kernels.scatter_down_strip.height)));
         const glm::vec2 scale = glm::vec2(fit.nodes() - 1) * float(1 << l) / glm::vec2(fit.image().width, fit.image().height);
         graph.dispatch(name, kernel, {load(levels[size_t(l)]), load(seen), sample(taps), store(image)},
-                       ScatterDownPush{{size.width, size.height}, glm::uvec2(fit.nodes()), fit.node_texels(), ResidentScatter::first_texel(l), scale},
-                       cover_blocks(size, kernel, kernels.scatter_down_block));
+                       ScatterDownPush{{size.width, size.height}, glm::uvec2(fit.nodes()), uint32_t(top), uint32_t(l), rows, scale},
+                       cover_strips(size, kernel, {kernels.scatter_down_strip.width, rows}));
         seen = image;
     }
     return seen;

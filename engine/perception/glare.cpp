@@ -83,7 +83,7 @@ double ward_scattered(double t) { return std::cos(t * kDegree) / square(std::max
 }  // namespace
 
 double ward_veil(double t) {
-    constexpr double kCore = 0.005;  // deg: far below any pixel
+    constexpr double kCore = 5e-4;  // deg: far below any pixel
     static const double scattered = EyeScatter(ward_scattered).total();
     return 0.92 * std::exp(-square(t / kCore)) / (std::numbers::pi * square(kCore * kDegree)) + 0.08 * ward_scattered(t) / scattered;
 }

@@ -36,6 +36,8 @@ struct GlareReport {
     /// Of the marked target, looked at: its luminance and that of a frame of its own width around it, the veil there (CIE
     /// general), and its visibility level (perception/visibility.h) with the veil over both; 0 in the dark. cd/m^2.
     double target = 0, around = 0, target_veil = 0, visibility = 0;
+    /// Whose needles and halo are seen: the pupil at that moment, mm, and the seed of the eye; 0 without. Filled in by whoever showed them.
+    double pupil = 0, eye_seed = 0;
 };
 
 /// Asks a picture (RGBA rows from the top, cd/m^2 RGB in linear Rec. 709) and the lights outside of it. Sources nearer than 0.1

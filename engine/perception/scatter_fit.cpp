@@ -18,6 +18,7 @@ constexpr int kAzimuths = 12;
 constexpr int kNear = 3;          // texels of the top whose weights are fitted
 constexpr int kFar = 16;          // texels of the top beyond which light is counted, not added up
 constexpr double kBalance = 1e4;  // of the light, against the rows of the fit
+constexpr double kKept = 1e2;     // of what a pixel at the border leaves in the picture
 
 // Weights per axis from the texels of the level `from` downwards to what they make of pixel p: first texel, and weights.
 struct Taps {
@@ -40,19 +41,31 @@ Taps coarser(const Taps& fine, double gain) {
     return taps;
 }
 
-// For levels 0 .. levels: of a pixel, what it gives to each texel (down), and what it takes of each (up).
-std::vector<Taps> cascade(int pixel, int levels, double gain) {
-    std::vector<Taps> all{{pixel, {1.0}}};
+// For levels 0 .. levels: of `pixels` from the one given on, what they give to each texel, and what they take of each, added up.
+std::vector<Taps> cascade(int pixel, int pixels, int levels, double gain) {
+    std::vector<Taps> all{{pixel, std::vector<double>(size_t(pixels), 1.0)}};
     for (int l = 0; l < levels; ++l) all.push_back(coarser(all.back(), gain));
     return all;
 }
+std::vector<Taps> given(int pixel, int levels) { return cascade(pixel, 1, levels, 1.0 / 32); }
+std::vector<Taps> taken(int pixel, int pixels, int levels) { return cascade(pixel, pixels, levels, 1.0 / 16); }
 
-// Response at a pixel to another through one level, for a shift of `t` texels between them, on one axis.
-double response(const Taps& takes, const Taps& gives, int t) {
-    double sum = 0;
-    for (size_t i = 0; i < takes.weights.size(); ++i) sum += takes.weights[i] * gives.at(takes.first + int(i) + t);
-    return sum;
-}
+// What pixels take of a pixel, on one axis, through each level, for a shift of -kFar .. kFar texels between them.
+struct Responses {
+    std::vector<std::array<double, 2 * kFar + 1>> levels;
+
+    // `mirrored`: as if the picture were.
+    Responses(const std::vector<Taps>& takes, const std::vector<Taps>& gives, bool mirrored = false) : levels(takes.size()) {
+        for (size_t l = 0; l < levels.size(); ++l) {
+            const int most = l + 1 < levels.size() ? 2 : kFar;  // taps of levels reach no further
+            levels[l].fill(0);
+            for (int t = -most; t <= most; ++t)
+                for (size_t i = 0; i < gives[l].weights.size(); ++i)
+                    levels[l][size_t((mirrored ? -t : t) + kFar)] += gives[l].weights[i] * takes[l].at(gives[l].first + int(i) - t);
+        }
+    }
+    double at(size_t level, int shift) const { return levels[level][size_t(shift + kFar)]; }
+};
 
 dvec3 ray(dvec2 tangents) { return glm::normalize(dvec3(tangents, 1)); }
 
@@ -77,16 +90,46 @@ std::vector<double> far_weights(const EyeScatter& psf, const ImageAngles& image,
     return weights;
 }
 
-// What every weight makes of every sample, the same wherever the eye looks: rows of the fit.
+// What every weight makes of a sample: a row of the fit.
+struct Row {
+    Responses x, y;
+
+    // Of a tap of a level, with its opposite.
+    double at(size_t level, ivec2 tap) const {
+        return x.at(level, tap.x) * y.at(level, tap.y) + (tap == ivec2(0) ? 0 : x.at(level, -tap.x) * y.at(level, -tap.y));
+    }
+    // Of the weights of the top that are not fitted.
+    double known(const std::vector<double>& far) const {
+        const auto &along = x.levels.back(), &down = y.levels.back();
+        double sum = 0;
+        for (size_t j = 0; j < down.size(); ++j)
+            for (size_t i = 0; down[j] != 0 && i < along.size(); ++i) sum += along[i] * down[j] * far[j * along.size() + i];
+        return sum;
+    }
+};
+
+// Taps of the top without opposite ones, and those of all levels and of the top, one after the other.
+std::vector<ivec2> top_taps() {
+    std::vector<ivec2> taps;
+    for (int y = 0; y <= kNear; ++y)
+        for (int x = y == 0 ? 0 : -kNear; x <= kNear; ++x) taps.push_back({x, y});
+    return taps;
+}
+Eigen::RowVectorXd responses_of(const Row& row, const std::vector<ivec2>& top) {
+    const size_t levels = row.x.levels.size() - 1;
+    Eigen::RowVectorXd all(Eigen::Index(kTaps * levels + top.size()));
+    for (size_t l = 0; l < levels; ++l)
+        for (size_t i = 0; i < kTaps; ++i) all[Eigen::Index(kTaps * l + i)] = row.at(l, kScatterTaps[i]);
+    for (size_t i = 0; i < top.size(); ++i) all[Eigen::Index(kTaps * levels + i)] = row.at(levels, top[i]);
+    return all;
+}
+
+// Samples of the function, the same wherever the eye looks.
 struct Samples {
-    struct Row {
-        size_t offset;                                // which of `offsets`
-        std::array<double, 2 * kFar + 1> top_x, top_y;  // response of the top to shifts of -kFar .. kFar texels
-    };
     std::vector<ivec2> offsets;  // px from the eye's axis to the source
-    std::vector<ivec2> top;      // taps of the top, without opposite ones
-    std::vector<Row> rows;
-    Eigen::MatrixXd responses;   // a row for each of `rows`; a column for each tap of the levels, then of the top
+    std::vector<ivec2> top = top_taps();
+    std::vector<Row> rows;       // for each phase all offsets
+    Eigen::MatrixXd responses;
 
     explicit Samples(int levels);
 };
@@ -106,38 +149,58 @@ std::vector<ivec2> sample_offsets(int levels) {
 }
 
 Samples::Samples(int levels) : offsets(sample_offsets(levels)) {
-    for (int y = 0; y <= kNear; ++y)
-        for (int x = y == 0 ? 0 : -kNear; x <= kNear; ++x) top.push_back({x, y});
-    const int first_top = first_scatter_tap(levels);
-    responses = Eigen::MatrixXd::Zero(Eigen::Index(kPhases * offsets.size()), first_top + Eigen::Index(top.size()));
+    responses.resize(Eigen::Index(kPhases * offsets.size()), Eigen::Index(kTaps * size_t(levels) + top.size()));
     for (int phase = 0; phase < kPhases; ++phase) {
         // The R2 sequence (Roberts 2018) fills the texel of the top evenly.
         const double size = std::exp2(levels);
         const ivec2 q(int(size * std::fmod(0.5 + 0.7548776662 * phase, 1)), int(size * std::fmod(0.5 + 0.5698402910 * phase, 1)));
-        const std::vector<Taps> takes_x = cascade(q.x, levels, 1.0 / 16), takes_y = cascade(q.y, levels, 1.0 / 16);
-        for (size_t s = 0; s < offsets.size(); ++s) {
-            const ivec2 p = q + offsets[s];
-            const std::vector<Taps> gives_x = cascade(p.x, levels, 1.0 / 32), gives_y = cascade(p.y, levels, 1.0 / 32);
-            const auto r = Eigen::Index(rows.size());
-            const auto add = [&](int column, ivec2 d, const auto& x, const auto& y) {
-                responses(r, column) = x(d.x) * y(d.y) + (d == ivec2(0) ? 0 : x(-d.x) * y(-d.y));
-            };
-            for (int l = 0; l < levels; ++l) {
-                const auto x = [&](int t) { return response(takes_x[size_t(l)], gives_x[size_t(l)], t); };
-                const auto y = [&](int t) { return response(takes_y[size_t(l)], gives_y[size_t(l)], t); };
-                for (int i = 0; i < scatter_taps(l); ++i) add(first_scatter_tap(l) + i, kScatterTaps[size_t(i)], x, y);
-            }
-            Row row{s, {}, {}};
-            for (int d = -kFar; d <= kFar; ++d) {
-                row.top_x[size_t(d + kFar)] = response(takes_x.back(), gives_x.back(), d);
-                row.top_y[size_t(d + kFar)] = response(takes_y.back(), gives_y.back(), d);
-            }
-            const auto x = [&](int t) { return row.top_x[size_t(t + kFar)]; };
-            const auto y = [&](int t) { return row.top_y[size_t(t + kFar)]; };
-            for (size_t i = 0; i < top.size(); ++i) add(first_top + int(i), top[i], x, y);
-            rows.push_back(row);
+        const std::vector<Taps> takes_x = taken(q.x, 1, levels), takes_y = taken(q.y, 1, levels);
+        for (const ivec2 offset : offsets) {
+            rows.push_back({{takes_x, given(q.x + offset.x, levels)}, {takes_y, given(q.y + offset.y, levels)}});
+            responses.row(Eigen::Index(rows.size()) - 1) = responses_of(rows.back(), top);
         }
     }
+}
+
+// Light that pixels near the border leave in the picture. Half of what they scatter goes beside it, so that errors on either
+// side do not make up for each other.
+struct Kept {
+    Row row;
+    dvec2 low, high;  // of the picture, px from the pixel to the right and down, seen from the pixel's opposite side
+};
+
+// Pixels about a node on the border, near and further from it. In a symmetric picture the node stands for others as well.
+std::vector<Kept> kept_near(const ImageAngles& image, int levels, ivec2 nodes, ivec2 node) {
+    const ivec2 size(image.width, image.height);
+    const std::vector<Taps> all[2]{taken(0, size.x, levels), taken(0, size.y, levels)};
+    struct Pixel {
+        Responses responses;
+        double low, high;
+    };
+    const auto pixels = [&](int axis, bool mirrored) {
+        const int at = mirrored ? nodes[axis] - 1 - node[axis] : node[axis], last = size[axis] - 1;
+        std::vector<int> places;
+        const bool first_edge = at == 0, last_edge = at == nodes[axis] - 1;
+        if (!first_edge && !last_edge) places.push_back(last * at / (nodes[axis] - 1));
+        for (int away : {0, 1, 2, 4, 8, 16, 32})
+            if ((first_edge || last_edge) && away <= last) places.push_back(first_edge ? away : last - away);
+        std::vector<Pixel> found;
+        for (int p : places) {
+            const double low = p - last - 0.5, high = p + 0.5;
+            found.push_back({Responses(all[axis], given(p, levels), mirrored), mirrored ? -high : low, mirrored ? -low : high});
+        }
+        return found;
+    };
+    std::vector<Kept> kept;
+    for (int mirror = 0; mirror < 4; ++mirror) {
+        const bool mirror_x = mirror & 1, mirror_y = mirror & 2;
+        if ((mirror_x && !image.symmetric_x()) || (mirror_y && !image.symmetric_y())) continue;
+        const bool inside = node.x > 0 && node.x < nodes.x - 1 && node.y > 0 && node.y < nodes.y - 1;
+        if (inside) continue;
+        for (const Pixel& x : pixels(0, mirror_x))
+            for (const Pixel& y : pixels(1, mirror_y)) kept.push_back({{x.responses, y.responses}, {x.low, y.low}, {x.high, y.high}});
+    }
+    return kept;
 }
 
 // Weights of the texels of the top about the one that a place lies in the middle of; none for those that are fitted.
@@ -150,27 +213,32 @@ std::vector<double> weights_beyond_near(const EyeScatter& psf, const ImageAngles
 }
 
 // The fit at one place, tangents: the taps of all levels, then those of the top within kNear, opposite ones together.
-std::vector<double> fit_node(const EyeScatter& psf, const ImageAngles& image, int levels, const Samples& samples, dvec2 place) {
+std::vector<double> fit_node(const EyeScatter& psf, const ImageAngles& image, int levels, const Samples& samples, const std::vector<Kept>& kept, dvec2 place) {
     const std::vector<double> far = weights_beyond_near(psf, image, levels, place);
-    const dvec2 half = 0.5 * image.pixel();
+    const dvec2 pixel = image.pixel(), half = 0.5 * pixel, most = (kFar + 0.5) * std::exp2(levels) * pixel;
     std::vector<double> wanted;
     for (const ivec2 d : samples.offsets)
-        wanted.push_back(d == ivec2(0) ? light_within(psf, place, half) : light_from(psf, place, place + 2.0 * half * dvec2(d.x, -d.y), half));
+        wanted.push_back(d == ivec2(0) ? light_within(psf, place, -half, half) : light_from(psf, place, place + pixel * dvec2(d.x, -d.y), half));
 
-    Eigen::MatrixXd a = samples.responses;
+    const Eigen::Index all = samples.responses.rows();
+    Eigen::MatrixXd a(all + Eigen::Index(kept.size()), samples.responses.cols());
     Eigen::VectorXd b(a.rows());
-    for (Eigen::Index r = 0; r < a.rows(); ++r) {
-        const Samples::Row& row = samples.rows[size_t(r)];
-        double known = 0;
-        for (size_t j = 0; j < row.top_y.size(); ++j)
-            for (size_t i = 0; row.top_y[j] != 0 && i < row.top_x.size(); ++i) known += row.top_x[i] * row.top_y[j] * far[j * row.top_x.size() + i];
-        a.row(r) /= wanted[row.offset];
-        b[r] = 1 - known / wanted[row.offset];
+    for (Eigen::Index r = 0; r < all; ++r) {
+        const double want = wanted[size_t(r) % wanted.size()];
+        a.row(r) = samples.responses.row(r) / want;
+        b[r] = 1 - samples.rows[size_t(r)].known(far) / want;
+    }
+    for (size_t i = 0; i < kept.size(); ++i) {
+        const Kept& k = kept[i];
+        const dvec2 low(pixel.x * k.low.x, -pixel.y * k.high.y), high(pixel.x * k.high.x, -pixel.y * k.low.y);
+        const double want = light_within(psf, place, glm::max(low, -most), glm::min(high, most));
+        a.row(all + Eigen::Index(i)) = kKept / want * responses_of(k.row, samples.top);
+        b[all + Eigen::Index(i)] = kKept * (1 - k.row.known(far) / want);
     }
     // What is far, near and in the middle is all the light there is.
     Eigen::VectorXd balance = Eigen::VectorXd::Constant(a.cols(), 2);
-    for (int l = 0; l <= levels; ++l) balance[first_scatter_tap(l)] = 1;  // in the middle
-    double beyond = 1 - light_within(psf, place, (kFar + 0.5) * std::exp2(levels) * image.pixel());
+    for (int l = 0; l <= levels; ++l) balance[kTaps * l] = 1;  // in the middle
+    double beyond = 1 - light_within(psf, place, -most, most);
     for (double w : far) beyond += w;
 
     Eigen::MatrixXd squares = a.transpose() * a + kBalance * kBalance * balance * balance.transpose();
@@ -199,9 +267,9 @@ struct Fits {
 std::vector<size_t> mirrored_taps(int levels, const std::vector<ivec2>& top) {
     std::vector<size_t> all;
     const auto add = [&](int level, const std::vector<ivec2>& taps) {
-        for (size_t i : mirrored(taps)) all.push_back(size_t(first_scatter_tap(level)) + i);
+        for (size_t i : mirrored(taps)) all.push_back(size_t(kTaps * level) + i);
     };
-    for (int l = 0; l < levels; ++l) add(l, {kScatterTaps.begin(), kScatterTaps.begin() + scatter_taps(l)});
+    for (int l = 0; l < levels; ++l) add(l, {kScatterTaps.begin(), kScatterTaps.end()});
     add(levels, top);
     return all;
 }
@@ -210,14 +278,13 @@ std::vector<size_t> mirrored_taps(int levels, const std::vector<ivec2>& top) {
 Fits fit_nodes(const EyeScatter& psf, const ImageAngles& image, int levels, ivec2 nodes) {
     const Samples samples(levels);
     const std::vector<size_t> mirror = mirrored_taps(levels, samples.top);
-    const bool symmetric_x = image.low.x == -image.high.x, symmetric_y = image.low.y == -image.high.y;
     Fits fits{{}, samples.top};
     for (int y = 0; y < nodes.y; ++y)
         for (int x = 0; x < nodes.x; ++x) {
-            const ivec2 twin(symmetric_x ? std::min(x, nodes.x - 1 - x) : x, symmetric_y ? std::min(y, nodes.y - 1 - y) : y);
+            const ivec2 twin(image.symmetric_x() ? std::min(x, nodes.x - 1 - x) : x, image.symmetric_y() ? std::min(y, nodes.y - 1 - y) : y);
             if (twin == ivec2(x, y)) {
                 const dvec2 place = image.at(dvec2(image.width, image.height) * dvec2(x, y) / dvec2(nodes - 1));
-                fits.at.push_back(fit_node(psf, image, levels, samples, place));
+                fits.at.push_back(fit_node(psf, image, levels, samples, kept_near(image, levels, nodes, twin), place));
                 continue;
             }
             const std::vector<double> of_twin = fits.at[size_t(twin.y * nodes.x + twin.x)];
@@ -260,7 +327,7 @@ std::vector<float> top_matrix(const EyeScatter& psf, const ScatterFit& fit, cons
                         continue;
                     }
                     if (d.y < 0 || (d.y == 0 && d.x < 0)) d = -d;
-                    const size_t tap = size_t(fit.taps() + (std::find(fits.top.begin(), fits.top.end(), d) - fits.top.begin()));
+                    const size_t tap = size_t(kTaps * fit.levels + (std::find(fits.top.begin(), fits.top.end(), d) - fits.top.begin()));
                     const auto at = [&](int dx, int dy) { return fits.at[size_t((by.first + dy) * fit.nodes.x + bx.first + dx)][tap]; };
                     matrix.push_back(float(glm::mix(glm::mix(at(0, 0), at(1, 0), bx.part), glm::mix(at(0, 1), at(1, 1), bx.part), by.part)));
                 }
@@ -284,9 +351,9 @@ double degrees_between(dvec2 a, dvec2 b) {
     return std::atan2(std::sqrt(glm::dot(d, d) + cross * cross), 1 + glm::dot(a, b)) * 180 / std::numbers::pi;
 }
 
-double light_within(const EyeScatter& psf, dvec2 point, dvec2 half) {
+double light_within(const EyeScatter& psf, dvec2 point, dvec2 low, dvec2 high) {
     // Along great circles through the point, which are straight lines of the plane.
-    constexpr int kCircles = 96;
+    constexpr int kCircles = 192;
     const dvec3 middle = ray(point);
     const dvec3 side = glm::normalize(glm::cross(std::abs(middle.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), middle)), other = glm::cross(middle, side);
     double sum = 0;
@@ -294,7 +361,8 @@ double light_within(const EyeScatter& psf, dvec2 point, dvec2 half) {
         const double azimuth = 2 * std::numbers::pi * (i + 0.5) / kCircles;
         const dvec3 e = std::cos(azimuth) * side + std::sin(azimuth) * other;
         const dvec2 along(e.x * middle.z - middle.x * e.z, e.y * middle.z - middle.y * e.z);
-        const double reach = std::min(half.x / std::max(std::abs(along.x), 1e-300), half.y / std::max(std::abs(along.y), 1e-300));
+        const dvec2 side_met = glm::max(dvec2(along.x < 0 ? -low.x : high.x, along.y < 0 ? -low.y : high.y), 0.0) / glm::max(glm::abs(along), 1e-300);
+        const double reach = std::min(side_met.x, side_met.y);
         sum += psf.within(degrees_between(point, point + reach * along));
     }
     return sum / kCircles;
@@ -324,6 +392,11 @@ ivec2 scatter_size(const ImageAngles& image, int level) {
     return size;
 }
 
+int scatter_strip(const ImageAngles& image, ivec2 nodes, int level, int most) {
+    const int rows = scatter_size(image, level).y / (nodes.y - 1);
+    return std::clamp(rows / 2 * 2, 2, most);
+}
+
 ScatterFit fit_scatter(const EyeScatter& psf, const ImageAngles& image) {
     ScatterFit fit{.image = image, .levels = 1, .nodes = {}, .kernels = {}, .top = {}};
     const auto texels = [&](int level) { const ivec2 n = scatter_size(image, level); return n.x * n.y; };
@@ -332,7 +405,7 @@ ScatterFit fit_scatter(const EyeScatter& psf, const ImageAngles& image) {
     const dvec2 span = image.high - image.low;
     fit.nodes = 2 * ivec2(glm::ceil(span / (2 * kNodeStep))) + 1;
     const Fits fits = fit_nodes(psf, image, fit.levels, fit.nodes);
-    for (const std::vector<double>& at : fits.at) fit.kernels.insert(fit.kernels.end(), at.begin(), at.begin() + fit.taps());
+    for (const std::vector<double>& at : fits.at) fit.kernels.insert(fit.kernels.end(), at.begin(), at.begin() + kTaps * fit.levels);
     fit.top = top_matrix(psf, fit, fits);
     return fit;
 }

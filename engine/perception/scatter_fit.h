@@ -22,6 +22,8 @@ struct ImageAngles {
     glm::dvec2 pixels_at(glm::dvec2 tangents) const;
     /// Tangents across one pixel.
     glm::dvec2 pixel() const { return (high - low) / glm::dvec2(width, height); }
+    bool symmetric_x() const { return low.x == -high.x; }
+    bool symmetric_y() const { return low.y == -high.y; }
     bool operator==(const ImageAngles&) const = default;
 };
 
@@ -29,29 +31,28 @@ struct ImageAngles {
 double steradians_per_area(glm::dvec2 tangents);
 /// Angle between two points of the plane, degrees.
 double degrees_between(glm::dvec2 a, glm::dvec2 b);
-/// Part of the light of a point that is scattered into a rectangle of the plane about it, `half` wide to either side.
-double light_within(const EyeScatter&, glm::dvec2 point, glm::dvec2 half);
+/// Part of the light of a point that is scattered into a rectangle of the plane about it, from `low` (below 0) to `high` beside it.
+double light_within(const EyeScatter&, glm::dvec2 point, glm::dvec2 low, glm::dvec2 high);
 /// Luminance at `to` for 1 cd/m^2 in a rectangle of the plane about `from`, `half` wide to either side: sr * sr^-1.
 double light_from(const EyeScatter&, glm::dvec2 to, glm::dvec2 from, glm::dvec2 half);
 
 /// What the pyramid filters with: from a level to the one above it, texel j takes 2j - 2 .. 2j + 3 times these, over 32;
 /// on the way back it gives as many to the same. The quartic B-spline.
 constexpr std::array<double, 6> kScatterFilter{1, 5, 10, 10, 5, 1};
-/// Texels that each level has beyond the picture, on every side: light of a lamp less than 5 texels outside goes into them.
-constexpr int kScatterMargin = 8;
+/// Texels that each level has beyond the picture, on every side: light of a lamp less than 6 texels outside goes into them.
+constexpr int kScatterMargin = 9;
 /// Texels beyond the picture that have a say in it.
 constexpr int kScatterReach = 2;
 
 /// A level of `width` x `height` px halved (rounding up) so many times, in texels, without margin.
 glm::ivec2 scatter_size(const ImageAngles&, int level);
 
-/// Neighbours of a texel that its level is filtered with, each with its opposite, and the texel itself: in 3 x 3 the first
-/// five, at full resolution all of 5 x 5. x right, y down.
-constexpr std::array<glm::ivec2, 13> kScatterTaps{{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 0}, {0, 2}, {2, 1}, {2, -1}, {1, 2}, {1, -2}, {2, 2}, {2, -2}}};
-constexpr int kFineTaps = 13, kCoarseTaps = 5;
-/// How many of them a level has, and where those of a level begin among those of all levels.
-constexpr int scatter_taps(int level) { return level == 0 ? kFineTaps : kCoarseTaps; }
-constexpr int first_scatter_tap(int level) { return level == 0 ? 0 : kFineTaps + kCoarseTaps * (level - 1); }
+/// Neighbours of a texel that its level is filtered with, each with its opposite, and the texel itself. x right, y down.
+constexpr int kTaps = 13;
+constexpr std::array<glm::ivec2, kTaps> kScatterTaps{{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 0}, {0, 2}, {2, 1}, {2, -1}, {1, 2}, {1, -2}, {2, 2}, {2, -2}}};
+
+/// Rows of a level, an even number of at most `most`, over which taps may be taken as linear: no more than from node to node.
+int scatter_strip(const ImageAngles&, glm::ivec2 nodes, int level, int most);
 
 /// The operator: seen = sum over levels 0 .. levels - 1 of U^l K_l D^l + U^levels M D^levels, with small kernels K that
 /// depend on the place and a full matrix M between the texels of the top.
@@ -59,13 +60,12 @@ struct ScatterFit {
     ImageAngles image;
     int levels = 1;                      ///< the top is this one
     glm::ivec2 nodes{2};                 ///< places where kernels are given: columns, rows, evenly from edge to edge of the picture
-    std::vector<float> kernels;          ///< taps() weights for each node, row by row
+    std::vector<float> kernels;          ///< for each node, row by row, and each level: kTaps weights
     /// For each texel of the top with kScatterReach around: the weights of all with kScatterMargin around.
     std::vector<float> top;
 
     glm::ivec2 top_rows() const { return scatter_size(image, levels) + 2 * kScatterReach; }
     glm::ivec2 top_columns() const { return scatter_size(image, levels) + 2 * kScatterMargin; }
-    int taps() const { return first_scatter_tap(levels); }  ///< of all levels
 };
 
 /// Fits the kernels by least squares of relative differences to the exact function, so that what leaves a pixel arrives.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "perception/glare_pattern.h"
 #include "resident/resident_scene.h"
 #include "shared/scatter.h"
 
@@ -13,40 +14,38 @@ namespace {
 using glm::dvec2, glm::dvec3;
 
 static_assert(kScatterMargin == int(shared::kScatterUpMargin) && kScatterReach == int(shared::kScatterDownMargin));
-static_assert(kFineTaps <= int(4 * shared::kScatterFineTexels) && kCoarseTaps <= int(4 * shared::kScatterCoarseTexels));
+static_assert(kTaps <= int(4 * shared::kScatterTapTexels));
 
 // Texels outside the picture that a lamp may be for its light to go wholly into the margin of a level. One level lower it
 // has then no say in the picture.
-constexpr double kOutside = 5;
+constexpr double kOutside = 6;
 
 // Taps of all levels, each in texels of its own.
 std::vector<glm::vec4> padded_taps(const ScatterFit& fit) {
-    std::vector<float> padded;
-    for (size_t node = 0; node < size_t(fit.nodes.x * fit.nodes.y); ++node)
-        for (int l = 0; l < fit.levels; ++l) {
-            const float* taps = &fit.kernels[node * size_t(fit.taps()) + size_t(first_scatter_tap(l))];
-            padded.insert(padded.end(), taps, taps + scatter_taps(l));
-            padded.resize(padded.size() + 4 * (l == 0 ? shared::kScatterFineTexels : shared::kScatterCoarseTexels) - size_t(scatter_taps(l)));
-        }
     std::vector<glm::vec4> texels;
-    for (size_t i = 0; i < padded.size(); i += 4) texels.emplace_back(padded[i], padded[i + 1], padded[i + 2], padded[i + 3]);
+    for (size_t first = 0; first < fit.kernels.size(); first += kTaps)
+        for (size_t i = 0; i < shared::kScatterTapTexels; ++i) {
+            texels.emplace_back(0);
+            for (size_t c = 0; c < 4 && 4 * i + c < kTaps; ++c) texels.back()[int(c)] = fit.kernels[first + 4 * i + c];
+        }
     return texels;
 }
 
-std::vector<float> transposed(const std::vector<float>& matrix, size_t rows) {
-    const size_t columns = matrix.size() / rows;
-    std::vector<float> turned(matrix.size());
+// For each column the rows, in texels of four.
+std::vector<glm::vec4> transposed(const std::vector<float>& matrix, size_t rows) {
+    const size_t columns = matrix.size() / rows, texels = (rows + 3) / 4;
+    std::vector<glm::vec4> turned(columns * texels, glm::vec4(0));
     for (size_t r = 0; r < rows; ++r)
-        for (size_t c = 0; c < columns; ++c) turned[c * rows + r] = matrix[r * columns + c];
+        for (size_t c = 0; c < columns; ++c) turned[c * texels + r / 4][int(r % 4)] = matrix[r * columns + c];
     return turned;
 }
 
 }  // namespace
 
 EyeScatter eye_scatter(const ScatterSettings& settings) {
-    if (settings.model == ScatterSettings::Model::Cie) return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
+    if (settings.model == ScatterSettings::Model::Spencer) return EyeScatter([state = settings.state](double theta) { return spencer_veil(theta, state); });
     if (settings.model == ScatterSettings::Model::Ward) return EyeScatter(ward_veil);
-    return EyeScatter([w = spencer_weights(settings.state)](double theta) { return spencer_smooth_glare(theta, w); });
+    return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
 }
 
 ImageAngles angles_of(const View& view) {
@@ -66,11 +65,6 @@ ResidentScatter::ResidentScatter(const Device& device, const ScatterSettings& se
     taps_texels_ = upload(padded_taps(fit), taps_);
     top_texels_ = upload(transposed(fit.top, size_t(fit.top_rows().x * fit.top_rows().y)), top_);
 }
-
-uint32_t ResidentScatter::first_texel(int level) {
-    return level == 0 ? 0 : shared::kScatterFineTexels + shared::kScatterCoarseTexels * uint32_t(level - 1);
-}
-uint32_t ResidentScatter::node_texels() const { return first_texel(levels_); }
 
 std::optional<ResidentScatter::Entry> ResidentScatter::entry_of(const OutsideLamp& lamp) const {
     if (!(lamp.direction.z < 0)) return {};

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gpu/memory.h"
+#include "perception/eye_aperture.h"
 #include "perception/scatter_fit.h"
 #include "resident/view.h"
 
@@ -11,13 +12,18 @@ namespace vesper {
 
 /// Which published function scatters, and in whose eye.
 struct ScatterSettings {
-    enum class Model : uint8_t { Cie, Spencer, Ward };
+    enum class Model : uint8_t { Cie, Spencer, Ward, Temporal };
     Model model = Model::Cie;
-    ScatteringEye eye;                             ///< CIE
-    SpencerState state = SpencerState::Photopic;   ///< Spencer; without its halo and needles
+    ScatteringEye eye;                             ///< CIE; Temporal, whose mean it is
+    SpencerState state = SpencerState::Photopic;   ///< Spencer
+    ApertureSettings aperture;                     ///< Temporal; Spencer's needles have its seed
+
+    /// Whether bright lamps have needles and a halo (perception/glare_pattern.h).
+    bool has_corona() const { return model == Model::Spencer || model == Model::Temporal; }
     bool operator==(const ScatterSettings&) const = default;
 };
 
+/// What is smooth of the function.
 EyeScatter eye_scatter(const ScatterSettings&);
 ImageAngles angles_of(const View&);
 
@@ -41,10 +47,8 @@ public:
     const ImageAngles& image() const { return image_; }
     int levels() const { return levels_; }
     glm::ivec2 nodes() const { return nodes_; }
-    uint32_t node_texels() const;                ///< of the taps of one node
-    static uint32_t first_texel(int level);      ///< of a level's taps among them
-    Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node
-    Texels top() const { return top_texels_; }    ///< r32f, for each texel that gives those that take
+    Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node, level by level (shared/scatter.h)
+    Texels top() const { return top_texels_; }    ///< rgba32f, for each texel that gives those that take, by four
 
     /// Lamps whose light begins at a level, two texels each (shared/scatter.h).
     std::vector<glm::vec4> lamps_of(int level, const std::vector<OutsideLamp>&) const;

@@ -8,6 +8,10 @@
 #include "shaders/cluster.comp.inc"
 #include "shaders/colours.comp.inc"
 #include "shaders/composite.comp.inc"
+#include "shaders/corona.comp.inc"
+#include "shaders/corona_pick.comp.inc"
+#include "shaders/corona_tiles.comp.inc"
+#include "shaders/daylight.comp.inc"
 #include "shaders/display_light.comp.inc"
 #include "shaders/gather.comp.inc"
 #include "shaders/histogram.comp.inc"
@@ -38,6 +42,7 @@ Kernels::Kernels(const Device& device)
       shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{32, 8}),
       shade_rows(device.is_cpu() ? 8 : 1),
       sky(device, "sky.comp", sky_comp, {shade_group.width, shade_group.height, shade_rows}),
+      daylight(device, "daylight.comp", daylight_comp, {shade_group.width, shade_group.height, shade_rows}),
       sources(device, "sources.comp", sources_comp),
       pyramid_first(device, "pyramid.comp", pyramid_comp, {1}),
       pyramid(device, "pyramid.comp", pyramid_comp, {0}),
@@ -46,13 +51,16 @@ Kernels::Kernels(const Device& device)
       histogram_rows(device.is_cpu() ? 8 : 1),
       histogram(device, "histogram.comp", histogram_comp, {histogram_rows}),
       blur(device, "blur.comp", blur_comp),
-      scatter_up_block(device.is_cpu() ? VkExtent2D{2, 4} : VkExtent2D{1, 1}),
-      scatter_down_block(device.is_cpu() ? VkExtent2D{2, 8} : VkExtent2D{1, 1}),
-      scatter_up_first(device, "scatter_up.comp", scatter_up_comp, {scatter_up_block.width, scatter_up_block.height, 1}),
-      scatter_up(device, "scatter_up.comp", scatter_up_comp, {scatter_up_block.width, scatter_up_block.height, 0}),
+      scatter_up_strip(device.is_cpu() ? VkExtent2D{4, 32} : VkExtent2D{1, 1}),
+      scatter_down_strip(device.is_cpu() ? VkExtent2D{4, 32} : VkExtent2D{1, 2}),
+      scatter_up_first(device, "scatter_up.comp", scatter_up_comp, {scatter_up_strip.width, scatter_up_strip.height, 1}),
+      scatter_up(device, "scatter_up.comp", scatter_up_comp, {scatter_up_strip.width, scatter_up_strip.height, 0}),
       scatter_top(device, "scatter_top.comp", scatter_top_comp),
-      scatter_down(device, "scatter_down.comp", scatter_down_comp, {scatter_down_block.width, scatter_down_block.height, 0}),
-      scatter_down_last(device, "scatter_down.comp", scatter_down_comp, {scatter_down_block.width, scatter_down_block.height, 1}),
+      scatter_down(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 0}),
+      scatter_down_last(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 1}),
+      corona_tiles(device, "corona_tiles.comp", corona_tiles_comp),
+      corona_pick(device, "corona_pick.comp", corona_pick_comp),
+      corona(device, "corona.comp", corona_comp),
       composite_rows(device.is_cpu() ? 4 : 1),
       device_(device) {}
 

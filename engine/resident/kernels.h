@@ -24,6 +24,7 @@ struct Kernels {
     const Kernel& gather(uint32_t variant) const;
     const Kernel& shade(uint32_t variant) const;
     Kernel sky;
+    Kernel daylight;
     Kernel sources;
     Kernel pyramid_first, pyramid;
     Kernel colours;
@@ -42,8 +43,9 @@ struct Kernels {
     };
     const Kernel& bands(const BandsVariant&) const;
     Kernel blur;
-    VkExtent2D scatter_up_block, scatter_down_block;  ///< texels that one invocation does
+    VkExtent2D scatter_up_strip, scatter_down_strip;  ///< texels that one invocation does; down, at most so many rows
     Kernel scatter_up_first, scatter_up, scatter_top, scatter_down, scatter_down_last;
+    Kernel corona_tiles, corona_pick, corona;
     uint32_t composite_rows;        ///< pixels of a column that one invocation of the composite does
     /// What the composite and display_light.comp have code for. Made when first asked for.
     struct CompositeVariant {

@@ -32,6 +32,8 @@ void place_map(shared::Light& light, const LightMaps::Intensities& map, glm::vec
     }
     light.start -= glm::dot(light.start, light.pole) * light.pole;
     light.start = unit(glm::vec4(light.start, 0), glm::vec3(-light.pole.y, light.pole.x, 0));
+    // The axis of the envelope is that of the map, also where a node is sheared.
+    if (map.goniometry != Goniometry::CGamma) light.axis = light.start;
     const double sign = glm::dot(glm::cross(light.start, light.pole), turn) < 0 ? -1 : 1;  // of a mirrored node
     const glm::dvec2 scale = 1.0 / map.step;
     light.grid = {float(sign * scale.x), float(1 - map.low.x * scale.x), float(scale.y), float(1 - map.low.y * scale.y)};
@@ -56,12 +58,13 @@ LightList light_list(const std::vector<PlacedLight>& lights, const LightMaps& ma
     for (const PlacedLight& placed : lights) {
         const Light& light = placed.light;
         const bool measured = light.kind == Light::Kind::Measured;
-        if (!(light.intensity > 0) || (measured && !(maps.intensities.at(light.distribution).largest > 0))) continue;
+        const float intensity = light.intensity * frame.dimming_of(placed.node);
+        if (!(intensity > 0) || (measured && !(maps.intensities.at(light.distribution).largest > 0))) continue;
         const glm::mat4 m = view.world_to_view * frame.world[placed.node];
         const glm::vec3 x = unit(m[0], {1, 0, 0}), y = unit(m[1], {0, 0, -1}), z = unit(m[2], {0, 1, 0});
         const bool power = light.kind == Light::Kind::CosinePower;
         const glm::vec2 lobe = power ? glm::vec2(light.exponent, 0) : glm::vec2(cone_ramp(light));
-        shared::Light made{.position = glm::vec3(m[3]), .intensity = light.intensity, .axis = -z, .lobe_a = lobe.x,
+        shared::Light made{.position = glm::vec3(m[3]), .intensity = intensity, .axis = -z, .lobe_a = lobe.x,
                            .colour = light.colour, .lobe_b = lobe.y, .start = x, .map = -1, .pole = -z, .last_azimuth = 0, .grid = {}};
         if (measured) place_map(made, maps.intensities[light.distribution], x, y, z);
         list.lights.push_back(made);

@@ -2,18 +2,31 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "gpu/kernel.h"
 #include "gpu/memory.h"
 #include "resident/textures.h"
 #include "scene/scene.h"
+#include "scene/tunnel.h"
 
 namespace vesper {
 
-/// Where everything in a scene stands at one moment.
+/// Light that comes from no lamp.
+struct AmbientLight {
+    glm::vec3 illuminance{0};  ///< on any surface, RGB lx
+    glm::vec3 sky{0};          ///< where nothing is drawn, RGB cd/m^2
+};
+
+/// Where everything in a scene stands at one moment, and how it is lit.
 struct SceneFrame {
-    std::vector<glm::mat4> world;  ///< per node, see world_transforms
+    std::vector<glm::mat4> world;         ///< per node, see world_transforms
+    std::vector<float> dimming;           ///< per node, factor on the intensity of its lamp, >= 0; empty: 1 everywhere
+    std::optional<AmbientLight> ambient;  ///< in place of the scene's
+    std::vector<Tunnel> tunnels;          ///< that it does not reach into
+
+    float dimming_of(uint32_t node) const { return dimming.empty() ? 1 : dimming[node]; }
 };
 
 /// The static part of a scene, uploaded once. Keeps no reference to the Scene it was made from.

@@ -43,7 +43,7 @@ struct Seen {
     double candela;    // towards the eye; 0: nothing to see
 };
 
-Seen look_at(const Light& light, const std::vector<Distribution>& distributions, const glm::mat4& m, const View& view) {
+Seen look_at(const Light& light, float dimming, const std::vector<Distribution>& distributions, const glm::mat4& m, const View& view) {
     const Seen nothing{{}, 0, 0, {}, 0, 0};
     const dvec3 centre(m[3]);
     const dvec3 columns[] = {dvec3(m[0]), dvec3(m[1]), dvec3(m[2])};
@@ -55,7 +55,7 @@ Seen look_at(const Light& light, const std::vector<Distribution>& distributions,
     if (!(distance > 1e-6) || -centre.z + reach < view.near) return nothing;
     const dvec3 to_eye = -centre / distance;
     const dvec3 direction(glm::dot(right, to_eye), glm::dot(up, to_eye), glm::dot(back, to_eye));
-    const double candela = luminous_intensity(light, distributions, direction);
+    const double candela = double(dimming) * luminous_intensity(light, distributions, direction);
     if (!(candela > 0)) return nothing;
 
     const dvec3 normal = seen_normal(light, -back, up, to_eye);
@@ -163,7 +163,7 @@ SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View
     SourceList list;
     std::vector<Touched> touched;
     for (const auto& [light, node] : set.lamps) {
-        const Seen seen = look_at(light, set.distributions, view.world_to_view * frame.world[node], view);
+        const Seen seen = look_at(light, frame.dimming_of(node), set.distributions, view.world_to_view * frame.world[node], view);
         if (seen.candela > 0 && std::isfinite(seen.luminance) && seen.to_eye.z > 0)
             list.dazzling.push_back({node, -seen.to_eye, seen.distance, seen.candela, seen.candela / (seen.distance * seen.distance) * dvec3(light.colour), part_inside(seen, view)});
         if (seen.outline.vertices.empty()) continue;

@@ -5,10 +5,10 @@
 SHARED_BEGIN
 
 // Texels of margin on every side of a level on the way up (means), and on the way down (what is scattered).
-const uint kScatterUpMargin = 8u, kScatterDownMargin = 2u;
+const uint kScatterUpMargin = 9u, kScatterDownMargin = 2u;
 
-// Taps of a level, in texels of four: 13 at full resolution, 5 elsewhere, the rest being 0.
-const uint kScatterFineTexels = 4u, kScatterCoarseTexels = 2u;
+// The 13 taps of a level at a node, in texels of four, the rest being 0.
+const uint kScatterTapTexels = 4u;
 
 struct ScatterUpPush {
     uvec2 from_size;  // px of the picture, or texels of the level below with its margin
@@ -25,11 +25,12 @@ SHARED_SIZE(ScatterTopPush, 8)
 struct ScatterDownPush {
     uvec2 size;       // texels of what is made: the picture, or the level with its margin
     uvec2 nodes;      // places where taps are given, evenly from edge to edge of the picture
-    uint node_texels; // of all levels at a node
-    uint first_texel; // of this level
+    uint levels;      // that have taps at a node
+    uint level;       // this one
+    uint rows;        // of a strip that an invocation does, even
     vec2 scale;       // from texels of this level to nodes
 };
-SHARED_SIZE(ScatterDownPush, 32)
+SHARED_SIZE(ScatterDownPush, 36)
 
 SHARED_END
 #endif

@@ -90,10 +90,33 @@ TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {
 
 TEST_F(GlareProgram, EveryModelRuns) {
     write_lamp(0.3);
-    for (const char* glare : {"none", "ldr", "cie", "spencer", "spencer --pupil scotopic", "cie --age 70 --iris 0"})
+    for (const char* glare : {"none", "ldr", "cie", "spencer", "spencer --pupil scotopic", "cie --age 70 --iris 0", "temporal", "temporal --lashes --eye-seed 7"})
         EXPECT_EQ(run("render lamp.gltf --size 33x21 -o a.png --glare " + std::string(glare)), 0) << said;
     ASSERT_EQ(run("render lamp.gltf --size 33x21 --plan --glare cie"), 0) << said;
     for (const char* pass : {"scatter up 1", "scatter top", "scatter down 0"}) EXPECT_NE(printed.find(pass), std::string::npos) << pass;
+}
+
+TEST_F(GlareProgram, TemporalGlareIsTheSameForTheSameSeedAndTimes) {
+    write_lamp(0.3);
+    const std::string render = "render lamp.gltf --size 120x80 --glare temporal --operator ward ";
+    ASSERT_EQ(run(render + "--frames 4 --dt 0.1 --log log.csv -o a.%04d.png -o a.%04d.exr"), 0) << said;
+    ASSERT_EQ(run(render + "--frames 4 --dt 0.1 -o b.%04d.png"), 0) << said;
+    ASSERT_EQ(run(render + "--replay log.csv --frames 2 --start 0.15 -o c.%04d.png"), 0) << said;
+    ASSERT_EQ(run(render + "--eye-seed 2 -o d.png"), 0) << said;
+    for (const char* frame : {"0000", "0001", "0002", "0003"})
+        EXPECT_EQ(read_text(folder / ("a." + std::string(frame) + ".png")), read_text(folder / ("b." + std::string(frame) + ".png"))) << frame;
+    EXPECT_EQ(read_text(folder / "c.0000.png"), read_text(folder / "a.0002.png")) << "from the log";
+    EXPECT_EQ(read_text(folder / "c.0001.png"), read_text(folder / "a.0003.png"));
+    EXPECT_NE(read_text(folder / "a.0000.png"), read_text(folder / "a.0003.png")) << "it moves";
+    EXPECT_NE(read_text(folder / "a.0000.png"), read_text(folder / "d.png")) << "another eye";
+    EXPECT_EQ(cell("log.csv", "eye_seed", 1), "1");
+    const double pupil = std::stod(cell("log.csv", "pupil", 1));
+    EXPECT_TRUE(pupil > 3 && pupil < 8) << pupil;
+    EXPECT_EQ(header("a.0000.exr", "vesper:glare"), "temporal");
+    EXPECT_EQ(header("a.0000.exr", "vesper:glare:pupil"), cell("log.csv", "pupil", 1));
+    // A picture of other origin is dazzled by what it shows.
+    ASSERT_EQ(run("tonemap a.0000.exr --glare temporal --operator ward -o e.png"), 0) << said;
+    EXPECT_EQ(read_text(folder / "e.png"), read_text(folder / "a.0000.png"));
 }
 
 TEST_F(GlareProgram, RefusesInOneLine) {

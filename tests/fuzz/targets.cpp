@@ -14,9 +14,12 @@
 #include "photometry/ies.h"
 #include "photometry/reflection_table.h"
 #include "photometry/response.h"
+#include "roads/esmini_run.h"
+#include "roads/opendrive.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"
 #include "scene/photometry.h"
+#include "simulation/world_file.h"
 
 namespace vesper::test {
 namespace {
@@ -80,6 +83,9 @@ std::map<std::string, FuzzTarget> make_targets() {
         {"radiance", of_file("x.hdr", [](const fs::path& file) { read_radiance(file, {.max_side = 512, .max_pixels = kSmall}); })},
         {"display", of_file("x.json", [](const fs::path& file) { read_display(file); })},
         {"display_measurements", of_file("x.csv", [](const fs::path& file) { read_display_measurements(file, 8); })},
+        {"opendrive", [](Bytes bytes) { parse_opendrive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x.xodr"); }},
+        {"esmini_run", of_file("x.csv", [](const fs::path& file) { read_esmini_run(file); })},
+        {"world", of_file("x.world.json", [](const fs::path& file) { read_world(file); })},
         {"response", of_file("x.csv", [](const fs::path& file) { read_response(file); })},
     };
     for (auto& [name, target] : made) target = answers(target);

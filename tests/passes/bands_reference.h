@@ -27,12 +27,10 @@ double expanded(const PyramidLevel& level, uint32_t x, uint32_t y, const Value& 
     return weights > 0 ? sum / weights : 0;
 }
 
-/// ln of display luminance, cd/m^2, at luminance `ln` as a texel sees it, of log average `adapted`, shown at `shown`.
-inline double seen_from(double ln, double adapted, double shown, const shared::ToneCurve& curve, ThresholdBreaks breaks, double& terms) {
+/// ln of the contrast just seen where the curve shows log average `adapted`, over that just seen there.
+inline double ln_steepness(double adapted, const shared::ToneCurve& curve, ThresholdBreaks breaks) {
     const auto just_seen = [&](double l) { return cone_threshold(std::exp(l), breaks) / std::exp(l); };
-    const double steepness = just_seen(node_at(std::exp(adapted), curve).x) / just_seen(adapted);
-    terms = std::abs(shown) + (1 + std::abs(ln) + std::abs(adapted)) * steepness;
-    return shown + (ln - adapted) * steepness;
+    return std::log(just_seen(node_at(std::exp(adapted), curve).x) / just_seen(adapted));
 }
 
 /// Of pixels with `luminance`, of which `levels` is the pyramid; bands up to level `top`, 1-based.
@@ -47,10 +45,10 @@ inline Bands bands(const std::vector<double>& luminance, uint32_t width, uint32_
         for (uint32_t y = 0; y < h; ++y)
             for (uint32_t x = 0; x < w; ++x) {
                 const double ln = k > 0 ? levels[k - 1].at(x, y).z : std::log(std::max(luminance[size_t(y) * w + x], kFloor));
-                double terms = 0;
-                const auto parent = [&](size_t i) { return seen_from(ln, coarse.texels[i].z, above.shown[i], curve, breaks, terms); };
-                here.shown.push_back(std::min(expanded(coarse, x, y, parent), std::log(1e6)));
-                here.terms.push_back(expanded(coarse, x, y, [&](size_t i) { return parent(i), terms + above.terms[i]; }));
+                const double adapted = expanded(coarse, x, y, [&](size_t i) { return coarse.texels[i].z; });
+                const double steepness = std::exp(expanded(coarse, x, y, [&](size_t i) { return ln_steepness(coarse.texels[i].z, curve, breaks); }));
+                here.shown.push_back(std::min(expanded(coarse, x, y, [&](size_t i) { return above.shown[i]; }) + (ln - adapted) * steepness, std::log(1e6)));
+                here.terms.push_back(expanded(coarse, x, y, [&](size_t i) { return above.terms[i]; }) + (1 + std::abs(ln) + std::abs(adapted)) * steepness);
             }
         above = std::move(here);
     }

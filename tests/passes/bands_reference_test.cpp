@@ -1,6 +1,7 @@
 // Bands of contrast: what can be said of them by hand. SPDX-License-Identifier: MIT
 #include "passes/bands_reference.h"
 
+#include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -76,6 +77,17 @@ TEST(BandsReference, ALampLeavesTheGroundBesideIt) {
     const std::vector<double> s = shown(l, 64, 64, 5, power_curve(6, 0.5));
     EXPECT_NEAR(s[64 * 10 + 8] / 6, 1, 0.03);
     EXPECT_GT(s[64 * 31 + 33], 1000);
+}
+
+// A dark post in daylight: contrasts in the dark are steeper, and what is bright beside them takes little part in that.
+TEST(BandsReference, DarkThingsHaveNoGlowAroundThem) {
+    std::vector<double> l;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) l.push_back(x >= 28 && x < 35 && y >= 20 ? 3 : 2000);
+    const auto curve = power_curve(1, 0.6);
+    const std::vector<double> s = shown(l, 64, 64, 5, curve);
+    const double field = std::exp(node_at(2000, curve).x), brightest = *std::max_element(s.begin(), s.end());
+    EXPECT_LT(brightest / field, 3);  // 2.6; 9 where steepness itself, and not its logarithm, is mixed
 }
 
 TEST(BandsReference, NoLightIsGrey) {

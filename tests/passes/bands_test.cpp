@@ -44,7 +44,7 @@ void expect_reference(PassRig& rig, VkExtent2D extent, const std::vector<glm::ve
 
 TEST(Bands, MatchTheReferenceAtEverySize) {
     PassRig rig;
-    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {65, 3}, {131, 67}})
+    for (VkExtent2D extent : {VkExtent2D{1, 1}, {1, 9}, {7, 5}, {65, 3}, {131, 67}})
         for (const uint32_t top : {1u, 2u, 5u})
             for (const uint32_t tone : {shared::kToneCurve, shared::kToneCurve | shared::kToneColourLoss | shared::kTonePurkinje})
                 expect_reference(rig, extent, night_pixels(extent, extent.width, -4, 4), top, tone);

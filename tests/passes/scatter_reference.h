@@ -76,7 +76,7 @@ inline double exact_response(const EyeScatter& psf, const ImageAngles& image, iv
 
 inline int parts_for(ivec2 to, ivec2 from) {
     const int away = std::max(std::abs(to.x - from.x), std::abs(to.y - from.y));
-    return away <= 1 ? 24 : away <= 3 ? 10 : away <= 8 ? 4 : away <= 30 ? 2 : 1;
+    return away <= 1 ? 48 : away <= 3 ? 20 : away <= 8 ? 8 : away <= 30 ? 4 : away <= 100 ? 2 : 1;
 }
 
 /// Seen at one pixel: every pixel, and lamps outside. Exact, and slow.
@@ -160,18 +160,19 @@ inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::ve
 inline std::vector<double> taps_at(const ScatterFit& fit, dvec2 pixels, int level) {
     const dvec2 place = glm::clamp(pixels / dvec2(fit.image.width, fit.image.height), 0.0, 1.0) * dvec2(fit.nodes - 1);
     const ivec2 first = glm::min(ivec2(place), fit.nodes - 2);
-    std::vector<double> taps(size_t(scatter_taps(level)), 0);
+    std::vector<double> taps(kTaps, 0);
     for (int i = 0; i < 4; ++i) {
         const ivec2 node = first + ivec2(i & 1, i >> 1);
         const dvec2 near = 1.0 - glm::abs(place - dvec2(node));
-        const float* of = &fit.kernels[size_t((node.y * fit.nodes.x + node.x) * fit.taps() + first_scatter_tap(level))];
+        const float* of = &fit.kernels[size_t(((node.y * fit.nodes.x + node.x) * fit.levels + level) * kTaps)];
         for (size_t t = 0; t < taps.size(); ++t) taps[t] += near.x * near.y * double(of[t]);
     }
     return taps;
 }
 
-/// The whole operator. `block`: texels that share the taps of their middle. Not finite: scatters nothing and stays.
-inline Plane scatter(const Plane& scene, const ScatterFit& fit, ivec2 block, const std::vector<std::vector<glm::vec4>>& lamps = {}, const std::vector<glm::vec4>& veil = {}) {
+/// The whole operator. Over strips of texels, `most` of them, taps are linear from top to bottom, in the middle of their columns; every
+/// two rows have those of the line between them, for what they give. Not finite: scatters nothing, and is not finite.
+inline Plane scatter(const Plane& scene, const ScatterFit& fit, ivec2 most, const std::vector<std::vector<glm::vec4>>& lamps = {}, const std::vector<glm::vec4>& veil = {}) {
     Plane clean = scene;
     for (dvec3& t : clean.texels)
         if (!(std::abs(t.x) <= 3.4e38 && std::abs(t.y) <= 3.4e38 && std::abs(t.z) <= 3.4e38)) t = dvec3(0);
@@ -189,25 +190,30 @@ inline Plane scatter(const Plane& scene, const ScatterFit& fit, ivec2 block, con
     for (int l = fit.levels - 1; l >= 0; --l) {
         const int margin = l == 0 ? 0 : kScatterReach, inner = l == 0 ? 0 : kScatterMargin;
         Plane made(scatter_size(fit.image, l) + 2 * margin);
-        for (int y = 0; y < made.size.y; ++y)
-            for (int x = 0; x < made.size.x; ++x) {
-                const ivec2 at = ivec2(x, y) - margin;
-                dvec3 sum(0);
-                for (int v = 0; v < 3; ++v)
-                    for (int u = 0; u < 3; ++u)
-                        sum += spline[at.x & 1][u] * spline[at.y & 1][v] * seen.at(ivec2(floor_half(at.x), floor_half(at.y)) - 1 + ivec2(u, v) + kScatterReach);
-                const dvec2 middle = dvec2(ivec2(x, y) / block * block - margin) + 0.5 * dvec2(block);
-                const std::vector<double> taps = taps_at(fit, std::exp2(l) * middle, l);
-                for (size_t t = 0; t < taps.size(); ++t) {
-                    sum += taps[t] * levels[size_t(l)].at(at + kScatterTaps[t] + inner);
-                    if (t > 0) sum += taps[t] * levels[size_t(l)].at(at - kScatterTaps[t] + inner);
-                }
-                made[{x, y}] = sum;
+        const ivec2 strip(most.x, scatter_strip(fit.image, fit.nodes, l, most.y));
+        for (int sy = 0; sy < made.size.y; sy += strip.y)
+            for (int sx = 0; sx < made.size.x; sx += strip.x) {
+                const dvec2 upper = dvec2(ivec2(sx, sy) - margin) + dvec2(0.5 * strip.x, 0), lower = upper + dvec2(0, strip.y);
+                const std::vector<double> above = taps_at(fit, std::exp2(l) * upper, l), below = taps_at(fit, std::exp2(l) * lower, l);
+                for (int y = sy; y < std::min(sy + strip.y, made.size.y); ++y)
+                    for (int x = sx; x < std::min(sx + strip.x, made.size.x); ++x) {
+                        const ivec2 at = ivec2(x, y) - margin;
+                        dvec3 sum(0);
+                        for (int v = 0; v < 3; ++v)
+                            for (int u = 0; u < 3; ++u)
+                                sum += spline[at.x & 1][u] * spline[at.y & 1][v] * seen.at(ivec2(floor_half(at.x), floor_half(at.y)) - 1 + ivec2(u, v) + kScatterReach);
+                        for (size_t t = 0; t < kTaps; ++t)
+                            for (const int side : {1, -1}) {
+                                const ivec2 d = side * kScatterTaps[t];
+                                const double part = (2 * floor_half(y - sy + d.y) + 1.0) / strip.y;
+                                const Plane& from = l == 0 && t == 0 ? scene : levels[size_t(l)];
+                                if (t > 0 || side > 0) sum += glm::mix(above[t], below[t], part) * from.at(at + d + inner);
+                            }
+                        made[{x, y}] = sum;
+                    }
             }
         seen = made;
     }
-    for (size_t i = 0; i < seen.texels.size(); ++i)
-        if (scene.texels[i] != clean.texels[i]) seen.texels[i] = scene.texels[i];
     return seen;
 }
 

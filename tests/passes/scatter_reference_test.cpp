@@ -17,6 +17,9 @@ ImageAngles driver(int width, int height) {
     return {width, height, {-x, -y}, {x, y}};
 }
 
+/// Texels that one invocation does on a CPU device, at most.
+constexpr ivec2 kStrip(4, 32);
+
 EyeScatter eye(double age) { return eye_scatter({ScatterSettings::Model::Cie, {age, 0.5}, SpencerState::Photopic}); }
 
 // 1: nothing is lost. A picture of 172 degrees has all of the hemisphere but 0.2 % of the light.
@@ -82,12 +85,12 @@ struct Band {
 };
 
 /// Relative errors of the response to one pixel at distances from 1 to 500 px, and of all light in the picture.
-void expect_response(const EyeScatter& psf, const ScatterFit& fit, ivec2 from, double energy) {
+void expect_response(const EyeScatter& psf, const ScatterFit& fit, ivec2 from, double energy, double rms = 0.07, double largest = 0.2) {
     SCOPED_TRACE("source at " + std::to_string(from.x) + ", " + std::to_string(from.y));
     const ImageAngles& image = fit.image;
     Plane scene({image.width, image.height});
     scene[from] = dvec3(1);
-    const Plane seen = scatter(scene, fit, {2, 8});
+    const Plane seen = scatter(scene, fit, kStrip);
     const std::array<double, 6> edges{0.5, 3, 10, 30, 100, 500};
     std::array<Band, 5> bands;
     double got_light = 0, want_light = 0;
@@ -104,20 +107,20 @@ void expect_response(const EyeScatter& psf, const ScatterFit& fit, ivec2 from, d
             bands[i - 1].largest = std::max(bands[i - 1].largest, std::abs(error));
         }
     for (size_t i = 0; i < bands.size(); ++i) {
-        EXPECT_LT(bands[i].rms(), 0.07) << edges[i] << " to " << edges[i + 1] << " px";
-        EXPECT_LT(bands[i].largest, 0.2) << edges[i] << " to " << edges[i + 1] << " px";
+        EXPECT_LT(bands[i].rms(), rms) << edges[i] << " to " << edges[i + 1] << " px";
+        EXPECT_LT(bands[i].largest, largest) << edges[i] << " to " << edges[i + 1] << " px";
     }
     EXPECT_NEAR(got_light / want_light, 1, energy);
 }
 
-// The targets: 7 % rms, 20 % anywhere, light conserved to 0.1 %. Beside an edge, where half of the light falls beside the picture,
-// what is left in it also depends on the shape: 0.4 %.
+// The targets: 7 % rms, 20 % anywhere, light conserved to 0.1 %. Of a pixel at the border half of the light falls beside the
+// picture, and what is left depends on the shape: 0.18 %.
 TEST(ScatterFit, ResponseIsNearTheDefinition) {
     for (double age : {24.0, 70.0}) {
         const EyeScatter psf = eye(age);
         const ScatterFit fit = fit_scatter(psf, driver(840, 525));
         for (const ivec2 from : {ivec2(420, 262), {421, 263}, {700, 101}}) expect_response(psf, fit, from, 1e-3);
-        for (const ivec2 from : {ivec2(839, 260), {0, 524}}) expect_response(psf, fit, from, 4e-3);
+        for (const ivec2 from : {ivec2(839, 260), {0, 524}, {500, 0}, {837, 522}}) expect_response(psf, fit, from, 1.8e-3);
     }
 }
 
@@ -125,7 +128,17 @@ TEST(ScatterFit, ResponseAtFullSizeIsNearTheDefinition) {
     const EyeScatter psf = eye(24);
     const ScatterFit fit = fit_scatter(psf, driver(1680, 1050));
     expect_response(psf, fit, {1260, 630}, 1e-3);
-    expect_response(psf, fit, {1679, 3}, 4e-3);
+    expect_response(psf, fit, {1679, 3}, 1.8e-3);
+}
+
+// 107 x 80 degrees. In the corners pixels see twice as far across as along, which kernels of 5 x 5 follow less well.
+TEST(ScatterFit, WideViewsAreNearTheDefinition) {
+    const EyeScatter psf = eye(24);
+    const ImageAngles wide{840, 525, {-1.35, -0.84}, {1.35, 0.84}};
+    const ScatterFit fit = fit_scatter(psf, wide);
+    expect_response(psf, fit, {420, 262}, 1e-3);
+    expect_response(psf, fit, {606, 146}, 1e-3);
+    expect_response(psf, fit, {820, 20}, 2e-2, 0.12, 0.4);
 }
 
 TEST(ScatterFit, SpencerWardAndSmallPictures) {
@@ -145,7 +158,14 @@ TEST(ScatterFit, KernelsOfASymmetricPictureAreMirrored) {
     shifted.high.x = std::nextafter(shifted.high.x, 2);  // no longer symmetric, so that every node is fitted
     const ScatterFit whole = fit_scatter(eye(35), shifted);
     ASSERT_EQ(fit.kernels.size(), whole.kernels.size());
-    for (size_t i = 0; i < fit.kernels.size(); ++i) EXPECT_NEAR(fit.kernels[i], whole.kernels[i], 1e-3) << i;
+    // At the border a node that stands for others also minds what pixels near those leave in the picture.
+    const size_t node = size_t(kTaps * fit.levels);
+    for (int y = 1; y < fit.nodes.y - 1; ++y)
+        for (int x = 1; x < fit.nodes.x - 1; ++x)
+            for (size_t i = 0; i < node; ++i) {
+                const size_t at = size_t(y * fit.nodes.x + x) * node + i;
+                EXPECT_NEAR(fit.kernels[at], whole.kernels[at], 1e-3) << x << ", " << y;
+            }
 }
 
 /// A road at night: dim below, dark above, lamps of up to 1e8 cd/m^2, some at the border.
@@ -165,7 +185,7 @@ Plane night(ivec2 size, uint32_t seed) {
 void expect_frame(double age, ivec2 size, int samples) {
     const EyeScatter psf = eye(age);
     const ImageAngles image = driver(size.x, size.y);
-    const Plane scene = night(size, uint32_t(size.x)), seen = scatter(scene, fit_scatter(psf, image), {2, 8});
+    const Plane scene = night(size, uint32_t(size.x)), seen = scatter(scene, fit_scatter(psf, image), kStrip);
     const ExactFrame exact(psf, image, scene);
     std::mt19937 random(5);
     std::vector<double> errors;

@@ -42,7 +42,7 @@ void expect_reference(PassRig& rig, VkExtent2D extent, std::vector<glm::vec4> pi
     for (size_t i = 0; i < pixels.size(); ++i) scene.texels[i] = dvec3(pixels[i]);
     std::vector<std::vector<glm::vec4>> lists(size_t(fit.levels) + 1);
     for (int l = 1; l <= fit.levels; ++l) lists[size_t(l)] = resident.lamps_of(l, outside);
-    const auto want = reference::scatter(scene, fit, ivec2(int(rig.kernels().scatter_down_block.width), int(rig.kernels().scatter_down_block.height)), lists, resident.far_veil(outside));
+    const auto want = reference::scatter(scene, fit, ivec2(int(rig.kernels().scatter_down_strip.width), int(rig.kernels().scatter_down_strip.height)), lists, resident.far_veil(outside));
     const auto got = seen(rig, pixels, resident, outside);
 
     Picture a(extent.width, extent.height, 3), b = a;

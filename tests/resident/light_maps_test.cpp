@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -82,6 +83,48 @@ TEST(LightMaps, AnEnvelopeIsNeverBelowAnyValue) {
                 ASSERT_LE(seen, bound) << file << ", rings " << k << " and " << (1u << row) - 1 << " more";
                 EXPECT_GE(4 * seen + 0.02 * double(map.largest), bound) << file << ", rings " << k << " and " << (1u << row) - 1 << " more: no use";
             }
+    }
+}
+
+/// A direction by its two angles, deg, as Goniometry says.
+glm::dvec3 direction(Goniometry goniometry, double horizontal, double vertical) {
+    const double h = glm::radians(horizontal), v = glm::radians(vertical);
+    if (goniometry == Goniometry::CGamma) return {std::sin(v) * std::cos(h), std::sin(v) * std::sin(h), -std::cos(v)};
+    if (goniometry == Goniometry::TypeB) return {std::sin(h), std::cos(h) * std::sin(v), -std::cos(h) * std::cos(v)};
+    return {std::cos(v) * std::sin(h), std::sin(v), -std::cos(v) * std::cos(h)};
+}
+
+// A few bright values among dark ones, cells from a degree to half a turn: they bulge, hold the axis, its opposite or a pole, or lie behind.
+TEST(LightMaps, AnEnvelopeHoldsCellsOfEverySize) {
+    std::mt19937 random(1);
+    const auto any = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    const auto angles = [&](double low, double high) {
+        const double steps[] = {1, 2.5, 7.5, 22.5, 45, 90, 180};
+        double step = steps[random() % 7];
+        while (step > high - low) step = steps[random() % 7];
+        std::vector<double> made{low + step * std::floor(any(0, (high - low) / step))};
+        for (int i = 0; i < 12 && (made.size() < 2 || any(0, 1) < 0.8); ++i)
+            if (made.back() + step <= high) made.push_back(made.back() + step);
+            else if (made.front() - step >= low) made.insert(made.begin(), made.front() - step);
+        return made;
+    };
+    for (int turn = 0; turn < 300; ++turn) {
+        Distribution d;
+        d.goniometry = Goniometry(turn % 3);
+        const bool c = d.goniometry == Goniometry::CGamma, b = d.goniometry == Goniometry::TypeB;
+        d.horizontal = c ? std::vector<double>{0, 90, 180, 270, 360} : b ? angles(-90, 90) : angles(-180, 180);
+        d.vertical = c ? angles(0, 180) : b ? angles(-180, 180) : angles(-90, 90);
+        if (turn % 6 == 0) d.horizontal = {0};
+        for (size_t i = 0; i < d.horizontal.size() * d.vertical.size(); ++i) d.candela.push_back(any(0, 1) < 0.8 ? 0 : any(1, 100));
+        if (d.horizontal.size() == 5 && c) std::copy_n(d.candela.begin(), d.vertical.size(), d.candela.end() - std::ptrdiff_t(d.vertical.size()));
+        const LightMaps maps = light_maps(with(d));
+        const auto& map = maps.intensities.at(0);
+        for (int i = 0; i < 3000 && map.largest > 0; ++i) {
+            const double h = any(d.horizontal.front(), d.horizontal.back()), v = any(d.vertical.front(), d.vertical.back());
+            const glm::dvec3 to = direction(d.goniometry, h, v);
+            const auto ring = std::min(uint32_t(std::sqrt((1 + to.z) / 2) * shared::kEnvelope), shared::kEnvelope - 1);
+            ASSERT_LE(intensity(d, to), double(maps.texels[map.envelope + ring].x) * double(map.largest)) << turn << ": " << h << ", " << v;
+        }
     }
 }
 

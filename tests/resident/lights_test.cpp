@@ -62,5 +62,31 @@ TEST(Lights, KindsFollowOneAnotherAndDarkLampsAreLeftOut) {
     EXPECT_EQ(list.lights[2].intensity, 3);
 }
 
+// A culling that asks for angles from the axis asks for those that the map has: also on a sheared node.
+TEST(Lights, TheAxisOfAMapIsWhereItsAnglesBegin) {
+    for (const Goniometry goniometry : {Goniometry::CGamma, Goniometry::TypeB, Goniometry::TypeA}) {
+        const Distribution d{.name = {}, .goniometry = goniometry, .horizontal = {0, 90}, .vertical = {0, 90}, .candela = {1, 1, 1, 1}, .opening = {}, .metadata = {}};
+        Scene scene;
+        scene.distributions = {d};
+        const Light light{.name = {}, .kind = Light::Kind::Measured, .intensity = 1, .distribution = 0};
+        for (const glm::mat4& pose : {glm::mat4(1), glm::mat4(1, 0, 0, 0, 0.3f, 1, 0, 0, 0.4f, 0.5f, 1, 0, 0, 0, 0, 1), glm::mat4(-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)}) {
+            const shared::Light lamp = light_list({{light, 0}}, light_maps(scene), {{pose}}, View()).lights.at(0);
+            const glm::vec3 begin = goniometry == Goniometry::CGamma ? lamp.pole : lamp.start;
+            EXPECT_NEAR(glm::length(lamp.axis - begin), 0, 1e-6) << int(goniometry);
+            EXPECT_NEAR(glm::dot(lamp.start, lamp.pole), 0, 1e-6) << int(goniometry);
+        }
+    }
+}
+
+TEST(Lights, AreDimmedNodeByNode) {
+    const Light point{.name = {}, .kind = Light::Kind::Point, .intensity = 10};
+    const SceneFrame frame{.world = std::vector<glm::mat4>(3, glm::mat4(1)), .dimming = {0.5f, 0, 1}};
+    const LightList list = light_list({{point, 0}, {point, 1}, {point, 2}}, {}, frame, View());
+    ASSERT_EQ(list.lights.size(), 2u);
+    EXPECT_EQ(list.counts.cones, 2u);
+    EXPECT_EQ(list.lights[0].intensity, 5);
+    EXPECT_EQ(list.lights[1].intensity, 10);
+}
+
 }  // namespace
 }  // namespace vesper

@@ -51,6 +51,18 @@ TEST(Source, LuminanceIsIntensityOverArea) {
     EXPECT_NEAR(list.sources.at(0).hidden, 5 * 0.999 - 0.25 - std::hypot(0.3, 0.2) / 2 - 0.1, 1e-5);
 }
 
+// A dimmed lamp is as much darker, and dazzles as much less; one that is off is not seen.
+TEST(Source, IsDimmedWithItsNode) {
+    SourceSet set;
+    for (uint32_t node = 0; node < 3; ++node) set.lamps.push_back({lamp_with_opening(900, 0.3, 0.2), node});
+    SceneFrame frame{.world = std::vector<glm::mat4>(3, aimed({0, 0, -5}, {0, 0, 1})), .dimming = {1, 0.25f, 0}};
+    const SourceList list = source_list(set, frame, kView);
+    ASSERT_EQ(list.sources.size(), 2u);
+    ASSERT_EQ(list.dazzling.size(), 2u);
+    EXPECT_NEAR(list.sources[1].luminance.g / list.sources[0].luminance.g, 0.25, 1e-6);
+    EXPECT_NEAR(list.dazzling[1].illuminance.g / list.dazzling[0].illuminance.g, 0.25, 1e-6);
+}
+
 // I(direction) / d^2 for every kind of lamp, turned any way, near and far; the lamp is small against its distance.
 TEST(Source, HoldsTheIlluminanceOfEveryKind) {
     Distribution beam;

@@ -3,7 +3,19 @@
 from . import facade, groundfloor, roofs
 from .facade import BAY, OPENINGS, WINDOW_HEIGHT, WINDOW_RECESS
 from .geometry import quaternion
-from .layout import BLOCKS, END_DEPTH, END_STREET, FACADE_X, GARDEN_BLOCK, JUNCTIONS, SIDE_DEPTH, Z_FAR, Z_NEAR, stream
+from .layout import (
+    BLOCKS,
+    END_DEPTH,
+    END_STREET,
+    FACADE_X,
+    GARDEN_BLOCK,
+    JUNCTIONS,
+    PORTAL_HALF,
+    SIDE_DEPTH,
+    Z_FAR,
+    Z_NEAR,
+    stream,
+)
 
 LIT_SHARE = 0.23
 WARM_SHARE = 0.75
@@ -148,8 +160,8 @@ def _partition(total, random):
     return parts
 
 
-def place_buildings(document):
-    """All facades of the street, its side streets and its ends; returns the number of arcade lamps."""
+def place_buildings(document, tunnel=False):
+    """All facades of the street, its side streets and its ends; with a gap for the ``tunnel``. Returns the placer."""
     placer = FacadePlacer(document)
     for index, (near, far) in enumerate(BLOCKS):
         length = near - far
@@ -165,11 +177,15 @@ def place_buildings(document):
         placer.run((-FACADE_X - SIDE_DEPTH, near), 90.0, near - far, "shops")
     reach = FACADE_X + END_DEPTH
     placer.run((reach, Z_NEAR + END_STREET), 180.0, 2 * reach, "shops")
-    placer.run((-reach, Z_FAR - END_STREET), 0.0, 2 * reach, "arcade")
+    if tunnel:
+        placer.run((-reach, Z_FAR - END_STREET), 0.0, reach - PORTAL_HALF, "arcade")
+        placer.run((PORTAL_HALF, Z_FAR - END_STREET), 0.0, reach - PORTAL_HALF, "arcade")
+    else:
+        placer.run((-reach, Z_FAR - END_STREET), 0.0, 2 * reach, "arcade")
     for near in (Z_NEAR + END_STREET, Z_FAR):
         placer.run((reach, near - END_STREET), -90.0, END_STREET, "shops")
         placer.run((-reach, near), 90.0, END_STREET, "shops")
-    return placer.arcade_lamps
+    return placer
 
 
 def _returns(placer, side, near, far, ground="arcade"):

@@ -39,21 +39,21 @@ def _sheet(mesh, material, x0, x1, z0, z1, y, offset=(0.0, 0.0)):
     mesh.add(material, [(x0, y, z1), (x1, y, z1), (x1, y, z0), (x0, y, z0)], [(0, 1, 2), (0, 2, 3)], uv)
 
 
-def _road_tile():
+def road_tile():
     mesh = Mesh("road_20m")
     for x0, x1 in ((-KERB_X, 0.0), (0.0, KERB_X)):
         _sheet(mesh, "asphalt", x0, x1, -TILE, 0.0, 0.0)
     return mesh
 
 
-def _strip(name, material, width, length):
+def strip(name, material, width, length):
     """A flat asphalt strip, x from 0 to ``width``, z from 0 to -``length``."""
     mesh = Mesh(name)
     _sheet(mesh, material, 0.0, width, -length, 0.0, 0.0)
     return mesh
 
 
-def _pavement(name, width, length, kerb_ends=(False, False)):
+def pavement(name, width, length, kerb_ends=(False, False)):
     """Kerb at x = 0 and flags up to ``width``; z from 0 to -``length``; ends closed with kerbs on demand."""
     mesh = Mesh(name)
     y = PAVEMENT_Y
@@ -67,7 +67,7 @@ def _pavement(name, width, length, kerb_ends=(False, False)):
     return mesh
 
 
-def _lane_marks():
+def lane_marks():
     """Ten metres of markings: double centre line, one dash per lane line, parking dots."""
     mesh = Mesh("lane_marks_10m")
     for x in (-0.13, 0.13):
@@ -80,7 +80,7 @@ def _lane_marks():
     return mesh
 
 
-def _crosswalk():
+def crosswalk_bars():
     """Zebra bars of 0.5 m every metre across the carriageway, centred on the origin."""
     mesh = Mesh("crosswalk")
     half = CROSSING_LENGTH / 2.0
@@ -141,16 +141,16 @@ def _place_underlay(document, root):
 
 
 def _place_carriageway(document, root):
-    road = _road_tile()
+    road = road_tile()
     for k in range(round((Z_NEAR - Z_FAR) / TILE)):
         document.node(f"road_{k:02d}", root, road, (0, 0, Z_NEAR - k * TILE))
     width = SIDE_DEPTH + FACADE_X - KERB_X
-    side = _strip("side_road", "asphalt", width, JUNCTIONS[0][0] - JUNCTIONS[0][1])
+    side = strip("side_road", "asphalt", width, JUNCTIONS[0][0] - JUNCTIONS[0][1])
     for k, (near, _) in enumerate(JUNCTIONS):
         document.node(f"side_road_{k}_right", root, side, (KERB_X, 0, near))
         document.node(f"side_road_{k}_left", root, side, (-KERB_X - width, 0, near))
     reach = END_DEPTH + FACADE_X
-    end = _strip("end_road", "asphalt", reach, END_STREET)
+    end = strip("end_road", "asphalt", reach, END_STREET)
     for k, z in enumerate((Z_NEAR + END_STREET, Z_FAR)):
         for x in (-reach, 0.0):
             document.node(f"end_road_{k}", root, end, (x, 0, z))
@@ -164,13 +164,13 @@ def _place_pavements(document, root):
         for k in range(count):
             z = start - k * length
             ends = (k == 0, k == count - 1)
-            piece = _pavement(f"pavement_{b}{_suffix(ends)}", FACADE_X - KERB_X, length, ends)
+            piece = pavement(f"pavement_{b}{_suffix(ends)}", FACADE_X - KERB_X, length, ends)
             document.node(f"pavement_right_{b}_{k}", root, piece, (KERB_X, 0, z))
-            mirrored = _pavement(f"pavement_{b}{_suffix(ends[::-1])}", FACADE_X - KERB_X, length, ends[::-1])
+            mirrored = pavement(f"pavement_{b}{_suffix(ends[::-1])}", FACADE_X - KERB_X, length, ends[::-1])
             document.node(f"pavement_left_{b}_{k}", root, mirrored, (-KERB_X, 0, z - length), quaternion("y", 180.0))
         _place_side_pavements(document, root, b, near, far)
     reach = FACADE_X + END_DEPTH
-    end = _pavement("pavement_end", SIDE_PAVEMENT, reach)
+    end = pavement("pavement_end", SIDE_PAVEMENT, reach)
     for k in range(2):
         document.node(
             "pavement_end_near",
@@ -194,7 +194,7 @@ def _place_side_pavements(document, root, block, near, far):
         (near + SIDE_PAVEMENT, END_DEPTH if near == Z_NEAR else SIDE_DEPTH, 90.0),
         (far - SIDE_PAVEMENT, END_DEPTH if far == Z_FAR else SIDE_DEPTH, -90.0),
     ):
-        mesh = _pavement(f"pavement_side_{depth:g}m", SIDE_PAVEMENT, depth)
+        mesh = pavement(f"pavement_side_{depth:g}m", SIDE_PAVEMENT, depth)
         for inner in (FACADE_X, -FACADE_X - depth):
             x = inner + depth if degrees > 0 else inner
             document.node(f"pavement_side_{block}", root, mesh, (x, 0, z), quaternion("y", degrees))
@@ -205,7 +205,7 @@ def _suffix(kerb_ends):
 
 
 def _place_markings(document, root):
-    marks, crosswalk, stop = _lane_marks(), _crosswalk(), _stop_line()
+    marks, crosswalk, stop = lane_marks(), crosswalk_bars(), _stop_line()
     for k in range(round((Z_NEAR - Z_FAR) / 10.0)):
         z = Z_NEAR - 10.0 * k
         if not near_junction(z - 5.0, 13.0):

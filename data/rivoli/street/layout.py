@@ -34,6 +34,12 @@ STOP_GAP = 3.2  # from a crossing's centre to the stop line
 SCOOTER_BAYS = ((1, -22.0, 5), (-1, -62.5, 6), (1, -150.0, 5), (-1, 24.0, 4))
 SCOOTER_PITCH = 0.95
 
+# What the drive adds: a tunnel through the houses at the far end, a quay behind it.
+TUNNEL_NEAR, TUNNEL_FAR = Z_FAR - END_STREET, -428.0
+TUNNEL_HALF, TUNNEL_HEIGHT = 7.0, 5.0  # inside, between the walls and above the road
+PORTAL_HALF = 7.5  # of the gap that the facades leave
+QUAY_NEAR, QUAY_FAR = TUNNEL_FAR - END_STREET, -528.0
+
 EGO_Z = 0.0
 DRIVE_SECONDS = 12.0
 

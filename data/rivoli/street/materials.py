@@ -18,6 +18,7 @@ class Material:
     roughness: float = 1.0
     masked: bool = False
     cutoff: float = 0.5
+    drive_only: bool = False
 
 
 TABLE = [
@@ -89,6 +90,10 @@ TABLE = [
     Material("tail_glass_parked", None, 1.0, (0.40, 0.03, 0.03), 0.1),
     # people
     Material("clothing", "clothing.jpg"),
+    # the tunnel of the drive
+    Material("tunnel_tiles", "stone_trim.jpg", 1.2, (0.92, 0.93, 0.90), 0.5, drive_only=True),
+    Material("tunnel_concrete", None, 1.0, (0.20, 0.19, 0.18), drive_only=True),
+    Material("tunnel_lamp_glass", None, 1.0, (0.60, 0.60, 0.58), 0.3, drive_only=True),
 ]
 
 _BY_NAME = {material.name: material for material in TABLE}
@@ -104,11 +109,13 @@ def image_files():
     return sorted({material.texture for material in TABLE if material.texture})
 
 
-def gltf_materials():
+def gltf_materials(drive=False):
     """The table as glTF material objects; texture i is image i of :func:`image_files`."""
     files = image_files()
     result = []
     for material in TABLE:
+        if material.drive_only and not drive:
+            continue
         surface = {"metallicFactor": 0.0, "roughnessFactor": material.roughness}
         if material.colour != (1.0, 1.0, 1.0):
             surface["baseColorFactor"] = [*material.colour, 1.0]

@@ -2,10 +2,10 @@
 
 import json
 
-_SODIUM, _HALOGEN = 2400, 3800  # K
-_HEADLAMP, _TAIL = {"width_m": 0.265, "height_m": 0.14}, {"width_m": 0.2, "height_m": 0.26}  # their glasses, cars.py
+SODIUM, HALOGEN = 2400, 3800  # K
+HEADLAMP, TAIL = {"width_m": 0.265, "height_m": 0.14}, {"width_m": 0.2, "height_m": 0.26}  # their glasses, cars.py
 _SIGNAL = {"width_m": 0.193, "round": True}  # of the area of the ten-sided lens, furniture.py
-_TAIL_RED, _SIGNAL_RED, _SIGNAL_GREEN = [1.0, 0.02, 0.01], [1.0, 0.05, 0.02], [0.05, 1.0, 0.55]
+TAIL_RED, _SIGNAL_RED, _SIGNAL_GREEN = [1.0, 0.02, 0.01], [1.0, 0.05, 0.02], [0.05, 1.0, 0.55]
 
 
 def measured_photometry():
@@ -14,11 +14,11 @@ def measured_photometry():
     lobes = ("street lamp", "ego low beam", "low beam")
     document["lamps"] = [
         # C0 along the road, C90 towards the carriageway.
-        _measured("street lamp", "street_lamp_*/light", "street-lamp.ies", _SODIUM)
+        _measured("street lamp", "street_lamp_*/light", "street-lamp.ies", SODIUM)
         | {"flux_lm": 9500, "aim": [0, 0, -1], "c0": [0, 1, 0]},
-        _beam("low beam", ["car_ego/headlamp_*", "car_traffic_*/headlamp_*"], "low-beam.csv"),
+        beam("low beam", ["car_ego/headlamp_*", "car_traffic_*/headlamp_*"], "low-beam.csv"),
         # One of the oncoming drivers has forgotten to dip.
-        _beam("high beam", "car_traffic_005/headlamp_*", "high-beam.csv"),
+        beam("high beam", "car_traffic_005/headlamp_*", "high-beam.csv"),
     ] + [lamp for lamp in document["lamps"] if lamp["name"] not in lobes]
     for emitter in document["emitters"]:
         if emitter["name"] == "headlamp":
@@ -37,25 +37,25 @@ def photometry():
         "lights": {"keep": False},
         "lamps": [
             # The lanterns' reflectors: mostly down and, tilted 6 degrees, towards the carriageway.
-            _spot("street lamp", "street_lamp_*/light", 3000, (48, 82), _SODIUM, aim=[-0.1, 0, -1]),
+            spot("street lamp", "street_lamp_*/light", 3000, (48, 82), SODIUM, aim=[-0.1, 0, -1]),
             # What their glass lets out above the reflector, on facades and trees.
-            _spot("street lamp glass", "street_lamp_*/light", 700, (72, 89), _SODIUM, aim=[0, 0, 1]),
-            _spot("arcade lantern", "arcade_lamp_*/light", 250, (45, 80), 2700),
-            _spot("ego low beam", "car_ego/headlamp_*", 9000, (1.5, 17), _HALOGEN, opening=_HEADLAMP),
-            _spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 10), _HALOGEN, opening=_HEADLAMP),
+            spot("street lamp glass", "street_lamp_*/light", 700, (72, 89), SODIUM, aim=[0, 0, 1]),
+            spot("arcade lantern", "arcade_lamp_*/light", 250, (45, 80), 2700),
+            spot("ego low beam", "car_ego/headlamp_*", 9000, (1.5, 17), HALOGEN, opening=HEADLAMP),
+            spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 10), HALOGEN, opening=HEADLAMP),
             # Parked cars show their parking lamps: UN Regulation 77 asks for at least 2 cd.
-            _spot("parking lamp", "car_parked_*/headlamp_*", 2, (10, 45), 3000, opening=_HEADLAMP),
-            _coloured("tail lamp", ["car_traffic_*/tail_*", "car_ego/tail_*"], 5, (10, 55), _TAIL_RED, opening=_TAIL),
-            _coloured("rear parking lamp", "car_parked_*/tail_*", 2, (10, 45), _TAIL_RED, opening=_TAIL),
-            _coloured("red signal", "signal_*/red", 100, (5, 40), _SIGNAL_RED, opening=_SIGNAL),
-            _coloured("green signal", "signal_*/green", 100, (5, 40), _SIGNAL_GREEN, opening=_SIGNAL),
+            spot("parking lamp", "car_parked_*/headlamp_*", 2, (10, 45), 3000, opening=HEADLAMP),
+            coloured("tail lamp", ["car_traffic_*/tail_*", "car_ego/tail_*"], 5, (10, 55), TAIL_RED, opening=TAIL),
+            coloured("rear parking lamp", "car_parked_*/tail_*", 2, (10, 45), TAIL_RED, opening=TAIL),
+            coloured("red signal", "signal_*/red", 100, (5, 40), _SIGNAL_RED, opening=_SIGNAL),
+            coloured("green signal", "signal_*/green", 100, (5, 40), _SIGNAL_GREEN, opening=_SIGNAL),
         ],
         "emitters": [
             {
                 "name": "lantern glass",
                 "materials": "lamp_glass",
                 "luminance_cd_m2": 8000,
-                "colour_temperature_K": _SODIUM,
+                "colour_temperature_K": SODIUM,
             },
             # Seen as their lamps' openings: what they show follows from the candela.
             {"name": "headlamp", "materials": "headlamp_glass", "lamp": ["low beam", "ego low beam"]},
@@ -99,7 +99,7 @@ def photometry():
     }
 
 
-def _spot(name, nodes, candela, cones, kelvin, aim=(0, 0, -1), opening=None):
+def spot(name, nodes, candela, cones, kelvin, aim=(0, 0, -1), opening=None):
     """A lamp of full intensity within the first half angle (degrees) that fades to nothing at the second."""
     lamp = {
         "name": name,
@@ -125,13 +125,13 @@ def _measured(name, nodes, file, kelvin):
     }
 
 
-def _beam(name, nodes, file):
+def beam(name, nodes, file):
     """The nodes look 1 degree down; a beam has its cut-off, 0.57 degrees down, in itself."""
-    return _measured(name, nodes, file, _HALOGEN) | {"pitch_deg": 1, "opening": _HEADLAMP}
+    return _measured(name, nodes, file, HALOGEN) | {"pitch_deg": 1, "opening": HEADLAMP}
 
 
-def _coloured(name, nodes, candela, cones, colour, opening):
-    lamp = _spot(name, nodes, candela, cones, None, opening=opening)
+def coloured(name, nodes, candela, cones, colour, opening):
+    lamp = spot(name, nodes, candela, cones, None, opening=opening)
     del lamp["colour_temperature_K"]
     return lamp | {"colour_rgb": colour}
 

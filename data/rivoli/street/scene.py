@@ -34,13 +34,13 @@ def build_scene():
     """Build the document; returns it with a dictionary of counts for the report."""
     document = Document(materials.gltf_materials(), [f"textures/{file}" for file in materials.image_files()])
     place_ground(document)
-    arcade_lamps = place_buildings(document)
+    arcade_lamps = place_buildings(document).arcade_lamps
     place_greenery(document)
     place_street_lamps(document)
     place_signals(document)
     place_furniture(document)
     place_people(document)
-    cars = place_traffic(document)
+    cars = place_traffic(document).counts
     place_cameras(document)
     document.node(
         "sun", translation=(0, 60, 0), rotation=quaternion("x", -55.0), extensions={"KHR_lights_punctual": {"light": 0}}
@@ -90,15 +90,15 @@ def _clear_of_side_streets(z):
     return z
 
 
-def place_signals(document):
-    """Signals at every stop line: the ends and junctions show green except where cars wait at the ends."""
+def place_signals(document, ends="red"):
+    """Signals at every stop line: junctions show green, the ends what is asked for."""
     meshes = {state: furniture.signal(state) for state in ("red", "green")}
     places = []
     for k, z in enumerate(CROSSINGS):
         places.append(
             (KERB_X + 0.35, z + 2.6, 0.0, "green") if k % 2 == 0 else (-KERB_X - 0.35, z - 2.6, 180.0, "green")
         )
-    places += [(KERB_X + 0.35, Z_FAR + 0.6, 0.0, "red"), (-KERB_X - 0.35, Z_NEAR - 0.6, 180.0, "red")]
+    places += [(KERB_X + 0.35, Z_FAR + 0.6, 0.0, ends), (-KERB_X - 0.35, Z_NEAR - 0.6, 180.0, ends)]
     for near, far in JUNCTIONS:
         places.append((FACADE_X - 0.8, near + 0.6, 90.0, "red"))
     for k, (x, z, degrees, state) in enumerate(places):

@@ -39,6 +39,7 @@ class CarPlacer:
     def __init__(self, document):
         self.document = document
         self.counts = {"parked": 0, "traffic": 0}
+        self.parked = []
         self._meshes = {}
         self._random = stream("fleet")
 
@@ -105,13 +106,15 @@ def _parking_places():
                 z -= random.choice((5.2, 5.4, 5.6, 5.9, 11.5))
 
 
-def place_traffic(document):
-    """Place the 100 cars and animate; returns the counts by kind, the ego car apart."""
+def place_traffic(document, animated=True):
+    """Place the 100 cars and animate them if wanted; returns the placer, which knows how many and where."""
     placer = CarPlacer(document)
     ego = placer.ego(EGO_Z)
     times = (0.0, DRIVE_SECONDS)
 
     def drive(node, z, velocity):
+        if not animated:
+            return
         x = document.nodes[node]["translation"][0]
         document.animate(node, "translation", times, [(x, 0.0, z), (x, 0.0, z + velocity * DRIVE_SECONDS)])
 
@@ -128,10 +131,11 @@ def place_traffic(document):
     # fill the kerbs along the driver's way first, the rest more and more sparsely
     places = sorted(_parking_places(), key=lambda place: abs(place[1] + 70.0) * random.uniform(0.5, 1.5))
     for x, z, degrees in places[:wanted]:
+        placer.parked.append((x, z))
         placer.car(
             "parked",
             x + random.uniform(-0.12, 0.12),
             z + random.uniform(-0.2, 0.2),
             degrees + random.uniform(-1.2, 1.2),
         )
-    return placer.counts
+    return placer

@@ -1,0 +1,96 @@
+#include "channels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "io/atomic_file.h"
+#include "scene/json_value.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr size_t kMost = 32;
+
+ScreenChannel channel_of(const JsonValue& value) {
+    value.allow_only({"name", "size_px", "yaw_deg", "pitch_deg", "roll_deg", "left_deg", "right_deg", "bottom_deg", "top_deg"});
+    ScreenChannel c;
+    c.name = value.at("name").text();
+    const auto size = value.at("size_px").elements(2);
+    c.extent = {uint32_t(size[0].integer(16384)), uint32_t(size[1].integer(16384))};
+    if (c.extent.width == 0 || c.extent.height == 0) value.at("size_px").fail("must be at least 1 x 1");
+    c.yaw = value.number_or("yaw_deg", 0, -180, 180) * kDegree;
+    c.pitch = value.number_or("pitch_deg", 0, -90, 90) * kDegree;
+    c.roll = value.number_or("roll_deg", 0, -180, 180) * kDegree;
+    const auto edge = [&](const char* key) { return value.at(key).number(-89, 89) * kDegree; };
+    c.left = edge("left_deg"), c.right = edge("right_deg"), c.bottom = edge("bottom_deg"), c.top = edge("top_deg");
+    if (!(c.right > c.left + 1e-3)) value.at("right_deg").fail("must be more than left_deg");
+    if (!(c.top > c.bottom + 1e-3)) value.at("top_deg").fail("must be more than bottom_deg");
+    return c;
+}
+
+}  // namespace
+
+Channels read_channels(const std::filesystem::path& file) {
+    const JsonFile text = parse_json(read_file(file, 1u << 20), file.string());
+    const JsonValue root(text);
+    root.allow_only({"$schema", "version", "gaze", "channels"});
+    if (root.at("version").integer() != 1) root.at("version").fail("this version of Vesper reads channels of version 1");
+    Channels channels;
+    for (const JsonValue& value : root.at("channels").elements()) channels.screens.push_back(channel_of(value));
+    if (channels.screens.empty() || channels.screens.size() > kMost) root.at("channels").fail("1 to " + std::to_string(kMost) + " are expected");
+    if (const auto gaze = root.find("gaze")) {
+        const auto named = std::find_if(channels.screens.begin(), channels.screens.end(), [&](const ScreenChannel& c) { return c.name == gaze->text(); });
+        if (named == channels.screens.end()) gaze->fail("there is no channel " + one_line(gaze->text()));
+        channels.gaze = size_t(named - channels.screens.begin());
+    }
+    return channels;
+}
+
+View channel_view(const ScreenChannel& c, const View& driver) {
+    glm::dmat4 turned = glm::rotate(glm::dmat4(1), c.yaw, glm::dvec3(0, 1, 0));
+    turned = glm::rotate(turned, c.pitch, glm::dvec3(1, 0, 0));
+    turned = glm::rotate(turned, -c.roll, glm::dvec3(0, 0, 1));
+    View view = driver;
+    view.extent = c.extent;
+    view.world_to_view = glm::mat4(glm::inverse(turned) * glm::dmat4(driver.world_to_view));
+    view.tangent_low = {std::tan(c.left), std::tan(c.bottom)};
+    view.tangent_high = {std::tan(c.right), std::tan(c.top)};
+    return view;
+}
+
+Wall ChannelRenderer::render(Renderer& renderer, const Channels& channels, const RenderSettings& settings, const View& driver, const SceneFrame& frame,
+                             float seconds, Outputs outputs) {
+    Wall wall;
+    VkExtent2D extent{0, 0};
+    for (const ScreenChannel& c : channels.screens) {
+        wall.columns.push_back(extent.width);
+        extent = {extent.width + c.extent.width, std::max(extent.height, c.extent.height)};
+    }
+    // What is not finite has no vote.
+    std::vector<float> pixels(size_t(extent.width) * extent.height * 4, std::numeric_limits<float>::quiet_NaN());
+    for (size_t i = 0; i < channels.screens.size(); ++i) {
+        const auto [width, height] = channels.screens[i].extent;
+        wall.channels.push_back(renderer.render(settings, channel_view(channels.screens[i], driver), frame, 0, {.display = false, .retina = true}));
+        const std::vector<float>& from = wall.channels.back().scene;
+        for (size_t y = 0; y < height; ++y)
+            std::copy_n(&from[4 * y * width], 4 * width, &pixels[4 * (y * extent.width + wall.columns[i])]);
+    }
+
+    ToneChainSettings shown = settings;
+    if (shown.glare == Glare::Scatter) shown.glare = Glare::None;  // it is in them
+    const ScreenChannel& looked_at = channels.screens[channels.gaze];
+    const glm::vec2 size(looked_at.extent.width, looked_at.extent.height), corner(wall.columns[channels.gaze], 0);
+    shown.tone.gaze = (corner + settings.tone.gaze * size) / glm::vec2(extent.width, extent.height);
+    // A pixel of the wall covers the angle that one in the middle of that channel does.
+    const double tangent = (std::tan(looked_at.top) - std::tan(looked_at.bottom)) / looked_at.extent.height * extent.height;
+    outputs.retina = false;
+    wall.shown = mapper_.map(shown, {.extent = extent, .values = pixels, .channels = 4, .vertical_fov = 2 * std::atan(tangent / 2)}, seconds, outputs);
+    return wall;
+}
+
+}  // namespace vesper

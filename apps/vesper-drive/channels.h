@@ -1,0 +1,53 @@
+// Several views of one eye point: screens around a driver. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer.h"
+#include "tone_mapper.h"
+
+namespace vesper {
+
+/// One screen, or one projector.
+struct ScreenChannel {
+    std::string name;
+    VkExtent2D extent{1680, 1050};          ///< px
+    double yaw = 0, pitch = 0, roll = 0;    ///< of its axis against the driver's: left, up, clockwise; in that order; rad
+    double left = 0, right = 0, bottom = 0, top = 0;  ///< edges of the picture, from the axis, rad; left and bottom negative
+};
+
+struct Channels {
+    std::vector<ScreenChannel> screens;  ///< from left to right, as they are put together
+    size_t gaze = 0;                     ///< the one that the eye looks at (RenderSettings: tone.gaze)
+};
+/// Reads a file of channels (docs/simulator.md). Throws Error, naming file, place and reason.
+Channels read_channels(const std::filesystem::path&);
+
+/// What a channel of the driver's view sees.
+View channel_view(const ScreenChannel&, const View& driver);
+
+/// All channels of a moment, side by side, tops aligned; what lies below the shorter ones is black.
+struct Wall {
+    ToneMapped shown;                ///< the picture of all of them
+    std::vector<uint32_t> columns;   ///< where each begins
+    std::vector<Frame> channels;     ///< each with its lamps and times; luminance as it falls on the retina
+};
+
+/// Renders channels one after the other, each with the light that its eye scatters, that of lamps in the other channels
+/// included; then adapts and shows them as one picture: one histogram, one eye, one tone curve.
+class ChannelRenderer {
+public:
+    explicit ChannelRenderer(Device& device) : mapper_(device) {}
+
+    Wall render(Renderer&, const Channels&, const RenderSettings&, const View& driver, const SceneFrame&, float seconds, Outputs);
+    void reset_adaptation() { mapper_.reset_adaptation(); }
+    void set_eye(const shared::EyeState& eye) { mapper_.set_eye(eye); }
+
+private:
+    ToneMapper mapper_;
+};
+
+}  // namespace vesper

@@ -1,0 +1,36 @@
+// The command line of vesper-drive. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "settings.h"
+
+namespace vesper {
+
+/// What the command line says; windows and the headless program take from it what concerns them.
+struct DriveArguments {
+    std::string scene, run, scenario, device, size = "1680x1050";
+    std::string record, replay, video, log, channels;
+    std::vector<std::string> probes;
+    bool headless = false, autopilot = false;
+    double seconds = 20;  ///< of a drive without a window, s
+    double fps = 0;       ///< of films, 1/s; 0: the recording's own frames, or 30
+    uint64_t seed = 1;
+    DriveSettings::Values settings;
+
+    // Of a window.
+    std::string window = "1280x800", vsync = "wait", scaling = "fit", controllers;
+    int full_screen = -1;     ///< the monitor to fill; -1: none
+    double limit = 0;         ///< pictures a second at most; 0: none
+    bool size_given = false;  ///< pictures are of `size`, not of the window's
+};
+
+void add_drive(CLI::App& program);
+
+/// Drives or replays without a window.
+void run_headless(const DriveArguments&);
+
+}  // namespace vesper

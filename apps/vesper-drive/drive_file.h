@@ -1,0 +1,68 @@
+// Drives as files: what was done, step by step, to be driven again (docs/simulator.md). SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "settings.h"
+#include "simulation/driver.h"
+
+namespace vesper {
+
+/// What happened, in the order in which it did.
+struct DriveEvent {
+    enum class Kind : uint8_t { Step, Frame, Set, Restart };
+    Kind kind = Kind::Step;
+    DriverInput input;              ///< Step
+    glm::dvec4 pose{0};             ///< Step: X, Z (m), yaw (rad) and speed (m/s) of the driver's car after it
+    std::string name, value;        ///< Set
+};
+
+/// How a drive begins.
+struct DriveStart {
+    std::filesystem::path scene, run, scenario;  ///< as of SessionOptions
+    uint64_t seed = 1;
+    double time_step = 1.0 / 60;  ///< s
+    DriveSettings::Values settings;
+};
+
+struct Drive {
+    DriveStart start;
+    std::vector<DriveEvent> events;
+    bool complete = true;  ///< false: its program ended before it did
+};
+
+/// Reads a drive, also one that breaks off. Throws Error, naming file, place and reason.
+Drive read_drive(const std::filesystem::path&);
+
+/// Remembers a drive as the lines of its file, and keeps that file up to date once there is one.
+class DriveRecorder {
+public:
+    explicit DriveRecorder(DriveStart);
+    ~DriveRecorder();
+    DriveRecorder(const DriveRecorder&) = delete;
+    DriveRecorder& operator=(const DriveRecorder&) = delete;
+
+    void add(const DriveEvent&);
+    /// Writes all there is; from now on every event follows at once. Throws Error.
+    void open(const std::filesystem::path&);
+    /// Completes the file. Throws Error.
+    void close();
+    bool is_open() const { return descriptor_ >= 0; }
+
+private:
+    void write(const std::string&);
+
+    DriveStart start_;
+    std::string lines_;  // of the events so far
+    bool first_ = true;
+    DriverInput last_;
+    int descriptor_ = -1;
+    std::filesystem::path file_;
+    unsigned unsafe_ = 0;  // events since the disk was told to keep them
+};
+
+}  // namespace vesper

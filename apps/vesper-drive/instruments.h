@@ -1,0 +1,86 @@
+// Instruments over the picture: what is measured, and switches. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hands.h"
+#include "screen.h"
+#include "session.h"
+
+#include "false_colour.h"  // last: g++ 12 takes its Colour for the one that others have within an enumeration
+
+namespace vesper {
+
+/// What is shown at the moment.
+struct Moment {
+    const Session& session;
+    const Screen& screen;
+    const Frame& frame;              ///< the last one that was rendered
+    const View& view;                ///< and what it was a view of
+    const Hands& hands;
+    std::optional<glm::uvec2> pixel; ///< of it, under the mouse
+    double shown_per_second = 0;     ///< pictures
+    bool paused = false;
+    std::string recording;           ///< file; empty: none
+    std::string message;             ///< to read now; empty: none
+    bool alarm = false;              ///< it is to be read over a clean picture, too
+};
+
+/// A setting that somebody changed, as Session::set takes it.
+using Change = std::pair<std::string, std::string>;
+
+class Instruments {
+public:
+    /// Shows or hides; false: the action is none of theirs.
+    bool press(Action);
+    /// Keeps what is drawn over time.
+    void remember(const Session&, const Frame&);
+    void forget() { past_.clear(); }
+
+    /// Whether something needs the luminances of the next frame.
+    bool needs_scene() const { return (shows(kProbe) && !clean_) || false_colour_; }
+    /// Whether keys are for them.
+    bool has_keyboard() const { return focus_ && !clean_; }
+    bool shows_false_colour() const { return false_colour_; }
+    /// The luminance of a frame as colours, codes of 8 bits; nothing if it has no luminances. `number` tells frames apart.
+    std::span<const uint8_t> coloured(const Frame&, uint64_t number);
+
+    /// Declares everything that is visible; gives what was changed.
+    std::vector<Change> draw(const Moment&);
+
+private:
+    enum Panel : unsigned { kKeys = 1, kPerformance = 2, kLight = 4, kEye = 8, kSwitches = 16, kLamps = 32, kProbe = 64, kControllers = 128 };
+    bool shows(Panel panel) const { return panels_ & panel; }
+    bool begin(Panel, const char* title, glm::vec2 place, glm::vec2 size);
+
+    void draw_status(const Moment&) const;
+    void draw_message(const std::string&) const;
+    void draw_keys();
+    void draw_performance(const Moment&);
+    void draw_light(const Moment&);
+    void draw_eye();
+    void draw_switches(const Moment&, std::vector<Change>&);
+    void draw_lamps(const Moment&, std::vector<Change>&);
+    void draw_probe(const Moment&);
+    void draw_controllers(const Moment&);
+    void draw_scale();
+
+    struct Past {
+        double seconds, adaptation, average, cones, rods;  // cd/m^2
+    };
+    unsigned panels_ = 0;
+    bool clean_ = false, focus_ = false, false_colour_ = false;
+    ColourScale scale_{0.01, 1000};
+    bool fit_scale_ = true;
+    std::vector<uint8_t> coloured_;
+    uint64_t coloured_number_ = ~0ull;
+    ColourScale coloured_scale_;
+    std::deque<Past> past_;
+};
+
+}  // namespace vesper

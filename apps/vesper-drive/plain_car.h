@@ -1,0 +1,26 @@
+// Bodies for what a scene has no model of: boxes with lamps. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+#include "simulation/world_file.h"
+
+namespace vesper {
+
+/// A box of this size, its middle at `centre` (ahead, left, up; m) from the node's origin on the ground.
+struct PlainBody {
+    glm::dvec3 size{4.4, 1.8, 1.5};  ///< length, width, height, m
+    glm::dvec3 centre{0, 0, 0.75};
+    glm::vec3 reflectance{0.3f};
+    bool lamps = true;               ///< a car's; without: a person or a thing
+};
+
+/// Names of the lamps that plain bodies have.
+LampRoles plain_lamps();
+
+/// Adds a node of that name with the body and, at its corners, low and high beams (standard_lamp), tail and brake lamps and
+/// indicators. The candela are those of UN Regulations 6 and 7, as data/rivoli has them.
+void add_plain_body(Scene&, const std::string& name, const PlainBody&);
+
+}  // namespace vesper

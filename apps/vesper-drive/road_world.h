@@ -1,0 +1,23 @@
+// Roads of others to drive on: an OpenDRIVE file, and a run that esmini recorded on it. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "simulation/world_file.h"
+
+namespace vesper {
+
+struct RoadWorld {
+    Scene scene;
+    WorldFile world;
+    std::vector<std::string> notes;
+};
+
+/// The lit road (roads/lit_roads.h) with its lanes to drive on and its kerbs. On it the entities of the run, as boxes with lamps;
+/// without a run some traffic. Throws Error naming file, place and reason.
+RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::path& run, const std::filesystem::path& scenario);
+
+}  // namespace vesper

@@ -1,0 +1,235 @@
+#include "scenery.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "road_world.h"
+#include "scene/colour.h"
+#include "scene/convert.h"
+#include "scene/gltf.h"
+#include "simulation/daylight.h"
+
+namespace vesper {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kEyeHeight = 1.2;   // m, of a driver
+constexpr double kPhotocell = 50;    // lx under the sky: street lamps go off above (35 to 70 lx are usual)
+
+// A folder that is gone with its maker.
+struct Scratch {
+    fs::path folder = fs::temp_directory_path() / ("vesper-drive-" + std::to_string(::getpid()));
+    Scratch() { fs::create_directories(folder); }
+    ~Scratch() {
+        std::error_code ignored;
+        fs::remove_all(folder, ignored);
+    }
+};
+
+LoadedScene load(const fs::path& scene, const fs::path& photometry) {
+    if (photometry.empty()) return read_gltf(scene);
+    const Scratch scratch;
+    const fs::path made = scratch.folder / "scene.gltf";
+    convert(scene, photometry, made);
+    return read_gltf(made);
+}
+
+// Without what a node's scale does.
+glm::dmat4 rigid(const glm::dmat4& m) {
+    glm::dmat4 r(1);
+    const glm::dvec3 back = glm::normalize(glm::dvec3(m[2])), right = glm::normalize(glm::cross(glm::dvec3(m[1]), back));
+    r[0] = glm::dvec4(right, 0), r[1] = glm::dvec4(glm::cross(back, right), 0), r[2] = glm::dvec4(back, 0), r[3] = m[3];
+    return r;
+}
+
+glm::dmat4 pose_of(const Actor& a) {
+    glm::dmat4 m = glm::translate(glm::dmat4(1), a.position);
+    m = glm::rotate(m, a.yaw, glm::dvec3(0, 1, 0));
+    m = glm::rotate(m, a.pitch, glm::dvec3(1, 0, 0));
+    return glm::rotate(m, -a.roll, glm::dvec3(0, 0, 1));  // left side up
+}
+
+// A scene alone: straight on from where its first camera stands.
+WorldFile plain_world(const Scene& scene) {
+    WorldFile file;
+    glm::dvec3 eye(0, kEyeHeight, 0), ahead(0, 0, -1);
+    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].camera == kNone) continue;
+        eye = glm::dvec3(world[i][3]), ahead = -glm::dvec3(world[i][2]);
+        break;
+    }
+    ahead.y = 0;
+    ahead = glm::length(ahead) > 1e-6 ? glm::normalize(ahead) : glm::dvec3(0, 0, -1);
+    const glm::dvec3 ground = eye - glm::dvec3(0, kEyeHeight, 0);
+    file.world.lanes.emplace_back("straight on", std::vector{ground, ground + 10000.0 * ahead}, 3.5, 50 / 3.6);
+    return file;
+}
+
+const std::string& lamp_name(const Scene& scene, uint32_t node) {
+    const Light& light = scene.lights[scene.nodes[node].light];
+    return light.kind == Light::Kind::Measured || light.name.empty() ? scene.nodes[node].name : light.name;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+}  // namespace
+
+Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scenario) {
+    const std::string extension = file.extension().string();
+    if (!run.empty() && extension != ".xodr") throw Error(one_line(run.string()) + ": a run needs the roads (.xodr) that it was recorded on");
+    if (extension == ".xodr") {
+        RoadWorld roads = road_world(file, run, scenario);
+        scene_ = std::move(roads.scene), notes_ = std::move(roads.notes);
+        scene_.name = file.string();
+        adopt(std::move(roads.world));
+    } else if (extension == ".json") {
+        WorldFile world = read_world(file);
+        LoadedScene loaded = load(world.scene, world.photometry);
+        scene_ = std::move(loaded.scene), notes_ = std::move(loaded.notes);
+        scene_.name = world.scene.string();
+        adopt(std::move(world));
+    } else if (extension == ".gltf" || extension == ".glb") {
+        LoadedScene loaded = load(file, {});
+        scene_ = std::move(loaded.scene), notes_ = std::move(loaded.notes);
+        scene_.name = file.string();
+        adopt(plain_world(scene_));
+    } else {
+        throw Error(one_line(file.string()) + ": a world (.json), roads (.xodr) or a scene (.gltf, .glb) is expected");
+    }
+}
+
+void Scenery::adopt(WorldFile file) {
+    scene_.channels.clear();
+    rest_ = world_transforms(scene_, 0);
+    night_ = {scene_.ambient_illuminance * scene_.ambient_colour, scene_.sky_luminance * scene_.sky_colour};
+    camera_ = file.camera;
+    if (!camera_.empty() && !contains(camera_names(scene_), camera_)) throw Error(one_line(scene_.name) + ": there is no camera " + one_line(camera_) + " for the driver");
+    tunnels_ = file.tunnels;
+    world_ = std::make_shared<const WorldDescription>(std::move(file.world));
+
+    // Each node rides on the nearest actor above it.
+    std::map<std::string, uint32_t> actors;
+    const std::vector<Actor> start = World(world_, 0).actors();
+    for (uint32_t i = 0; i < start.size(); ++i)
+        if (!start[i].node.empty() && !actors.try_emplace(start[i].node, i).second) throw Error("node " + one_line(start[i].node) + " is to move in two ways");
+    std::vector<uint32_t> root(scene_.nodes.size(), kNone);
+    std::set<uint32_t> found;
+    for (uint32_t i = 0; i < scene_.nodes.size(); ++i) {
+        const uint32_t parent = scene_.nodes[i].parent;
+        if (parent != kNone) root[i] = root[parent];
+        const auto actor = actors.find(scene_.nodes[i].name);
+        if (root[i] == kNone && actor != actors.end()) root[i] = i;
+        if (root[i] == kNone) continue;
+        const uint32_t who = actors.at(scene_.nodes[root[i]].name);
+        found.insert(who);
+        riders_.push_back({i, who, glm::inverse(rigid(glm::dmat4(rest_[root[i]]))) * glm::dmat4(rest_[i])});
+    }
+    for (const auto& [name, index] : actors)
+        if (!found.contains(index)) throw Error(one_line(scene_.name) + ": there is no node " + one_line(name) + " to move");
+    find_lamps(file.roles, file.by_day);
+}
+
+void Scenery::find_lamps(const LampRoles& roles, const std::vector<std::string>& by_day) {
+    std::vector<uint32_t> rider(scene_.nodes.size(), kNone);
+    for (const Rider& r : riders_) rider[r.node] = r.actor;
+    const std::pair<const std::vector<std::string>*, Role> lists[]{{&roles.low, kLow}, {&roles.high, kHigh}, {&roles.tail, kTail}, {&roles.brake, kBrake}, {&roles.left, kLeft}, {&roles.right, kRight}};
+    for (uint32_t i = 0; i < scene_.nodes.size(); ++i) {
+        if (scene_.nodes[i].light == kNone) continue;
+        Lamp lamp{i, rider[i], kFixed, true, lamp_name(scene_, i)};
+        if (lamp.actor != kNone)
+            for (const auto& [names, role] : lists)
+                if (contains(*names, lamp.name)) lamp.role = role;
+        if (lamp.role == kFixed) lamp.by_day = by_day.empty() || contains(by_day, lamp.name);
+        lamps_.push_back(std::move(lamp));
+    }
+}
+
+std::vector<LampGroup> Scenery::lamp_groups() const {
+    std::map<std::string, LampGroup> groups;
+    for (const Lamp& lamp : lamps_) {
+        const Light& light = scene_.lights[scene_.nodes[lamp.node].light];
+        if (light.kind == Light::Kind::Directional) continue;  // has no intensity
+        const double largest = light.kind == Light::Kind::Measured ? largest_intensity(scene_.distributions[light.distribution]) : 1;
+        LampGroup& group = groups[lamp.name];
+        group.name = lamp.name;
+        ++group.lamps, group.candela = std::max(group.candela, double(light.intensity) * largest);
+    }
+    std::vector<LampGroup> sorted;
+    for (auto& [name, group] : groups)
+        if (group.candela > 0) sorted.push_back(std::move(group));
+    return sorted;
+}
+
+bool Scenery::shines(const Lamp& lamp, const std::vector<Actor>& actors, bool bright) const {
+    if (lamp.role == kFixed) return lamp.by_day || !bright;
+    const VehicleLamps& lit = actors[lamp.actor].lamps;
+    switch (lamp.role) {
+        case kLow: return lit.low;
+        case kHigh: return lit.high;
+        case kTail: return lit.tail;
+        case kBrake: return lit.brake;
+        case kLeft: return lit.left;
+        default: return lit.right;
+    }
+}
+
+SceneFrame Scenery::frame(const std::vector<Actor>& actors, const DriveSettings& settings) const {
+    SceneFrame made{.world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
+    std::vector<glm::dmat4> poses;
+    for (const Actor& actor : actors) poses.push_back(pose_of(actor));
+    for (const Rider& r : riders_) made.world[r.node] = glm::mat4(poses[r.actor] * r.offset);
+
+    double outside = 0;
+    if (settings.sun()) {
+        outside = kOvercast * daylight_illuminance(*settings.sun());
+        const glm::vec3 light = float(outside) * glm::vec3(colour_of_temperature(daylight_temperature(*settings.sun())));
+        made.ambient->illuminance += light;
+        made.ambient->sky += light / std::numbers::pi_v<float>;
+        made.tunnels = tunnels_;
+    }
+    for (const Lamp& lamp : lamps_) {
+        const auto factor = settings.lamps().find(lamp.name);
+        const double wanted = factor == settings.lamps().end() ? 1 : factor->second;
+        made.dimming[lamp.node] = shines(lamp, actors, outside > kPhotocell) ? float(wanted) : 0;
+    }
+    return made;
+}
+
+View Scenery::view(const SceneFrame& frame, const std::vector<Actor>& actors, const DriveSettings& settings, VkExtent2D extent) const {
+    constexpr double kFov = 40 * std::numbers::pi / 180;
+    const double asked = settings.vertical_fov() * std::numbers::pi / 180, fov = asked > 0 ? asked : kFov;
+    const Actor& me = actors.front();
+    const glm::dvec3 ahead(-std::sin(me.yaw), 0, -std::cos(me.yaw)), up(0, 1, 0);
+    const auto look = [&](glm::dvec3 eye, glm::dvec3 at) { return View::symmetric(extent, float(fov), glm::mat4(glm::lookAt(eye, at, up))); };
+    switch (settings.camera()) {
+        case CameraKind::Chase: return look(me.position - 8.0 * ahead + 2.8 * up, me.position + 6.0 * ahead + 1.0 * up);
+        case CameraKind::Bird: return look(me.position - 18.0 * ahead + 40.0 * up, me.position + 12.0 * ahead);
+        case CameraKind::Free: {
+            const FreeCamera& c = settings.free_camera();
+            const glm::dmat4 m = glm::rotate(glm::rotate(glm::translate(glm::dmat4(1), c.position), c.yaw, up), c.pitch, glm::dvec3(1, 0, 0));
+            return View::symmetric(extent, float(fov), glm::mat4(glm::inverse(m)));
+        }
+        case CameraKind::Driver: break;
+    }
+    if (camera_.empty()) {
+        const glm::dmat4 eye = glm::translate(pose_of(me), glm::dvec3(0, kEyeHeight, 0));
+        return View::symmetric(extent, float(fov), glm::mat4(glm::inverse(eye)));
+    }
+    View view = camera_view(scene_, frame, camera_, extent);
+    if (asked > 0) view = View::symmetric(extent, float(asked), view.world_to_view, view.near);
+    return view;
+}
+
+}  // namespace vesper

@@ -1,0 +1,68 @@
+// A world on the scene's nodes: what moves is posed, and its lamps are lit, frame by frame. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "renderer.h"
+#include "settings.h"
+#include "simulation/world_file.h"
+
+namespace vesper {
+
+/// Lamps of one name.
+struct LampGroup {
+    std::string name;
+    size_t lamps = 0;
+    double candela = 0;  ///< the largest intensity of any of them, as the scene has it
+};
+
+/// A scene that is driven in. The animations of the file do not play: what moves is the world's.
+class Scenery {
+public:
+    /// Reads a world (.json), roads (.xodr), or a scene alone (.gltf, .glb), in which one drives straight on over a plane from the
+    /// first camera. `run`: a run that esmini recorded on these roads, and its scenario (.xosc) where there is one; instead of
+    /// traffic. Throws Error.
+    explicit Scenery(const std::filesystem::path& file, const std::filesystem::path& run = {}, const std::filesystem::path& scenario = {});
+
+    const Scene& scene() const { return scene_; }
+    const std::shared_ptr<const WorldDescription>& world() const { return world_; }
+    const std::vector<std::string>& notes() const { return notes_; }
+    /// The lamps there are by name, as "lamp:NAME" settings have them, sorted.
+    std::vector<LampGroup> lamp_groups() const;
+
+    /// Where everything stands and how it is lit, with the actors of a World of `world()`.
+    SceneFrame frame(const std::vector<Actor>&, const DriveSettings&) const;
+    /// What the camera of the settings sees of that frame.
+    View view(const SceneFrame&, const std::vector<Actor>&, const DriveSettings&, VkExtent2D) const;
+
+private:
+    enum Role : uint8_t { kFixed, kLow, kHigh, kTail, kBrake, kLeft, kRight };
+    struct Lamp {
+        uint32_t node;
+        uint32_t actor;  // index, kNone: fixed
+        Role role;
+        bool by_day;
+        std::string name;
+    };
+    void adopt(WorldFile);
+    void find_lamps(const LampRoles&, const std::vector<std::string>& by_day);
+    bool shines(const Lamp&, const std::vector<Actor>&, bool bright) const;
+
+    Scene scene_;
+    std::shared_ptr<const WorldDescription> world_;
+    std::vector<std::string> notes_;
+    std::vector<glm::mat4> rest_;     // of each node, in the world
+    struct Rider {
+        uint32_t node, actor;
+        glm::dmat4 offset;  // from the actor's pose
+    };
+    std::vector<Rider> riders_;       // nodes that move
+    std::vector<Lamp> lamps_;
+    std::string camera_;              // of the driver's eye; empty: none
+    AmbientLight night_;
+    std::vector<Tunnel> tunnels_;
+};
+
+}  // namespace vesper

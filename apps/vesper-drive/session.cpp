@@ -1,0 +1,92 @@
+#include "session.h"
+
+#include "drive_file.h"
+
+namespace vesper {
+
+Session::Session(Device& device, SessionOptions options)
+    : options_(std::move(options)),
+      scenery_(options_.scene, options_.run, options_.scenario),
+      settings_(options_.settings),
+      world_(std::make_unique<World>(scenery_.world(), options_.seed)),
+      actors_(world_->actors()),
+      device_(&device),
+      renderer_(std::make_unique<Renderer>(device, scenery_.scene())),
+      recorder_(std::make_unique<DriveRecorder>(start())) {}
+
+Session::~Session() = default;
+
+DriveStart Session::start() const { return {options_.scene, options_.run, options_.scenario, options_.seed, options_.time_step, settings_.values()}; }
+
+void Session::step(const DriverInput& input) {
+    input_ = input;
+    world_->step(input, options_.time_step);
+    actors_ = world_->actors();
+    const VehicleState& me = world_->driver();
+    recorder_->add({.kind = DriveEvent::Kind::Step, .input = input, .pose = {me.position.x, me.position.y, me.yaw, me.speed}, .name = {}, .value = {}});
+}
+
+void Session::restart() {
+    world_ = std::make_unique<World>(scenery_.world(), options_.seed);
+    actors_ = world_->actors();
+    input_ = {};
+    rendered_.reset();
+    renderer_->reset_adaptation();
+    if (wall_) wall_->reset_adaptation();
+    if (recording())
+        recorder_->add({.kind = DriveEvent::Kind::Restart, .name = {}, .value = {}});
+    else
+        recorder_ = std::make_unique<DriveRecorder>(start());
+}
+
+void Session::set(const std::string& name, const std::string& value) {
+    settings_.set(name, value);
+    recorder_->add({.kind = DriveEvent::Kind::Set, .name = name, .value = value});
+}
+
+View Session::view(VkExtent2D extent) const { return scenery_.view(scenery_.frame(actors_, settings_), actors_, settings_, extent); }
+
+Frame Session::render(VkExtent2D extent, Outputs outputs) { return render(view(extent), outputs); }
+
+void Session::begin_frame() { eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0; }
+
+void Session::end_frame(const shared::EyeState& eye) {
+    rendered_ = world_->steps();
+    eye_ = eye;
+    recorder_->add({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
+}
+
+Frame Session::render(const View& view, Outputs outputs) {
+    begin_frame();
+    Frame frame = renderer_->render(settings_.render(), view, scenery_.frame(actors_, settings_), float(eye_step_), outputs);
+    end_frame(frame.eye);
+    return frame;
+}
+
+Wall Session::render(const Channels& channels, Outputs outputs) {
+    if (!wall_) wall_ = std::make_unique<ChannelRenderer>(*device_);
+    begin_frame();
+    Wall wall = wall_->render(*renderer_, channels, settings_.render(), view({1, 1}), scenery_.frame(actors_, settings_), float(eye_step_), outputs);
+    end_frame(wall.shown.eye);
+    return wall;
+}
+
+void Session::use(Device& device) {
+    const bool had_wall = wall_ != nullptr;
+    wall_.reset();
+    renderer_.reset();
+    device_ = &device;
+    renderer_ = std::make_unique<Renderer>(device, scenery_.scene());
+    if (rendered_) renderer_->set_eye(eye_);
+    if (!had_wall) return;
+    wall_ = std::make_unique<ChannelRenderer>(device);
+    if (rendered_) wall_->set_eye(eye_);
+}
+
+void Session::record(const std::filesystem::path& file) { recorder_->open(file); }
+
+void Session::stop_recording() { recorder_->close(); }
+
+bool Session::recording() const { return recorder_->is_open(); }
+
+}  // namespace vesper

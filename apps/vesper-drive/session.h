@@ -1,0 +1,107 @@
+// A drive: a world, the eye that looks at it and the device that renders it, behind one door. Windows and the headless program both
+// use it, so they show the same bytes. SPDX-License-Identifier: MIT
+//
+//   Device device({.select = ""});
+//   Session session(device, {.scene = "data/rivoli/rivoli.world.json"});
+//   session.record("drive.json");                       // whenever; the drive is on disk up to the last step from then on
+//   for (;;) {
+//       session.set("operator", "ward");                // any setting of DriveSettings, whenever it changes
+//       session.step(input);                            // 1/60 s of simulated time; not called: a pause
+//       const Frame frame = session.render({1680, 1050}, {.display = true});   // codes of the display, cd/m^2 if asked for
+//   }
+//
+// Time stands still between steps. The eye adapts by the steps since the last rendered frame, so frames may be rendered at any
+// rate; which steps were rendered is recorded, and a replay that renders the same ones gives the same bytes on the same device.
+// Not thread-safe. Throws Error.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "channels.h"
+#include "gpu/device.h"
+#include "settings.h"
+#include "simulation/world.h"
+#include "scenery.h"
+
+namespace vesper {
+
+class DriveRecorder;
+struct DriveStart;
+
+struct SessionOptions {
+    std::filesystem::path scene;       ///< a world (.json), roads (.xodr) or a scene (.gltf, .glb)
+    std::filesystem::path run, scenario;  ///< as of Scenery
+    uint64_t seed = 1;
+    double time_step = 1.0 / 60;       ///< s
+    DriveSettings::Values settings;    ///< what differs from the defaults
+};
+
+class Session {
+public:
+    Session(Device&, SessionOptions);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    const SessionOptions& options() const { return options_; }
+    const Scenery& scenery() const { return scenery_; }
+
+    // The world.
+    void step(const DriverInput&);
+    /// Back to the start, with the eye adapted anew. A recording goes on; what was not recorded is forgotten.
+    void restart();
+    const World& world() const { return *world_; }
+    /// What moves, as it stands now; the driver's car first.
+    const std::vector<Actor>& actors() const { return actors_; }
+    const DriverInput& input() const { return input_; }  ///< of the last step
+
+    // Settings.
+    const DriveSettings& settings() const { return settings_; }
+    void set(const std::string& name, const std::string& value);
+
+    // Pictures.
+    /// What the camera of the settings sees in a picture of that size.
+    View view(VkExtent2D) const;
+    /// The picture of this moment. The first one, and one after a restart, is seen by an eye that is adapted.
+    Frame render(VkExtent2D, Outputs);
+    /// The same of another view.
+    Frame render(const View&, Outputs);
+    /// All channels of this moment, seen by one eye. Not to be mixed with frames of one view: each way has an eye of its own.
+    Wall render(const Channels&, Outputs);
+    /// Seconds that passed for the eye before the last frame.
+    double eye_step() const { return eye_step_; }
+    Renderer& renderer() { return *renderer_; }
+    /// Goes on with another device, as after one was lost; the eye remembers.
+    void use(Device&);
+
+    // Recording (docs/simulator.md).
+    /// Records the drive from its start, whenever that was, and goes on with it: the file has every event as soon as it happened.
+    void record(const std::filesystem::path&);
+    void stop_recording();
+    bool recording() const;
+
+private:
+    DriveStart start() const;
+    void begin_frame();
+    void end_frame(const shared::EyeState&);
+
+    SessionOptions options_;
+    Scenery scenery_;
+    DriveSettings settings_;
+    std::unique_ptr<World> world_;
+    std::vector<Actor> actors_;
+    DriverInput input_;
+    Device* device_;
+    std::unique_ptr<Renderer> renderer_;
+    std::unique_ptr<ChannelRenderer> wall_;  // made when first asked for
+    std::optional<uint64_t> rendered_;  // steps at the last frame
+    shared::EyeState eye_{};
+    double eye_step_ = 0;
+    std::unique_ptr<DriveRecorder> recorder_;
+};
+
+}  // namespace vesper

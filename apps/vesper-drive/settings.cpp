@@ -1,0 +1,114 @@
+#include "settings.h"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "tone_arguments.h"
+
+namespace vesper {
+namespace {
+
+constexpr const char* kLamp = "lamp:";
+const std::map<std::string, CameraKind> kCameras{{"driver", CameraKind::Driver}, {"chase", CameraKind::Chase}, {"bird", CameraKind::Bird}, {"free", CameraKind::Free}};
+
+struct SettingsArguments {
+    ToneArguments tone;
+    std::string camera = "driver";
+    std::vector<double> free{0, 2, 0, 0, 0};
+    double sun = 0, fov = 0;
+    float threshold = ClusterSettings{}.threshold;
+};
+
+void add(CLI::App& command, SettingsArguments& a) {
+    command.option_defaults()->group("Settings that can change during a drive");
+    add_tone_options(command, a.tone);
+    command.add_option("--camera", a.camera, "driver, chase, bird or free")->check(CLI::IsMember({"driver", "chase", "bird", "free"}))->capture_default_str();
+    command.add_option("--free", a.free, "Where the free camera stands and looks: X,Y,Z,YAW,PITCH, m and degrees")->delimiter(',')->expected(5);
+    command.add_option("--fov", a.fov, "Angle of the picture's height, degrees (default: the camera's)")->check(between(0.0, 170.0));
+    command.add_option("--sun", a.sun, "Elevation of the sun under a closed cover of cloud, degrees (default: the night of the scene)")->check(between(-90.0, 90.0));
+    command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx")->check(between(1e-9, 1e3))->capture_default_str();
+    command.option_defaults()->group("Options");
+}
+
+}  // namespace
+
+DriveSettings::DriveSettings(const Values& values) {
+    apply(values);
+    values_ = values;
+}
+
+void DriveSettings::set(const std::string& name, const std::string& value) {
+    Values values = values_;
+    if (value.empty())
+        values.erase(name);
+    else
+        values[name] = value;
+    apply(values);
+    values_ = std::move(values);
+}
+
+void DriveSettings::apply(const Values& values) {
+    CLI::App command;
+    SettingsArguments a;
+    add(command, a);
+    std::vector<std::string> words;
+    std::map<std::string, double> lamps;
+    for (const auto& [name, value] : values) {
+        if (!name.starts_with(kLamp)) {
+            words.push_back("--" + name + "=" + value);
+            continue;
+        }
+        char* end = nullptr;
+        const double factor = std::strtod(value.c_str(), &end);
+        if (*end || end == value.c_str() || !(factor >= 0 && factor <= 1000)) throw Error("setting " + one_line(name) + ": a factor from 0 to 1000 is expected, not " + one_line(value));
+        lamps[name.substr(std::string(kLamp).size())] = factor;
+    }
+    try {
+        command.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    } catch (const CLI::ParseError& error) {
+        throw Error("settings: " + one_line(error.what()));
+    }
+    RenderSettings render;
+    static_cast<ToneChainSettings&>(render) = tone_settings(a.tone);
+    render.clusters.threshold = a.threshold;
+    constexpr double kDegree = std::numbers::pi / 180;
+    render_ = std::move(render);
+    sun_ = command.count("--sun") ? std::optional(a.sun) : std::nullopt;
+    camera_ = kCameras.at(a.camera);
+    free_ = {{a.free[0], a.free[1], a.free[2]}, a.free[3] * kDegree, a.free[4] * kDegree};
+    fov_ = a.fov;
+    lamps_ = std::move(lamps);
+}
+
+void DriveSettings::add_options(CLI::App& command) {
+    const auto a = std::make_shared<SettingsArguments>();
+    add(command, *a);
+    command.add_option("--lamp", "NAME=FACTOR on the intensity of lamps of that name; may be given several times")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.parse_complete_callback([a] {});  // keeps them as long as the command
+}
+
+DriveSettings::Values DriveSettings::given(const CLI::App& command) {
+    CLI::App known;
+    SettingsArguments a;
+    add(known, a);
+    Values values;
+    for (const CLI::Option* option : known.get_options()) {
+        const std::string name = option->get_name();
+        if (name == "--help" || name.size() < 3 || !command.count(name)) continue;
+        std::string text;
+        for (const std::string& result : command.get_option(name)->results()) text += (text.empty() ? "" : ",") + result;
+        values[name.substr(2)] = text;
+    }
+    for (const std::string& lamp : command.get_option("--lamp")->results()) {
+        const size_t equals = lamp.rfind('=');
+        if (equals == lamp.npos) throw Error("--lamp " + one_line(lamp) + ": NAME=FACTOR is expected");
+        values[kLamp + lamp.substr(0, equals)] = lamp.substr(equals + 1);
+    }
+    return values;
+}
+
+}  // namespace vesper

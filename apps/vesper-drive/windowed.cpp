@@ -1,0 +1,238 @@
+#include "windowed.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <thread>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "drive_log.h"
+#include "io/atomic_file.h"
+#include "passes/operators.h"
+#include "picture_arguments.h"
+#include "tone_arguments.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kMostBehind = 0.25;  // s: where a device is slower than that, time goes slower
+constexpr std::array<double, WindowedDrive::kCoarsest + 1> kCoarser{1, 1.25, 1.5, 2, 3, 4};
+
+const char* name_of(CameraKind camera) {
+    switch (camera) {
+        case CameraKind::Chase: return "chase";
+        case CameraKind::Bird: return "bird";
+        case CameraKind::Free: return "free";
+        default: return "driver";
+    }
+}
+
+WindowSettings window_settings(const DriveArguments& a) {
+    return {.title = "Vesper", .extent = parse_size(a.window, 64), .monitor = a.full_screen < 0 ? std::nullopt : std::optional(unsigned(a.full_screen))};
+}
+
+Vsync vsync_of(const std::string& name) { return name == "latest" ? Vsync::Latest : name == "off" ? Vsync::Off : Vsync::Wait; }
+
+}  // namespace
+
+WindowedDrive::WindowedDrive(const DriveArguments& a)
+    : arguments_(a),
+      window_(window_settings(a)),
+      device_({.select = a.device, .validation = false, .on_message = {}, .presentation = window_.presentation()}),
+      screen_(window_, device_),
+      screen_settings_{.vsync = vsync_of(a.vsync), .scaling = a.scaling == "whole" ? Scaling::Whole : Scaling::Fit},
+      hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
+    if (!a.replay.empty()) {
+        replay_ = read_drive(a.replay);
+        arguments_.scene = replay_->start.scene.string();
+        replay_has_frames_ = std::any_of(replay_->events.begin(), replay_->events.end(), [](const DriveEvent& e) { return e.kind == DriveEvent::Kind::Frame; });
+        if (!replay_->complete) say(a.replay + " breaks off; what there is of it is shown");
+    }
+    open_session();
+    if (!a.record.empty()) session_->record(recording_ = a.record);
+    if (a.autopilot) hands_.press(Action::Autopilot);
+    if (!a.log.empty()) {
+        log_.open(a.log, std::ios::trunc);
+        if (!(log_ << drive_log_heading({}) << std::flush)) throw Error("--log " + one_line(a.log) + ": cannot be written");
+    }
+    window_.on_key = [this](int key, int modifiers) {
+        if (key == GLFW_KEY_ESCAPE && instruments_.has_keyboard()) return press(Action::Focus);
+        const auto action = action_of(key, modifiers);
+        if (!action || screen_.is_typing()) return;
+        // Letters and the space bar belong to the instruments while they have the keyboard.
+        if (instruments_.has_keyboard() && key < GLFW_KEY_F1 && *action != Action::Focus && *action != Action::Quit) return;
+        press(*action);
+    };
+    window_.on_drop = [this](const std::string& file) { reload(file); };
+}
+
+void WindowedDrive::open_session() {
+    SessionOptions options{.scene = arguments_.scene, .seed = arguments_.seed, .settings = arguments_.settings};
+    if (replay_) {
+        options.seed = replay_->start.seed, options.time_step = replay_->start.time_step;
+        options.settings = replay_->start.settings;
+        for (const auto& [name, value] : arguments_.settings) options.settings[name] = value;
+    }
+    if (!screen_.shows(DriveSettings(options.settings).render().display)) throw Error("--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
+    session_ = std::make_unique<Session>(device_, options);
+    for (const std::string& note : session_->scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
+}
+
+// A scene that cannot be used leaves everything as it is.
+void WindowedDrive::reload(const std::string& scene) {
+    try {
+        auto made = std::make_unique<Session>(device_, SessionOptions{.scene = scene, .seed = arguments_.seed, .settings = session_->settings().values()});
+        if (!recording_.empty()) session_->stop_recording();
+        session_ = std::move(made);
+    } catch (const Error& error) {
+        return say(error.what(), true);
+    }
+    arguments_.scene = scene;
+    recording_.clear(), replay_.reset(), instruments_.forget();
+    stale_ = true;
+    say("loaded " + scene);
+}
+
+void WindowedDrive::say(const std::string& text, bool alarm) {
+    message_ = text, alarm_ = alarm;
+    message_until_ = Clock::now() + std::chrono::seconds(alarm ? 15 : 5);
+    if (alarm) std::fprintf(stderr, "vesper-drive: %s\n", text.c_str());
+}
+
+std::string WindowedDrive::title() const {
+    std::string text = std::filesystem::path(arguments_.scene).filename().string() + format(", %.1f s, ", session_->world().seconds()) + vesper::name_of(session_->settings().render().tone_operator) +
+                       ", " + name_of(session_->settings().camera());
+    if (replay_) text += ", replay";
+    if (paused_) text += ", paused";
+    if (!recording_.empty()) text += ", recording";
+    return text + " - Vesper";
+}
+
+VkExtent2D WindowedDrive::picture_extent() const {
+    const VkExtent2D whole = arguments_.size_given ? parse_size(arguments_.size) : window_.extent();
+    const auto part = [&](uint32_t side) { return uint32_t(std::max(1.0, std::round(side / kCoarser[coarser_]))); };
+    return {part(whole.width), part(whole.height)};
+}
+
+HeldInput WindowedDrive::held() const {
+    if (instruments_.has_keyboard() || screen_.is_typing()) return {};
+    const bool letters = session_->settings().camera() != CameraKind::Free;
+    const auto down = [&](int arrow, int letter) { return window_.is_pressed(arrow) || (letters && window_.is_pressed(letter)); };
+    return {.left = down(GLFW_KEY_LEFT, GLFW_KEY_A), .right = down(GLFW_KEY_RIGHT, GLFW_KEY_D), .accelerate = down(GLFW_KEY_UP, GLFW_KEY_W), .brake = down(GLFW_KEY_DOWN, GLFW_KEY_S)};
+}
+
+void WindowedDrive::move_camera(double seconds) {
+    const glm::dvec2 mouse = window_.mouse(), moved = mouse - std::exchange(mouse_, mouse);
+    if (session_->settings().camera() != CameraKind::Free || instruments_.has_keyboard() || screen_.is_typing()) return;
+    constexpr double kSpeed = 8, kTurn = 0.8, kDrag = 0.003;  // m/s, rad/s, rad/px
+    const auto axis = [&](int plus, int minus) { return (window_.is_pressed(plus) ? 1.0 : 0.0) - (window_.is_pressed(minus) ? 1.0 : 0.0); };
+    const double ahead = axis(GLFW_KEY_W, GLFW_KEY_S), left = axis(GLFW_KEY_A, GLFW_KEY_D), up = axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN);
+    const bool turns = window_.is_pressed(GLFW_KEY_LEFT_SHIFT) || window_.is_pressed(GLFW_KEY_RIGHT_SHIFT), drags = window_.is_button_pressed(GLFW_MOUSE_BUTTON_RIGHT);
+    FreeCamera c = session_->settings().free_camera();
+    const FreeCamera before = c;
+    if (drags) c.yaw += kDrag * moved.x, c.pitch += kDrag * moved.y;
+    if (turns) {
+        c.yaw += kTurn * left * seconds, c.pitch += kTurn * ahead * seconds;
+    } else {
+        const glm::dvec3 forward(-std::sin(c.yaw), 0, -std::cos(c.yaw)), sideways(forward.z, 0, -forward.x);
+        c.position += kSpeed * seconds * (ahead * forward + left * sideways);
+    }
+    c.position.y += kSpeed * seconds * up;
+    c.pitch = std::clamp(c.pitch, -1.5, 1.5);
+    if (c.position == before.position && c.yaw == before.yaw && c.pitch == before.pitch) return;
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    change("free", format("%.4f,%.4f,%.4f,%.4f,%.4f", c.position.x, c.position.y, c.position.z, c.yaw * kDegrees, c.pitch * kDegrees));
+}
+
+bool WindowedDrive::replay_to_next_frame() {
+    while (next_event_ < replay_->events.size()) {
+        const DriveEvent& event = replay_->events[next_event_++];
+        switch (event.kind) {
+            case DriveEvent::Kind::Step: session_->step(event.input), owed_ -= session_->options().time_step; break;
+            case DriveEvent::Kind::Set: session_->set(event.name, event.value); break;
+            case DriveEvent::Kind::Restart: session_->restart(), instruments_.forget(); break;
+            case DriveEvent::Kind::Frame: return true;
+        }
+        // A drive that was recorded without frames is shown step by step.
+        if (event.kind == DriveEvent::Kind::Step && owed_ <= 0 && !replay_has_frames_) return true;
+    }
+    paused_ = true;
+    say("the replay is over; Backspace starts it again");
+    return true;
+}
+
+// What the world does in so much real time, and a picture of that if anything is new.
+void WindowedDrive::advance(double seconds) {
+    const double step = session_->options().time_step;
+    owed_ = paused_ ? 0 : std::min(owed_ + seconds, kMostBehind);
+    if (std::exchange(one_step_, false)) owed_ = step;
+    bool moved = false;
+    if (replay_) {
+        if (owed_ >= step) moved = replay_to_next_frame();
+    } else {
+        for (; owed_ >= step; owed_ -= step, moved = true) session_->step(hands_.next(held(), session_->world().driver().speed, step));
+    }
+    render(moved);
+}
+
+void WindowedDrive::render(bool moved) {
+    const VkExtent2D extent = picture_extent();
+    const bool ldr = session_->settings().render().tone_operator == Operator::Ldr;
+    const Outputs outputs{.display = true, .scene = (instruments_.needs_scene() || log_.is_open()) && !ldr};
+    const bool lacks = (outputs.scene && frame_.scene.empty()) || extent.width != rendered_.width || extent.height != rendered_.height;
+    if (!moved && !stale_ && !lacks) return;
+    view_ = session_->view(extent);
+    frame_ = session_->render(view_, outputs);
+    rendered_ = extent, stale_ = false, ++frame_number_;
+    instruments_.remember(*session_, frame_);
+    if (log_.is_open() && !(log_ << drive_log_row(logged_++, *session_, view_, frame_, {}) << std::flush)) {
+        log_.close();
+        say("--log " + arguments_.log + ": cannot be written any more", true);
+    }
+}
+
+void WindowedDrive::present() {
+    const Display& display = session_->settings().render().display;
+    screen_.begin_instruments(instruments_.has_keyboard());
+    const bool talks = Clock::now() < message_until_;
+    const Moment now{.session = *session_, .screen = screen_, .frame = frame_, .view = view_, .hands = hands_, .pixel = screen_.pixel_under_mouse(frame_.extent, screen_settings_.scaling),
+                     .shown_per_second = pictures_per_second_, .paused = paused_, .recording = recording_, .message = talks ? message_ : "", .alarm = alarm_};
+    const std::vector<Change> changes = instruments_.draw(now);
+    const bool colours = instruments_.shows_false_colour() && display.bits == 8;
+    const auto coloured = colours ? instruments_.coloured(frame_, frame_number_) : std::span<const uint8_t>();
+    const Picture picture{.codes = coloured.empty() ? std::span<const uint8_t>(frame_.display) : coloured, .extent = frame_.extent, .bits = display.bits};
+    screen_.show(picture, display, screen_settings_);
+    for (const auto& [name, value] : changes) change(name, value);
+}
+
+void WindowedDrive::run() {
+    Clock::time_point last = Clock::now();
+    while (!window_.is_closing()) {
+        window_.poll(window_.is_minimised() ? 0.1 : 0);
+        for (const Action action : hands_.look(plugged_in())) press(action);
+        if (const std::string notice = hands_.take_notice(); !notice.empty()) say(notice);
+        const Clock::time_point now = Clock::now();
+        const double elapsed = std::chrono::duration<double>(now - last).count();
+        last = now;
+        if (window_.is_minimised()) continue;  // nobody sees where the car goes: time stands still
+        pictures_per_second_ += (1 / std::max(elapsed, 1e-4) - pictures_per_second_) * std::min(1.0, elapsed / 0.5);
+        move_camera(elapsed);
+        advance(elapsed);
+        present();
+        window_.set_title(title());
+        const double least = paused_ ? 1.0 / 60 : arguments_.limit > 0 ? 1 / arguments_.limit : 0;
+        std::this_thread::sleep_until(now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(least)));
+    }
+    if (!recording_.empty()) session_->stop_recording();
+}
+
+void run_windowed(const DriveArguments& arguments) { WindowedDrive(arguments).run(); }
+
+}  // namespace vesper

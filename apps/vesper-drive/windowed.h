@@ -1,0 +1,88 @@
+// Driving in a window. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drive.h"
+#include "drive_file.h"
+#include "hands.h"
+#include "instruments.h"
+#include "screen.h"
+#include "session.h"
+#include "window.h"
+
+namespace vesper {
+
+/// A session that somebody drives and looks at.
+class WindowedDrive {
+public:
+    static constexpr unsigned kCoarsest = 5;  ///< steps of resolution below the finest
+
+    explicit WindowedDrive(const DriveArguments&);
+
+    /// Until the window is closed. Throws Error, as when the device is lost; a recording then has everything up to the last step.
+    void run();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void open_session();
+    void reload(const std::string& scene);
+    void press(Action);
+    void press_view(Action);
+    void change(const std::string& name, const std::string& value);
+    void cycle(const std::string& name, const std::vector<std::string>& values, int step);
+    void next_display();
+    void fill_monitor(bool next);
+    void record();
+    void save_picture();
+    void restart();
+
+    HeldInput held() const;
+    void move_camera(double seconds);
+    void advance(double seconds);
+    bool replay_to_next_frame();
+    void render(bool moved);
+    void present();
+    void say(const std::string& text, bool alarm = false);
+    std::string title() const;
+    VkExtent2D picture_extent() const;
+
+    DriveArguments arguments_;
+    Window window_;
+    Device device_;
+    std::unique_ptr<Session> session_;
+    Screen screen_;
+    ScreenSettings screen_settings_;
+    Instruments instruments_;
+    Hands hands_;
+
+    std::optional<Drive> replay_;
+    size_t next_event_ = 0;
+    bool replay_has_frames_ = false;
+
+    bool paused_ = false, one_step_ = false, stale_ = true;
+    double owed_ = 0;              // s of real time that the world is behind
+    double pictures_per_second_ = 0;
+    unsigned coarser_ = 0;         // index of the picture's coarseness
+    VkExtent2D rendered_{};
+    Frame frame_;
+    View view_;
+    uint64_t frame_number_ = 0;
+    glm::dvec2 mouse_{0};
+    std::string recording_, message_;
+    bool alarm_ = false;
+    Clock::time_point message_until_{};
+    std::ofstream log_;
+    unsigned logged_ = 0;
+};
+
+/// Opens a window and drives, or replays, in it.
+void run_windowed(const DriveArguments&);
+
+}  // namespace vesper

@@ -1,0 +1,13 @@
+// The lamps of data/photometry, built in. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "photometry/distribution.h"
+
+namespace vesper {
+
+/// "street-lamp" (type C), "low-beam", "high-beam" (type A, right-hand traffic). Throws Error for other names.
+Distribution standard_lamp(const std::string& name);
+
+}  // namespace vesper

@@ -1,0 +1,44 @@
+// Needles and halo of one eye, frame by frame, as the device reads them. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "perception/glare_pattern.h"
+#include "resident/eye_scatter.h"
+
+namespace vesper {
+
+/// What the eye has about a lamp in a frame.
+struct Corona {
+    std::vector<glm::vec4> texels;  ///< of shared/corona.h
+    double pupil = 0;               ///< mm, its unrest included; 0: of a model without one
+    double milliseconds = 0;        ///< that making it took on the host; 0: it is that of the frame before
+};
+
+/// The texels of a pattern, with its means.
+std::vector<glm::vec4> corona_texels(const GlarePattern&);
+
+/// Makes the pattern of each frame, or keeps that of the last one.
+class CoronaCache {
+public:
+    /// `adaptation`: what the eye was adapted to in the frame before, cd/m^2; 0: there was none. `seconds` since the first frame.
+    const Corona& at(const ScatterSettings&, double adaptation, double seconds);
+
+    /// The first frame finds the pupil of a driver at night, cd/m^2, which then becomes that of the eye's adaptation with this time constant, s.
+    static constexpr double kFirstAdaptation = 1, kPupilSeconds = 0.5;
+
+private:
+    struct Moment {
+        ScatterSettings settings;
+        double pupil, seconds;
+        bool operator==(const Moment&) const = default;
+    };
+    std::optional<Moment> moment_;
+    std::optional<EyeAperture> aperture_;
+    Corona corona_;
+};
+
+}  // namespace vesper

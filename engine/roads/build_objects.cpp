@@ -1,0 +1,330 @@
+// Objects beside and on roads. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "roads/lit_road_parts.h"
+#include "roads/road_lamps.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr size_t kMaxCopies = 200'000;
+constexpr double kFlat = 0.02;  // m; what is lower lies on the road
+
+/// An object, or one copy of it, with its sizes.
+struct Placed {
+    double s = 0, t = 0, z = 0;
+    double length = 0, width = 0, height = 0, radius = 0;
+};
+
+bool contains(const std::string& text, const char* word) { return text.find(word) != text.npos; }
+
+/// What lies on the road, whatever height above it the file reserves.
+bool is_flat(const std::string& kind) {
+    return contains(kind, "crosswalk") || contains(kind, "parkingspace") || contains(kind, "roadmark") ||
+           contains(kind, "stopline") || contains(kind, "patch");
+}
+
+std::string kind_of(const RoadObject& object) {
+    std::string all = object.type + " " + object.subtype + " " + object.name;
+    std::transform(all.begin(), all.end(), all.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return all;
+}
+
+struct ObjectBuilder {
+    RoadBuild& build;
+    const Road& road;
+    RoadMesh& mesh;
+    size_t copies = 0;  ///< objects that were placed
+    size_t pieces = 0;  ///< of everything, for the bound
+
+    BodyFrame frame_of(const RoadObject& object, const Placed& at) const {
+        const double turn = object.heading + (object.orientation == '-' ? kPi : 0);
+        return frame_at(road, at.s, at.t, at.z).turned(turn, object.pitch, object.roll);
+    }
+
+    static Placed whole(const RoadObject& o) { return {o.s, o.t, o.z_offset, o.length, o.width, o.height, o.radius}; }
+
+    void tree(const BodyFrame& frame, const Placed& at, bool bush) {
+        const double height = at.height > 0 ? at.height : bush ? 1.5 : 6;
+        const double crown = at.radius > 0 ? at.radius : at.width > 0 ? at.width / 2 : height * (bush ? 0.5 : 0.3);
+        if (bush) return add_ball(mesh, Stuff::Leaves, frame.moved(0, 0, height / 2), crown, height / 2);
+        add_cylinder(mesh, Stuff::Bark, frame, std::max(0.08, height * 0.02), height * 0.5);
+        add_ball(mesh, Stuff::Leaves, frame.moved(0, 0, height * 0.65), crown, height * 0.35);
+    }
+
+    void guide_post(const BodyFrame& frame, const Placed& at) {
+        const double height = at.height > 0 ? at.height : 1.05;
+        add_box(mesh, Stuff::Post, frame, 0.1, 0.12, height);
+        add_box(mesh, Stuff::PostBand, frame.moved(0, 0, height - 0.35), 0.104, 0.124, 0.2);
+        add_box(mesh, Stuff::PostReflector, frame.moved(0, 0, height - 0.34), 0.108, 0.05, 0.18);
+    }
+
+    void body(const RoadObject& object, const Placed& at) {
+        const std::string kind = kind_of(object);
+        const BodyFrame frame = frame_of(object, at);
+        if (contains(kind, "streetlamp") || contains(kind, "street_lamp") || contains(kind, "street lamp") ||
+            contains(kind, "lamppost"))
+            return add_street_lamp(build, frame, at.height > 0 ? at.height : 8, object.t > 0 ? -1 : 1);
+        if (contains(kind, "guide-post") || contains(kind, "guidepost")) return guide_post(frame, at);
+        if (contains(kind, "tree") || contains(kind, "vegetation") || contains(kind, "bush"))
+            return tree(frame, at, contains(kind, "bush"));
+        const bool pole = contains(kind, "pole");
+        const Stuff stuff = pole || contains(kind, "rail") ? Stuff::PoleSteel
+                            : contains(kind, "building")   ? Stuff::Wall
+                                                           : Stuff::Concrete;
+        const double height = at.height > 0 ? at.height : pole ? 3 : contains(kind, "building") ? 8 : 0;
+        if (at.radius > 0) return height > kFlat ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
+        const double width = at.width > 0 ? at.width
+                             : pole       ? 0.1
+                                          : 0,
+                     length = at.length > 0 ? at.length
+                              : pole        ? 0.1
+                                            : 0;
+        if (width <= 0 || length <= 0) return;
+        if (height > kFlat && !is_flat(kind)) return add_box(mesh, stuff, frame, length, width, height);
+        flat_rectangle(object, at, kind);
+    }
+
+    /// Paint, or a patch: on the surface, whatever it does.
+    glm::dvec3 on_surface(double s, double t, double over) const {
+        const RoadPoint p = surface_point(road, s, t);
+        // Pavements and the like are higher than the surface.
+        const LaneSection& section = road.sections[road.section_at(std::clamp(s, 0.0, road.length - 1e-6))];
+        double inner = lane_border(road, section, 0, s), lift = 0;
+        for (int id = t > inner ? 1 : -1; section.find(id); id += id > 0 ? 1 : -1) {
+            const double outer = lane_border(road, section, id, s);
+            if (std::abs(t - road.lane_offset.at(s)) <= std::abs(outer - road.lane_offset.at(s)) + 1e-9) {
+                const double width = outer - inner;
+                lift = lane_height(*section.find(id), s, std::abs(width) > 1e-9 ? (t - inner) / width : 0);
+                break;
+            }
+            inner = outer;
+        }
+        return p.position + p.up * (lift + kMarkHeight + 0.003 + over);
+    }
+
+    /// (s, t) of a point of an object's frame, by its plan about the object's own place.
+    glm::dvec2 road_place(const RoadObject& object, const Placed& at, double u, double v) const {
+        const double turn = object.heading + (object.orientation == '-' ? kPi : 0);
+        const double ds = u * std::cos(turn) - v * std::sin(turn), dt = u * std::sin(turn) + v * std::cos(turn);
+        // On a bend, a metre along the object is not one along the reference line.
+        const double curvature = reference_point(road, at.s).curvature, stretch = 1 - curvature * (at.t + dt);
+        return {at.s + ds / (std::abs(stretch) > 0.1 ? stretch : 1), at.t + dt};
+    }
+
+    void flat_rectangle(const RoadObject& object, const Placed& at, const std::string& kind) {
+        std::array<glm::dvec2, 4> places;  // rear right, front right, front left, rear left
+        for (size_t i = 0; i < 4; ++i)
+            places[i] =
+                road_place(object, at, (i == 1 || i == 2 ? 1 : -1) * at.length / 2, (i < 2 ? -1 : 1) * at.width / 2);
+        if (contains(kind, "crosswalk") && object.markings.empty()) return zebra({places.begin(), places.end()});
+        if (contains(kind, "parkingspace") && object.markings.empty()) return boundary({places.begin(), places.end()});
+        constexpr std::array<const char*, 4> kSides{"right", "front", "left", "rear"};
+        for (const ObjectMarking& marking : object.markings)
+            for (size_t i = 0; i < 4; ++i)
+                if (marking.side == kSides[i]) painted(places[i], places[(i + 1) % 4], marking);
+        if (!object.markings.empty()) return;
+        const bool paint = contains(kind, "stop") || contains(kind, "mark");
+        const auto corner = [&](size_t i) { return on_surface(places[i].x, places[i].y, 0); };
+        mesh.quad(paint ? Stuff::MarkWhite : Stuff::Shoulder, corner(0), corner(1), corner(2), corner(3));
+    }
+
+    glm::dvec2 corner_place(const RoadObject& object, const Placed& at, const ObjectCorner& corner) const {
+        if (corner.local) return road_place(object, at, corner.u, corner.v);
+        // Corners on the road move with the copies of a repeated object.
+        return {corner.u + at.s - object.s, corner.v + at.t - object.t};
+    }
+
+    /// Paint of a width along a line on the road, in dashes.
+    void painted(glm::dvec2 from, glm::dvec2 to, const ObjectMarking& marking) {
+        const glm::dvec3 a = on_surface(from.x, from.y, 0), b = on_surface(to.x, to.y, 0);
+        const double length = glm::distance(a, b);
+        if (length < 1e-3 || length > 1e4) return;
+        const double dash = marking.space_length > 0 && marking.line_length > 0 ? marking.line_length : length;
+        const double period = std::max(dash + (marking.space_length > 0 ? marking.space_length : 0), 0.05);
+        for (double at = marking.start_offset; at < length - marking.stop_offset && pieces <= kMaxCopies;
+             at += period, ++pieces) {
+            const double end = std::min(at + dash, length - marking.stop_offset);
+            // Pieces short enough to follow a bend.
+            const int parts = std::max(1, static_cast<int>(std::ceil((end - at) / 2)));
+            for (int p = 0; p < parts; ++p) {
+                const glm::dvec2 first = glm::mix(from, to, (at + (end - at) * p / parts) / length),
+                                 last = glm::mix(from, to, (at + (end - at) * (p + 1) / parts) / length);
+                const RoadPoint up = surface_point(road, first.x, first.y);
+                const glm::dvec3 c = on_surface(first.x, first.y, 0.001), d = on_surface(last.x, last.y, 0.001);
+                const glm::dvec3 side = glm::normalize(glm::cross(up.up, d - c)) * (marking.width / 2);
+                const Stuff stuff = marking.colour == MarkColour::Yellow ? Stuff::MarkYellow
+                                    : marking.colour == MarkColour::Blue ? Stuff::MarkBlue
+                                                                         : Stuff::MarkWhite;
+                mesh.quad(stuff, RoadMesh::Corner{c - side, up.up}, {d - side, up.up}, {d + side, up.up},
+                          {c + side, up.up});
+            }
+        }
+    }
+
+    void markings(const RoadObject& object, const Placed& at, const ObjectOutline& outline) {
+        for (const ObjectMarking& marking : object.markings)
+            for (size_t i = 0; i + 1 < marking.corners.size(); ++i) {
+                const auto find = [&](int id) {
+                    return std::find_if(outline.corners.begin(), outline.corners.end(),
+                                        [&](const ObjectCorner& c) { return c.id == id; });
+                };
+                const auto a = find(marking.corners[i]), b = find(marking.corners[i + 1]);
+                if (a != outline.corners.end() && b != outline.corners.end())
+                    painted(corner_place(object, at, *a), corner_place(object, at, *b), marking);
+            }
+    }
+
+    /// A crossing whose paint the file does not state: bars of 0.5 m along the road.
+    void zebra(const std::vector<glm::dvec2>& places) {
+        glm::dvec2 low(INFINITY), high(-INFINITY);
+        for (const glm::dvec2& p : places) low = glm::min(low, p), high = glm::max(high, p);
+        ObjectMarking bar;
+        bar.width = 0.5;
+        const double middle = (low.y + high.y) / 2, half = std::min((high.y - low.y) / 2, 50.0);
+        for (double t = middle - half + 0.5; t + 0.25 <= middle + half; t += 1) painted({low.x, t}, {high.x, t}, bar);
+    }
+
+    void boundary(const std::vector<glm::dvec2>& places) {
+        for (size_t i = 0; i < places.size(); ++i) painted(places[i], places[(i + 1) % places.size()], {});
+    }
+
+    void outlined(const RoadObject& object, const Placed& at, const ObjectOutline& outline) {
+        const std::string kind = kind_of(object);
+        std::vector<glm::dvec2> places;
+        std::vector<glm::dvec3> bottoms, tops;
+        double highest = 0;
+        const bool flat = is_flat(kind);
+        const BodyFrame frame = frame_of(object, at);
+        for (const ObjectCorner& corner : outline.corners) {
+            places.push_back(corner_place(object, at, corner));
+            const glm::dvec3 base = corner.local ? frame.at(corner.u, corner.v, corner.z)
+                                                 : surface_point(road, places.back().x, places.back().y).position +
+                                                       glm::dvec3(0, 0, corner.z);
+            const double height = flat ? 0 : corner.height > 0 ? corner.height : object.height;
+            bottoms.push_back(base), tops.push_back(base + glm::dvec3(0, 0, height));
+            highest = std::max(highest, height);
+        }
+        if (!object.markings.empty()) markings(object, at, outline);
+        if (outline.corners.size() < 3) return;
+        if (highest > kFlat) {
+            const Stuff stuff = contains(kind, "building")                               ? Stuff::Wall
+                                : contains(kind, "tree") || contains(kind, "vegetation") ? Stuff::Leaves
+                                                                                         : Stuff::Concrete;
+            return add_prism(mesh, stuff, bottoms, tops);
+        }
+        if (!object.markings.empty()) return;
+        if (contains(kind, "crosswalk")) return zebra(places);
+        if (contains(kind, "parkingspace")) return boundary(places);
+        std::vector<glm::dvec3> corners;
+        for (const glm::dvec2& p : places) corners.push_back(on_surface(p.x, p.y, 0));
+        mesh.any_polygon(contains(kind, "mark") || contains(kind, "stop") ? Stuff::MarkWhite
+                         : contains(kind, "island")                       ? Stuff::Concrete
+                                                                          : Stuff::Shoulder,
+                         corners, surface_point(road, at.s, at.t).up);
+    }
+
+    void one(const RoadObject& object, const Placed& at) {
+        if (++pieces > kMaxCopies) return;
+        ++copies;
+        if (object.outlines.empty()) return body(object, at);
+        for (const ObjectOutline& outline : object.outlines) outlined(object, at, outline);
+    }
+
+    Placed of_repeat(const RoadObject& object, const ObjectRepeat& repeat, double f) const {
+        Placed at = whole(object);
+        const auto over = [&](const std::optional<double>& a, const std::optional<double>& b, double fallback) {
+            return a ? glm::mix(*a, b.value_or(*a), f) : fallback;
+        };
+        at.s = repeat.s + repeat.length * f;
+        at.t = glm::mix(repeat.t_start, repeat.t_end, f), at.z = glm::mix(repeat.z_start, repeat.z_end, f);
+        at.height = over(repeat.height_start, repeat.height_end, at.height),
+        at.width = over(repeat.width_start, repeat.width_end, at.width);
+        at.length = over(repeat.length_start, repeat.length_end, at.length),
+        at.radius = over(repeat.radius_start, repeat.radius_end, at.radius);
+        return at;
+    }
+
+    /// A body without end along the road: a rail, a wall, a fence.
+    void continuous(const RoadObject& object, const ObjectRepeat& repeat) {
+        const std::string kind = kind_of(object);
+        const Stuff stuff = contains(kind, "rail") || contains(kind, "barrier") || contains(kind, "fence")
+                                ? Stuff::Steel
+                            : contains(kind, "vegetation") ? Stuff::Leaves
+                                                           : Stuff::Concrete;
+        const double end = std::min(repeat.s + repeat.length, road.length);
+        if (!(end > repeat.s)) return;
+        const auto steps = static_cast<int>(std::clamp(std::ceil((end - repeat.s) / 4), 1.0, 100'000.0));
+        pieces += static_cast<size_t>(steps);
+        if (pieces > kMaxCopies) return;
+        ++copies;
+        const auto section = [&](int i) {
+            Placed at = of_repeat(object, repeat, repeat.length > 0 ? (end - repeat.s) * i / steps / repeat.length : 0);
+            const double width = at.width > 0    ? at.width
+                                 : at.radius > 0 ? 2 * at.radius
+                                                 : 0.08,
+                         height = at.height > 0 ? at.height : 0.3;
+            const BodyFrame f = frame_at(road, at.s, at.t, at.z);
+            return std::array{f.at(0, -width / 2, 0), f.at(0, width / 2, 0), f.at(0, width / 2, height),
+                              f.at(0, -width / 2, height)};
+        };
+        auto before = section(0);
+        mesh.quad(stuff, before[1], before[0], before[3], before[2]);
+        for (int i = 1; i <= steps; ++i) {
+            const auto after = section(i);
+            mesh.quad(stuff, before[0], after[0], after[3], before[3]);  // the right side
+            mesh.quad(stuff, after[1], before[1], before[2], after[2]);  // the left
+            mesh.quad(stuff, before[3], after[3], after[2], before[2]);  // the top
+            mesh.quad(stuff, before[1], after[1], after[0], before[0]);  // and what is seen from below
+            before = after;
+            if (i % 16 == 0) mesh.place(build.scene, build.materials, "object " + object.name);
+        }
+        mesh.quad(stuff, before[0], before[1], before[2], before[3]);
+    }
+
+    void object(const RoadObject& each) {
+        if (each.repeats.empty()) one(each, whole(each));
+        for (const ObjectRepeat& repeat : each.repeats) {
+            if (repeat.distance <= 0 && each.outlines.empty()) {
+                continuous(each, repeat);
+                continue;
+            }
+            const double last = std::min(repeat.length, std::max(road.length - repeat.s, 0.0));
+            if (repeat.distance <= 0) {
+                one(each, of_repeat(each, repeat, 0));
+                continue;
+            }
+            int placed = 0;
+            for (double along = 0; along <= last + 1e-9 && pieces <= kMaxCopies;
+                 along += std::max(repeat.distance, 0.01)) {
+                one(each, of_repeat(each, repeat, repeat.length > 0 ? along / repeat.length : 0));
+                if (++placed % 16 == 0) mesh.place(build.scene, build.materials, "object " + each.name);
+            }
+        }
+    }
+};
+
+}  // namespace
+
+void build_objects(RoadBuild& build) {
+    RoadMesh mesh(build.network);
+    size_t copies = 0, pieces = 0;
+    for (const Road& road : build.network.roads) {
+        if (road.sections.empty()) continue;
+        ObjectBuilder builder{build, road, mesh, copies, pieces};
+        for (const RoadObject& object : road.objects) {
+            builder.object(object);
+            mesh.place(build.scene, build.materials, "object " + object.name);
+        }
+        copies = builder.copies, pieces = builder.pieces;
+    }
+    if (copies > 0)
+        build.notes.push_back("objects: " + std::to_string(copies) +
+                              (pieces > kMaxCopies ? ", more are left out" : ""));
+}
+
+}  // namespace vesper

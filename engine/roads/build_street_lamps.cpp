@@ -1,0 +1,162 @@
+// Street lamps along roads. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "photometry/standard_lamps.h"
+#include "roads/road_lamps.h"
+#include "scene/colour.h"
+
+namespace vesper {
+namespace {
+
+constexpr size_t kMaxLamps = 20'000;
+constexpr double kHead = 0.6, kHeadWidth = 0.3;  // m, of the luminaire; its opening is that
+constexpr double kVerge = 0.7;                   // m from the edge of the road to the pole
+constexpr double kDesignHeight = 8;              // m, for which the standard luminaire gives its 18 lx
+
+StreetLampOptions lamp_options(const RoadBuild& build) { return build.options.lamps.value_or(StreetLampOptions{}); }
+
+/// The light all street lamps of one height share; higher ones are stronger, so that the road stays as bright.
+uint32_t lamp_light(RoadBuild& build, double height) {
+    const StreetLampOptions options = lamp_options(build);
+    const auto factor =
+        static_cast<float>(options.luminaire ? 1.0 : std::max(1.0, height * height / (kDesignHeight * kDesignHeight)));
+    for (uint32_t i = 0; i < build.scene.lights.size(); ++i)
+        if (build.scene.lights[i].name == "street lamp" && build.scene.lights[i].intensity == factor) return i;
+    Light light{.name = "street lamp", .kind = Light::Kind::Measured};
+    light.intensity = factor;
+    light.colour = colour_of_temperature(std::clamp(options.colour_temperature, 1000.0, 25000.0));
+    light.opening.length = kHead, light.opening.width = kHeadWidth;
+    light.distribution = static_cast<uint32_t>(build.scene.distributions.size());
+    for (uint32_t i = 0; i < build.scene.distributions.size(); ++i)
+        if (build.scene.distributions[i].name == "street lamp") light.distribution = i;
+    if (light.distribution == build.scene.distributions.size()) {
+        build.scene.distributions.push_back(options.luminaire ? *options.luminaire : standard_lamp("street-lamp"));
+        build.scene.distributions.back().name = "street lamp";
+    }
+    build.scene.lights.push_back(light);
+    return static_cast<uint32_t>(build.scene.lights.size() - 1);
+}
+
+struct Row {
+    bool left = false;
+    double first = 0;
+};
+
+/// The outermost border that lamps stand behind: of lanes that are paved.
+double edge_of(const Road& road, const LaneSection& section, int side, double s) {
+    int last = 0;
+    for (int id = side; section.find(id); id += side) {
+        const LaneType type = section.find(id)->type;
+        if (is_driven(type)) last = id;
+        if (last == 0) continue;
+        if ((!is_level_with_road(type) && type != LaneType::Curb) || is_verge(section, *section.find(id), s))
+            break;  // in front of pavements and grass
+        last = id;
+    }
+    return lane_border(road, section, last, s);
+}
+
+std::vector<Row> rows_of(const StreetLampOptions& options, const Road& road, double width) {
+    using Side = StreetLampOptions::Side;
+    const bool both = options.side == Side::Both || (options.side == Side::Auto && width > 12);
+    if (both) return {{true, 0.5}, {false, 0.5}};
+    if (options.side == Side::Alternating) return {{true, 0.25}, {false, 0.75}};
+    return {{options.side == Side::Auto ? !road.right_hand : options.side == Side::Left, 0.5}};
+}
+
+/// Whether a bridge is in the lamp's way.
+bool is_below_road(const RoadBuild& build, glm::dvec3 foot, double height) {
+    for (double up = 4; up < height + 4; up += 3) {
+        const glm::dvec3 at = build.network.to_world(foot + glm::dvec3(0, 0, up));
+        const auto place = build.lanes.nearest(at, 20, [&](const Lane& lane) {
+            return is_driven(lane.type) && lane.poses.front().position.y > at.y - up + 3;
+        });
+        if (!place) continue;
+        const LanePose pose = build.lanes.pose(place->lane, place->along);
+        if (std::abs(place->offset) < pose.width / 2 + 5 && pose.position.y > at.y - up + 3 &&
+            pose.position.y < at.y - up + height + 2)
+            return true;
+    }
+    return false;
+}
+
+void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& options, size_t& count) {
+    const double middle = road.length / 2;
+    const LaneSection& section = road.sections[road.section_at(middle)];
+    const double width = edge_of(road, section, 1, middle) - edge_of(road, section, -1, middle);
+    const double height = options.height > 0 ? options.height : std::clamp(width / 2 + 4, kDesignHeight, 12.0);
+    for (const Row& row : rows_of(options, road, width)) {
+        const bool alternating = options.side == StreetLampOptions::Side::Alternating;
+        const double pitch = options.spacing * (alternating ? 2 : 1);
+        const int steps = std::max(1, static_cast<int>(std::lround(road.length / pitch)));
+        for (int k = 0; k < steps; ++k) {
+            const double s = road.length * (k + row.first) / steps;
+            const LaneSection& here = road.sections[road.section_at(s)];
+            const int side = row.left ? 1 : -1;
+            const double t = edge_of(road, here, side, s) + side * kVerge;
+            BodyFrame frame = frame_at(road, s, t, 0);
+            if (is_on_road(build, frame.origin, 0.3) || is_below_road(build, frame.origin, height)) continue;
+            // It stands on what is there: a pavement, or the ground.
+            frame.origin.z =
+                std::max(frame.origin.z - 0.3, std::min(frame.origin.z, build.ground.height(glm::dvec2(frame.origin))));
+            if (++count > kMaxLamps) return;
+            add_street_lamp(build, frame, height, -side);
+        }
+    }
+}
+
+}  // namespace
+
+Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y,
+             glm::dvec3 z) {
+    Node node{.name = name};
+    node.translation = glm::vec3(build.network.to_world(position));
+    const auto turned = [](glm::dvec3 d) { return glm::normalize(RoadNetwork::direction_to_world(d)); };
+    node.rotation = glm::quat(glm::normalize(glm::quat_cast(glm::dmat3(turned(x), turned(y), turned(z)))));
+    return node;
+}
+
+void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, int towards) {
+    const double overhang = std::max(lamp_options(build).overhang, 0.1) * towards;
+    size_t number = 0;
+    for (auto node = build.scene.nodes.rbegin(); node != build.scene.nodes.rend(); ++node)
+        if (node->name.starts_with("street_lamp_") && node->name.ends_with("/light")) {
+            number = std::stoul(node->name.substr(12)) + 1;
+            break;
+        }
+    char name[40];
+    std::snprintf(name, sizeof name, "street_lamp_%03zu", number);
+    RoadMesh mesh(build.network);
+    add_cylinder(mesh, Stuff::PoleSteel, frame.moved(0, 0, -0.3), 0.09, height + 0.4, 0.05);
+    add_box(mesh, Stuff::PoleSteel, frame.moved(0, overhang / 2, height + 0.06), 0.07, std::abs(overhang), 0.07);
+    add_box(mesh, Stuff::Luminaire, frame.moved(0, overhang, height + 0.02), kHead, kHeadWidth, 0.1);
+    mesh.place(build.scene, build.materials, name);
+    // The luminaire's frame: -Z down, C0 (+X) along the road, C90 (+Y) towards it.
+    const double side = towards;
+    Node node = node_at(build, std::string(name) + "/light", frame.at(0, overhang, height), frame.x * side,
+                        frame.y * side, frame.z);
+    node.light = lamp_light(build, height);
+    build.scene.nodes.push_back(node);
+}
+
+void build_street_lamps(RoadBuild& build) {
+    const StreetLampOptions options = lamp_options(build);
+    if (options.spacing <= 0) return;
+    if (options.spacing < 2)
+        throw Error("street lamps every " + std::to_string(options.spacing) + " m: at least 2 m are expected");
+    const bool has_own = std::any_of(build.scene.lights.begin(), build.scene.lights.end(),
+                                     [](const Light& light) { return light.name == "street lamp"; });
+    if (has_own && !build.options.lamps) return;
+    size_t count = 0;
+    for (const Road& road : build.network.roads)
+        if (road.junction == kNoRoad && !road.sections.empty() && road.length > 5)
+            light_road(build, road, options, count);
+    if (count > kMaxLamps)
+        build.notes.push_back("street lamps: more than " + std::to_string(kMaxLamps) + ": the rest is left out");
+    build.notes.push_back("street lamps: " + std::to_string(std::min(count, kMaxLamps)) + ", every " +
+                          std::to_string(std::lround(options.spacing)) + " m");
+}
+
+}  // namespace vesper

@@ -1,0 +1,176 @@
+// The table of a run, and what it says at times between its rows. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "photometry/table.h"
+#include "roads/esmini_parts.h"
+
+namespace vesper {
+namespace {
+
+constexpr uint64_t kMaxBytes = 1ull << 30;
+constexpr size_t kMaxRows = 20'000'000, kMaxEntities = 10'000, kMaxColumns = 100;
+constexpr double kTurn = 2 * std::numbers::pi;
+
+struct Columns {
+    std::map<std::string, size_t, std::less<>> index;
+    size_t count = 0;
+};
+
+std::optional<Columns> header_of(std::string_view line) {
+    Columns columns;
+    for (const std::string_view field : fields_of(line, ',', kMaxColumns))
+        columns.index.try_emplace(std::string(trimmed(field)), columns.count++);
+    if (!columns.index.contains("time") || !columns.index.contains("x")) return std::nullopt;
+    return columns;
+}
+
+RunEntity::Kind kind_by_name(const std::string& name) {
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto has = [&](const char* word) { return lower.find(word) != lower.npos; };
+    if (has("pedestrian") || has("walker")) return RunEntity::Kind::Pedestrian;
+    if (has("truck") || has("semi")) return RunEntity::Kind::Truck;
+    if (has("bus")) return RunEntity::Kind::Bus;
+    if (has("bicycle") || has("cyclist") || has("bike")) return RunEntity::Kind::Bicycle;
+    if (has("cone") || has("barrier") || has("obstacle")) return RunEntity::Kind::Object;
+    return RunEntity::Kind::Car;
+}
+
+double between(double a, double b, double f) { return a + std::remainder(b - a, kTurn) * f; }
+
+}  // namespace
+
+const char* name_of(RunLamp lamp) {
+    constexpr std::array kNames{"low beam",        "high beam",     "daytime running", "front fog",
+                                "rear fog",        "brake",         "reversing",       "left indicator",
+                                "right indicator", "licence plate", "special purpose"};
+    static_assert(kNames.size() == static_cast<size_t>(RunLamp::Count));
+    return kNames[static_cast<size_t>(lamp)];
+}
+
+void read_table(const std::filesystem::path& file, EsminiRun& run) {
+    const std::vector<uint8_t> bytes = read_file(file, kMaxBytes);
+    LineReader lines(bytes, one_line(file.string()));
+    std::optional<Columns> columns;
+    std::map<int, size_t> by_id;
+    size_t rows = 0;
+    while (const auto line = lines.next()) {
+        if (trimmed(*line).empty()) continue;
+        if (!columns) {
+            columns = header_of(*line);
+            // Some versions say first which files the run was made with.
+            if (!columns && lines.line() > 20) break;
+            if (columns)
+                for (const char* needed : {"id", "name", "y", "z", "h"})
+                    if (!columns->index.contains(needed))
+                        lines.fail(std::string("the table has no column '") + needed + "'");
+            continue;
+        }
+        const auto fields = fields_of(*line, ',', kMaxColumns);
+        if (fields.size() < columns->count)
+            lines.fail(std::to_string(fields.size()) + " fields, " + std::to_string(columns->count) + " columns");
+        if (++rows > kMaxRows) lines.fail("more than " + std::to_string(kMaxRows) + " rows");
+        const auto number = [&](const char* name, bool needed) {
+            const auto column = columns->index.find(name);
+            if (column == columns->index.end()) return 0.0;
+            const auto value = number_of(fields[column->second], false);
+            if (!value || std::abs(*value) > 1e9) {
+                if (!needed && !value) return 0.0;
+                lines.fail(std::string(name) + " " + vesper::quoted(fields[column->second]) +
+                           " is no number that can be");
+            }
+            return *value;
+        };
+        const double id = number("id", true);
+        const auto [found, is_new] = by_id.try_emplace(static_cast<int>(id), run.entities.size());
+        if (is_new) {
+            if (run.entities.size() >= kMaxEntities)
+                lines.fail("more than " + std::to_string(kMaxEntities) + " entities");
+            RunEntity entity;
+            entity.name = readable(fields[columns->index.find("name")->second]);
+            entity.id = static_cast<int>(id);
+            entity.kind = kind_by_name(entity.name);
+            run.entities.push_back(std::move(entity));
+        }
+        RunPose pose;
+        pose.time = number("time", true);
+        pose.position = {number("x", true), number("y", true), number("z", true)};
+        pose.heading = number("h", true), pose.pitch = number("p", true), pose.roll = number("r", true);
+        pose.speed = number("speed", false), pose.wheel_angle = number("wheel_angle", false),
+        pose.wheel_rotation = number("wheel_rot", false);
+        std::vector<RunPose>& poses = run.entities[found->second].poses;
+        if (!poses.empty() && pose.time < poses.back().time)
+            lines.fail("the times of '" + run.entities[found->second].name + "' do not ascend");
+        if (!poses.empty() && pose.time == poses.back().time)
+            poses.back() = pose;
+        else
+            poses.push_back(pose);
+        run.duration = std::max(run.duration, pose.time);
+    }
+    if (!columns)
+        throw Error(one_line(file.string()) +
+                    ": is no table of esmini: no line has the columns time, id, name, x, y, z, h");
+    if (run.entities.empty()) throw Error(one_line(file.string()) + ": the table has no rows");
+}
+
+RunPose pose_at(const RunEntity& entity, double time) {
+    const auto after = std::upper_bound(entity.poses.begin(), entity.poses.end(), time,
+                                        [](double at, const RunPose& pose) { return at < pose.time; });
+    if (after == entity.poses.begin()) return entity.poses.front();
+    if (after == entity.poses.end()) return entity.poses.back();
+    const RunPose &a = *(after - 1), &b = *after;
+    const double f = (time - a.time) / (b.time - a.time);
+    RunPose pose;
+    pose.time = time;
+    pose.position = glm::mix(a.position, b.position, f);
+    pose.heading = between(a.heading, b.heading, f), pose.pitch = between(a.pitch, b.pitch, f),
+    pose.roll = between(a.roll, b.roll, f);
+    pose.speed = glm::mix(a.speed, b.speed, f);
+    pose.wheel_angle = glm::mix(a.wheel_angle, b.wheel_angle, f);
+    // A fast wheel turns by more than half a turn a step: the direction is that of the speed.
+    double turn = std::fmod(b.wheel_rotation - a.wheel_rotation, kTurn);
+    if (turn < 0 && pose.speed > 0) turn += kTurn;
+    if (turn > 0 && pose.speed < 0) turn -= kTurn;
+    pose.wheel_rotation = a.wheel_rotation + turn * f;
+    return pose;
+}
+
+bool is_there(const RunEntity& entity, double time) {
+    return time >= entity.poses.front().time && time <= entity.poses.back().time;
+}
+
+LampState lamp_at(const RunEntity& entity, RunLamp lamp, double time) {
+    const std::vector<LampEvent>& events = entity.lamps[static_cast<size_t>(lamp)];
+    const auto after = std::upper_bound(events.begin(), events.end(), time,
+                                        [](double at, const LampEvent& event) { return at < event.time; });
+    if (after == events.begin()) return {};
+    const LampEvent& event = *(after - 1);
+    const auto level_of = [](const LampEvent& e, double since) {
+        if (e.mode != LampEvent::Mode::Flashing) return e.mode == LampEvent::Mode::On ? 1.0 : 0.0;
+        const double period = e.on_time + e.off_time;
+        return period > 0 && std::fmod(since, period) >= e.on_time ? 0.0 : 1.0;
+    };
+    LampState state{level_of(event, time - event.time), event.intensity, event.colour};
+    if (event.transition > 0 && time < event.time + event.transition) {
+        const double before = after - 1 == events.begin() ? 0 : level_of(*(after - 2), time - (after - 2)->time);
+        state.level = glm::mix(before, state.level, (time - event.time) / event.transition);
+        if (event.mode == LampEvent::Mode::Off && after - 1 != events.begin())
+            state.intensity = (after - 2)->intensity, state.colour = (after - 2)->colour;
+    }
+    return state;
+}
+
+std::string signal_at(const EsminiRun& run, const std::string& signal, double time) {
+    std::string state;
+    for (const SignalEvent& event : run.signals)
+        if (event.time <= time && event.signal == signal) state = event.state;
+    return state;
+}
+
+}  // namespace vesper

@@ -1,0 +1,42 @@
+// The ground around roads: heights on a grid, nowhere above a road. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace vesper {
+
+/// Heights over the plane of the file's frame, bilinear between the nodes of a grid.
+class Ground {
+public:
+    static constexpr double kBelow = 0.06;  ///< m that the ground lies under what it must not rise above
+
+    Ground() = default;
+    /// A grid over a rectangle; cells of at least `cell` m, more where there would be too many.
+    Ground(glm::dvec2 low, glm::dvec2 high, double cell);
+
+    /// The ground stays below this point, and 1.5 cells around it.
+    void stay_below(glm::dvec3 point);
+    /// Goes on from what is known to where nothing is, smoothly.
+    void spread();
+
+    double cell() const { return cell_; }
+    uint32_t columns() const { return columns_; }
+    uint32_t rows() const { return rows_; }
+    glm::dvec3 node(uint32_t column, uint32_t row) const;
+    double height(glm::dvec2 at) const;
+    glm::dvec3 normal(uint32_t column, uint32_t row) const;
+
+private:
+    size_t index(uint32_t column, uint32_t row) const { return size_t(row) * columns_ + column; }
+
+    glm::dvec2 low_{0};
+    double cell_ = 1;
+    uint32_t columns_ = 0, rows_ = 0;
+    std::vector<double> heights_;
+};
+
+}  // namespace vesper

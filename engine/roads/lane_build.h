@@ -1,0 +1,14 @@
+// Building lanes and kerbs from a road network. Not a public header. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "roads/lanes.h"
+
+namespace vesper {
+
+/// All lanes with their poses and neighbours, and their links as the file states them.
+std::vector<Lane> build_lanes(const RoadNetwork& network);
+/// Links where lanes meet though the file does not say so.
+void link_where_they_meet(std::vector<Lane>& lanes);
+std::vector<Kerb> build_kerbs(const RoadNetwork& network);
+
+}  // namespace vesper

@@ -1,0 +1,59 @@
+// The parts of building a lit road. Not a public header. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "roads/ground.h"
+#include "roads/lit_roads.h"
+#include "roads/road_mesh.h"
+#include "roads/road_surface.h"
+
+namespace vesper {
+
+constexpr double kMarkHeight =
+    0.006;  ///< m of paint over the road: reversed depth tells it from the road at any distance
+
+/// A scene under way.
+struct RoadBuild {
+    const RoadNetwork& network;
+    const LaneGraph& lanes;
+    const LitRoadOptions& options;
+    Scene scene{};
+    RoadMaterials materials{scene};
+    Ground ground{};
+    std::vector<std::string> notes{};
+};
+
+/// One lane at one station.
+struct LaneEdges {
+    RoadPoint inner, outer;
+};
+
+/// A lane section cut at stations: lane by lane as in the section, the centre's edges both at the lane offset.
+struct CutSection {
+    uint32_t road = 0, section = 0;
+    std::vector<double> stations;
+    std::vector<std::vector<LaneEdges>> rows;  ///< of each station, of each lane
+};
+
+std::vector<CutSection> cut_roads(const RoadNetwork& network, double chord);
+
+/// Whether a border lane is the grass beside the road.
+bool is_verge(const LaneSection& section, const RoadLane& lane, double s);
+/// Whether a point of a road lies on a driven lane of another road, at its height, more than `margin` m inside. Only
+/// where one of the two belongs to a junction: that is where roads cross on purpose.
+bool is_driven_over(const RoadBuild& build, uint32_t road, glm::dvec3 point, double margin);
+/// Whether a point lies on any driven lane, or within `margin` m of one.
+bool is_on_road(const RoadBuild& build, glm::dvec3 point, double margin);
+
+/// The frame of something at (s, t), z_offset above the surface: x along the road.
+BodyFrame frame_at(const Road& road, double s, double t, double z_offset);
+
+Ground make_ground(const RoadNetwork& network, const std::vector<CutSection>& cut, double margin);
+void build_surfaces(RoadBuild&, const std::vector<CutSection>& cut);
+void build_marks(RoadBuild&, const std::vector<CutSection>& cut);
+void build_ground(RoadBuild&);
+void build_objects(RoadBuild&);
+void build_signals(RoadBuild&);
+void build_street_lamps(RoadBuild&);
+void build_cameras(RoadBuild&);
+
+}  // namespace vesper

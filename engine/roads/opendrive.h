@@ -1,0 +1,29 @@
+// Reading OpenDRIVE files, 1.4 to 1.8. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "roads/road_network.h"
+
+namespace vesper {
+
+/// Upper bounds on what a file may ask for.
+struct RoadLimits {
+    uint64_t file_bytes = 256ull << 20;
+    size_t roads = 200'000;
+    size_t elements = 8'000'000;  ///< geometries, lanes, widths, marks, objects and signals together
+    double road_length = 1e6;     ///< m, of one
+    double total_length = 5e6;    ///< m, of all
+    double lane_width = 1000;     ///< m, of one lane, and of all of one side
+    double height = 1e5;          ///< m, above or below 0
+    double turns = 1e4;           ///< rad, that one geometry may turn
+};
+
+/// Reads a road network. Throws Error naming file, line and reason where there is no geometry to go by; what breaks
+/// only a rule is read as it is meant, and noted.
+RoadNetwork read_opendrive(const std::filesystem::path& file, const RoadLimits& limits = {});
+/// The same from memory; `name` is what messages call it.
+RoadNetwork parse_opendrive(std::string_view text, const std::string& name, const RoadLimits& limits = {});
+
+}  // namespace vesper

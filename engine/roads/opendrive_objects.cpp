@@ -1,0 +1,154 @@
+// Objects and signals of OpenDRIVE roads. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "io/atomic_file.h"
+#include "roads/opendrive_reader.h"
+
+namespace vesper {
+namespace {
+
+constexpr double kMaxSize = 1e4;  // m, of one object
+constexpr size_t kMaxCorners = 1000;
+
+MarkColour colour_of(const std::string& name) {
+    return name == "yellow"  ? MarkColour::Yellow
+           : name == "red"   ? MarkColour::Red
+           : name == "blue"  ? MarkColour::Blue
+           : name == "green" ? MarkColour::Green
+                             : MarkColour::White;
+}
+
+char orientation_of(const XmlElement& element) {
+    const std::string text = element.text_or("orientation", "none");
+    return text == "+" || text == "-" ? text[0] : '0';
+}
+
+/// Sizes below 0 or as if not stated are 0.
+double size_of(const XmlElement& element, const char* name) {
+    return std::max(0.0, element.number_or(name, 0, -kMaxNumber, kMaxSize));
+}
+
+ObjectCorner corner_of(const XmlElement& element, int index) {
+    ObjectCorner corner;
+    corner.local = element.name() == "cornerLocal";
+    corner.id = element.attribute("id") ? element.integer("id", -1'000'000'000, 1'000'000'000) : index;
+    corner.u = element.number(corner.local ? "u" : "s"), corner.v = element.number(corner.local ? "v" : "t");
+    corner.z = element.number_or(corner.local ? "z" : "dz", 0, -kMaxSize, kMaxSize);
+    corner.height = size_of(element, "height");
+    return corner;
+}
+
+void read_outline(OpenDriveReader& reader, const XmlElement& element, RoadObject& object) {
+    ObjectOutline outline;
+    outline.closed = element.text_or("closed", "true") != "false";
+    for (const XmlElement& each : element.children()) {
+        if (each.name() != "cornerLocal" && each.name() != "cornerRoad") continue;
+        reader.count(each);
+        outline.corners.push_back(corner_of(each, static_cast<int>(outline.corners.size())));
+    }
+    if (outline.corners.size() > kMaxCorners)
+        element.fail("an outline of more than " + std::to_string(kMaxCorners) + " corners");
+    if (outline.corners.size() < 2) return reader.note(element, "an outline of fewer than two corners: left out");
+    object.outlines.push_back(std::move(outline));
+}
+
+void read_markings(OpenDriveReader& reader, const XmlElement& element, RoadObject& object) {
+    for (const XmlElement& each : element.children_of("markings", "marking")) {
+        reader.count(each);
+        ObjectMarking marking;
+        marking.width = each.number_or("width", 0.1, 0, 100);
+        marking.z_offset = each.number_or("zOffset", 0.005, -10, 10);
+        marking.line_length = each.number_or("lineLength", 0, 0, kMaxSize),
+        marking.space_length = each.number_or("spaceLength", 0, 0, kMaxSize);
+        marking.start_offset = each.number_or("startOffset", 0, -kMaxSize, kMaxSize),
+        marking.stop_offset = each.number_or("stopOffset", 0, -kMaxSize, kMaxSize);
+        marking.colour = colour_of(each.text_or("color", "white"));
+        marking.side = each.text_or("side", "");
+        for (const XmlElement& corner : each.children("cornerReference"))
+            marking.corners.push_back(corner.integer("id", -1'000'000'000, 1'000'000'000));
+        object.markings.push_back(std::move(marking));
+    }
+}
+
+ObjectRepeat repeat_of(const XmlElement& element, const RoadObject& object) {
+    ObjectRepeat repeat;
+    repeat.s = element.number_or("s", object.s);
+    repeat.length = element.number_or("length", 0, 0, 1e6);
+    repeat.distance = element.number_or("distance", 0, 0);
+    repeat.t_start = element.number_or("tStart", object.t), repeat.t_end = element.number_or("tEnd", repeat.t_start);
+    repeat.z_start = element.number_or("zOffsetStart", object.z_offset, -kMaxSize, kMaxSize);
+    repeat.z_end = element.number_or("zOffsetEnd", repeat.z_start, -kMaxSize, kMaxSize);
+    const auto optional = [&](const char* name) {
+        return element.attribute(name) ? std::optional(size_of(element, name)) : std::nullopt;
+    };
+    repeat.height_start = optional("heightStart"), repeat.height_end = optional("heightEnd");
+    repeat.width_start = optional("widthStart"), repeat.width_end = optional("widthEnd");
+    repeat.length_start = optional("lengthStart"), repeat.length_end = optional("lengthEnd");
+    repeat.radius_start = optional("radiusStart"), repeat.radius_end = optional("radiusEnd");
+    return repeat;
+}
+
+/// Speed limit signs state theirs in value and unit; countries without a unit mean km/h, some write it into the
+/// subtype.
+void read_value(const XmlElement& element, RoadSignal& signal) {
+    if (!element.attribute("value")) return;
+    const std::string text = element.text("value");
+    if (text.find_first_not_of("+-.0123456789eE") != text.npos) {
+        signal.text = signal.text.empty() ? text : signal.text;
+        return;
+    }
+    signal.value = element.number("value");
+    signal.unit = element.text_or("unit", "");
+}
+
+}  // namespace
+
+void read_objects(OpenDriveReader& reader, const XmlElement& element, Road& road) {
+    for (const XmlElement& each : element.children_of("objects", "object")) {
+        reader.count(each);
+        RoadObject object;
+        object.id = each.text_or("id", ""), object.name = one_line(each.text_or("name", ""), 80);
+        object.type = each.text_or("type", "none"), object.subtype = each.text_or("subtype", "");
+        object.s = each.number("s"), object.t = each.number("t");
+        object.z_offset = each.number_or("zOffset", 0, -kMaxSize, kMaxSize);
+        object.heading = each.number_or("hdg", 0), object.pitch = each.number_or("pitch", 0),
+        object.roll = each.number_or("roll", 0);
+        object.orientation = orientation_of(each);
+        object.length = size_of(each, "length"), object.width = size_of(each, "width");
+        object.height = size_of(each, "height"), object.radius = size_of(each, "radius");
+        for (const XmlElement& repeat : each.children("repeat")) {
+            reader.count(repeat);
+            object.repeats.push_back(repeat_of(repeat, object));
+        }
+        for (const XmlElement& outline : each.children("outline")) read_outline(reader, outline, object);
+        for (const XmlElement& outline : each.children_of("outlines", "outline")) read_outline(reader, outline, object);
+        read_markings(reader, each, object);
+        road.objects.push_back(std::move(object));
+    }
+    // Bridges and tunnels say what a stretch is; what they look like is in other files.
+    if (const auto objects = element.child("objects"))
+        for (const char* name : {"tunnel", "bridge"})
+            if (const auto each = objects->child(name)) reader.note_once(*each, std::string(name) + "s are not built");
+}
+
+void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road) {
+    for (const XmlElement& each : element.children_of("signals", "signal")) {
+        reader.count(each);
+        RoadSignal signal;
+        signal.id = each.text_or("id", ""), signal.name = one_line(each.text_or("name", ""), 80);
+        signal.type = each.text_or("type", "-1"), signal.subtype = each.text_or("subtype", "-1");
+        signal.country = each.text_or("country", ""), signal.text = one_line(each.text_or("text", ""), 80);
+        read_value(each, signal);
+        signal.dynamic = each.flag("dynamic");
+        signal.s = each.number("s"), signal.t = each.number("t");
+        signal.z_offset = each.number_or("zOffset", 0, -kMaxSize, kMaxSize);
+        signal.heading = each.number_or("hOffset", 0), signal.pitch = each.number_or("pitch", 0),
+        signal.roll = each.number_or("roll", 0);
+        signal.orientation = orientation_of(each);
+        signal.width = size_of(each, "width"), signal.height = size_of(each, "height");
+        road.signals.push_back(std::move(signal));
+    }
+}
+
+}  // namespace vesper

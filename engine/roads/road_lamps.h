@@ -1,0 +1,16 @@
+// Street lamps: poles, arms and measured light. Not a public header. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "roads/lit_road_parts.h"
+
+namespace vesper {
+
+/// A lamp whose pole stands on the frame's origin, its arm towards +y (`towards` 1) or -y (-1), its light `height` m
+/// up.
+void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, int towards);
+
+/// Node of a frame: X, Y and -Z of what it holds along these axes of the file's frame.
+Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y,
+             glm::dvec3 z);
+
+}  // namespace vesper

@@ -1,0 +1,109 @@
+// Triangles of a road's surroundings, by material, on their way into a scene. Not a public header.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "roads/road_network.h"
+#include "scene/scene.h"
+
+namespace vesper {
+
+/// What things are made of; road_materials.cpp says how that reflects.
+enum class Stuff : uint8_t {
+    Asphalt,
+    Shoulder,
+    Bikeway,
+    Pavement,
+    Kerb,
+    Grass,
+    Gravel,
+    Concrete,
+    MarkWhite,
+    MarkYellow,
+    MarkRed,
+    MarkBlue,
+    MarkGreen,
+    MarkBlack,
+    Steel,
+    PoleSteel,
+    Post,
+    PostBand,
+    PostReflector,
+    Bark,
+    Leaves,
+    Wall,
+    SignWhite,
+    SignRed,
+    SignYellow,
+    SignBlue,
+    SignGreen,
+    SignBlack,
+    SignBack,
+    Housing,
+    Luminaire,
+    Count
+};
+
+/// The material of a kind of stuff; adds it (and what it refers to) to the scene when it is new there.
+class RoadMaterials {
+public:
+    explicit RoadMaterials(Scene& scene) : scene_(scene), index_(static_cast<size_t>(Stuff::Count), kNone) {}
+    uint32_t index_of(Stuff stuff);
+
+private:
+    Scene& scene_;
+    std::vector<uint32_t> index_;
+};
+
+/// Triangles in the frame of the network's file, kept in the world's.
+class RoadMesh {
+public:
+    explicit RoadMesh(const RoadNetwork& network) : network_(network) {}
+
+    struct Corner {
+        glm::dvec3 position{0}, normal{0, 0, 1};
+    };
+    /// Counter-clockwise seen from the front. Those without area are left out.
+    void triangle(Stuff stuff, const Corner& a, const Corner& b, const Corner& c);
+    void quad(Stuff stuff, const Corner& a, const Corner& b, const Corner& c, const Corner& d);
+    /// The same, flat.
+    void quad(Stuff stuff, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d);
+    /// A flat, convex polygon.
+    void polygon(Stuff stuff, std::span<const glm::dvec3> corners);
+    /// A simple polygon in a plane with this normal, not necessarily convex; counter-clockwise.
+    void any_polygon(Stuff stuff, std::vector<glm::dvec3> corners, glm::dvec3 normal);
+
+    bool empty() const { return primitives_.empty(); }
+    /// Adds the triangles to a scene as one mesh on one node, and empties itself.
+    void place(Scene& scene, RoadMaterials& materials, const std::string& name);
+
+private:
+    const RoadNetwork& network_;
+    std::map<Stuff, Primitive> primitives_;
+};
+
+/// A frame to put bodies in: origin and three unit axes.
+struct BodyFrame {
+    glm::dvec3 origin{0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    glm::dvec3 at(double u, double v, double w) const { return origin + x * u + y * v + z * w; }
+    /// Turned about z, then y, then x (heading, pitch, roll as OpenDRIVE has them), rad.
+    BodyFrame turned(double heading, double pitch, double roll) const;
+    BodyFrame moved(double u, double v, double w) const { return {at(u, v, w), x, y, z}; }
+};
+
+/// Bodies that stand on the frame's origin: without a bottom face.
+void add_box(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double length, double width, double height);
+void add_cylinder(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double radius, double height,
+                  double top_radius = -1);
+/// A ball around the origin, squeezed along z.
+void add_ball(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double radius, double half_height);
+/// Walls over a closed outline and a roof on it; bottoms and tops counter-clockwise, corner by corner.
+void add_prism(RoadMesh& mesh, Stuff stuff, std::span<const glm::dvec3> bottoms, std::span<const glm::dvec3> tops);
+
+}  // namespace vesper

@@ -1,0 +1,179 @@
+// OpenSCENARIO files: parameters, expressions, catalogs. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "io/atomic_file.h"
+#include "photometry/table.h"
+#include "roads/esmini_parts.h"
+
+namespace vesper {
+namespace {
+
+constexpr uint64_t kMaxBytes = 64ull << 20;
+constexpr size_t kMaxCatalogs = 500;
+
+std::unique_ptr<XmlFile> read_xml(const std::filesystem::path& path) {
+    const std::vector<uint8_t> bytes = read_file(path, kMaxBytes);
+    return std::make_unique<XmlFile>(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+                                     path.string());
+}
+
+bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+/// Sums, products and brackets of numbers and parameters (OpenSCENARIO 1.1, 9.1).
+struct Expression {
+    std::string_view text;
+    const Parameters& scope;
+    size_t at = 0;
+    int depth = 0;
+
+    void skip() {
+        while (at < text.size() && std::isspace(static_cast<unsigned char>(text[at]))) ++at;
+    }
+    bool take(char c) {
+        skip();
+        if (at >= text.size() || text[at] != c) return false;
+        ++at;
+        return true;
+    }
+    std::optional<double> factor() {
+        if (++depth > 100) return std::nullopt;
+        std::optional<double> value;
+        if (take('(')) {
+            value = sum();
+            if (!take(')')) value.reset();
+        } else if (take('-')) {
+            value = factor();
+            if (value) value = -*value;
+        } else if (take('$')) {
+            const size_t first = at;
+            while (at < text.size() && is_name(text[at])) ++at;
+            const auto found = scope.find(text.substr(first, at - first));
+            if (found != scope.end()) value = number_of(found->second, false);
+        } else {
+            skip();
+            size_t last = at;
+            while (last < text.size() && (std::isdigit(static_cast<unsigned char>(text[last])) || text[last] == '.' ||
+                                          text[last] == 'e' || text[last] == 'E'))
+                ++last;
+            value = number_of(text.substr(at, last - at), false);
+            at = last;
+        }
+        --depth;
+        return value;
+    }
+    std::optional<double> product() {
+        auto value = factor();
+        while (value) {
+            const bool times = take('*'), over = !times && take('/');
+            if (!times && !over) return value;
+            const auto other = factor();
+            if (!other) return std::nullopt;
+            *value = times ? *value * *other : *value / *other;
+        }
+        return value;
+    }
+    std::optional<double> sum() {
+        auto value = product();
+        while (value) {
+            const bool plus = take('+'), minus = !plus && take('-');
+            if (!plus && !minus) return value;
+            const auto other = product();
+            if (!other) return std::nullopt;
+            *value += plus ? *other : -*other;
+        }
+        return value;
+    }
+};
+
+}  // namespace
+
+std::optional<std::string> resolved(const XmlElement& element, const char* attribute, const Parameters& scope) {
+    const auto text = element.attribute(attribute);
+    if (!text) return std::nullopt;
+    if ((*text)[0] != '$') return std::string(*text);
+    if (text->starts_with("${") && text->ends_with("}")) {
+        Expression expression{text->substr(2, text->size() - 3), scope};
+        const auto value = expression.sum();
+        expression.skip();
+        if (!value || !std::isfinite(*value) || expression.at != expression.text.size())
+            element.fail(std::string(attribute) + " " + vesper::quoted(*text) +
+                         " is no expression of known parameters");
+        char digits[40];
+        std::snprintf(digits, sizeof digits, "%.17g", *value);
+        return digits;
+    }
+    const auto found = scope.find(text->substr(1));
+    if (found == scope.end()) element.fail(std::string(attribute) + ": there is no parameter " + vesper::quoted(*text));
+    return found->second;
+}
+
+double number_in(const XmlElement& element, const char* attribute, const Parameters& scope, double fallback) {
+    const auto text = resolved(element, attribute, scope);
+    if (!text) return fallback;
+    const auto value = number_of(*text, false);
+    if (!value || std::abs(*value) > kMaxNumber)
+        element.fail(std::string(attribute) + " " + vesper::quoted(*text) + " is no number that can be");
+    return *value;
+}
+
+Parameters declared(const XmlElement& element, const Parameters& around) {
+    Parameters made = around;
+    for (const XmlElement& each : element.children_of("ParameterDeclarations", "ParameterDeclaration")) {
+        const std::string name = each.text_or("name", "");
+        if (const auto value = resolved(each, "value", made))
+            made.insert_or_assign(name.starts_with('$') ? name.substr(1) : name, *value);
+    }
+    return made;
+}
+
+ScenarioFile::ScenarioFile(const std::filesystem::path& file) : folder_(file.parent_path()), file_(read_xml(file)) {
+    if (root().name() != "OpenSCENARIO") root().fail("the root of an OpenSCENARIO file must be OpenSCENARIO");
+    parameters_ = declared(root(), {});
+}
+
+void ScenarioFile::look_for_catalogs() {
+    looked_ = true;
+    const auto locations = root().child("CatalogLocations");
+    if (!locations) return;
+    std::vector<std::filesystem::path> files;
+    for (const XmlElement& location : locations->children())
+        for (const XmlElement& directory : location.children("Directory")) {
+            const auto path = resolved(directory, "path", parameters_);
+            if (!path) continue;
+            std::error_code none;
+            if (std::filesystem::is_regular_file(folder_ / *path, none)) files.push_back(folder_ / *path);
+            for (std::filesystem::directory_iterator entry(folder_ / *path, none), end; !none && entry != end;
+                 entry.increment(none))
+                if (entry->path().extension() == ".xosc") files.push_back(entry->path());
+        }
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
+    if (files.size() > kMaxCatalogs) locations->fail("name more than " + std::to_string(kMaxCatalogs) + " catalogs");
+    for (const auto& file : files) catalogs_.push_back(read_xml(file));
+}
+
+std::optional<ScenarioFile::Entry> ScenarioFile::find(const XmlElement& reference, const Parameters& scope) {
+    if (!looked_) look_for_catalogs();
+    const auto catalog_name = resolved(reference, "catalogName", scope),
+               entry_name = resolved(reference, "entryName", scope);
+    for (const auto& file : catalogs_)
+        for (const XmlElement& catalog : file->root().children("Catalog")) {
+            if (catalog_name && catalog.text_or("name", "") != *catalog_name) continue;
+            for (const XmlElement& each : catalog.children()) {
+                if (!entry_name || each.text_or("name", "") != *entry_name) continue;
+                Parameters parameters = declared(each, parameters_);
+                for (const XmlElement& assignment :
+                     reference.children_of("ParameterAssignments", "ParameterAssignment")) {
+                    const std::string name = assignment.text_or("parameterRef", "");
+                    if (const auto value = resolved(assignment, "value", scope))
+                        parameters.insert_or_assign(name.starts_with('$') ? name.substr(1) : name, *value);
+                }
+                return Entry{each, std::move(parameters)};
+            }
+        }
+    return std::nullopt;
+}
+
+}  // namespace vesper

@@ -1,0 +1,91 @@
+// Draws a picture and what lies over it into a window. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gpu/kernel.h"
+#include "gpu/memory.h"
+#include "window/swapchain.h"
+
+namespace vesper {
+
+/// Display codes on the host, 4 bytes a pixel from the top left: RGBA, or words of A2B10G10R10.
+struct Picture {
+    std::span<const uint8_t> codes;
+    VkExtent2D extent{};
+    uint32_t bits = 8;
+};
+
+/// How a picture of one size is shown in a window of another. What is left is black.
+enum class Scaling : uint8_t {
+    Fit,    ///< as large as the window allows, filtered
+    Whole,  ///< enlarged a whole number of times, without a filter; where it does not fit even once, as Fit
+};
+
+/// Where a picture lies in a window, px. `times` is 1 or more where pixels are repeated whole, 0 where they are filtered.
+struct Placement {
+    VkRect2D area{};
+    uint32_t times = 0;
+};
+Placement place(VkExtent2D picture, VkExtent2D window, Scaling);
+
+/// Triangles over the picture, in px of the window.
+struct Overlay {
+    struct Vertex {
+        glm::vec2 position, uv;  ///< px of the window; of the coverage, [0, 1]
+        uint32_t colour;         ///< RGBA, sRGB codes, red in the lowest bits; not premultiplied
+    };
+    struct Batch {
+        uint32_t first_index, indices;
+        VkRect2D clip;           ///< from an offset that is not negative
+    };
+    std::vector<Vertex> vertices;
+    std::vector<uint32_t> indices;
+    std::vector<Batch> batches;
+};
+
+/// Draws into the images of a swapchain, or of any other colour attachment.
+class Presenter {
+public:
+    /// `coverage` is what overlays take their letters from: a byte a texel.
+    Presenter(Device&, VkExtent2D coverage_extent, std::span<const uint8_t> coverage);
+    ~Presenter();  ///< waits for what was drawn
+    Presenter(const Presenter&) = delete;
+    Presenter& operator=(const Presenter&) = delete;
+
+    /// White of overlays in a HDR10 window, cd/m^2: graphics white of ITU-R BT.2408.
+    static constexpr float kOverlayWhite = 203;
+
+    /// Copies what is shown, so none of it is needed afterwards. Throws Error.
+    void draw(VkCommandBuffer, const WindowImage&, const Picture&, Scaling, const Overlay&);
+
+private:
+    struct Pipelines {
+        OwnedPipeline picture, overlay;
+    };
+    struct Slot {
+        HostBuffer words, vertices, indices;
+        OwnedBufferView texels;
+    };
+    const Pipelines& pipelines(VkFormat);
+    void upload_coverage(VkExtent2D, std::span<const uint8_t>);
+    void draw_picture(VkCommandBuffer, const WindowImage&, const Picture&, Scaling, Slot&);
+    void draw_overlay(VkCommandBuffer, const WindowImage&, const Overlay&, Slot&);
+
+    Device& device_;
+    OwnedSetLayout picture_set_, overlay_set_;
+    OwnedPipelineLayout picture_layout_, overlay_layout_;
+    std::map<VkFormat, Pipelines> pipelines_;
+    Arena arena_;
+    OwnedImage coverage_;
+    OwnedImageView coverage_view_;
+    OwnedSampler sampler_;
+    std::array<Slot, Swapchain::kSlots> slots_;
+};
+
+}  // namespace vesper

@@ -1,0 +1,147 @@
+// What keys, gamepads and wheels do, without any of them. SPDX-License-Identifier: MIT
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "hands.h"
+#include "scene/scene_files.h"
+#include "support/complaints.h"
+
+namespace vesper {
+namespace {
+
+TEST(Keys, AreOnePerActionAndNoneTwice) {
+    std::set<std::pair<int, int>> keys;
+    std::set<std::string_view> names;
+    for (const KeyBinding& b : key_bindings()) {
+        EXPECT_TRUE(keys.emplace(b.key, b.modifiers).second) << b.shown;
+        EXPECT_TRUE(names.insert(b.name).second) << b.name;
+        EXPECT_EQ(action_of(b.key, b.modifiers), b.action);
+        EXPECT_EQ(action_named(b.name), b.action);
+    }
+    EXPECT_EQ(key_bindings().size(), size_t(Action::Quit) + 1);  // every action has a key
+    EXPECT_FALSE(action_named("fly"));
+}
+
+TEST(Controllers, AxesRunFromRestToFull) {
+    const std::vector<float> axes{0.5f, -1, 1, NAN};
+    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 0, .rest = -1, .full = 1}).value(axes), 0.75);
+    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 0, .rest = 1, .full = -1}).value(axes), 0.25);  // pedals of many wheels rest at 1
+    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 2, .rest = 0, .full = 0.5}).value(axes), 1);
+    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 3}).value(axes), 0);   // not a number
+    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 99}).value(axes), 0);  // no such axis
+    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 1}).value(axes), 1);   // left is positive
+    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 2}).value(axes), -1);
+    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 0, .dead = 0.25, .exponent = 2}).value(axes), -1.0 / 9);
+    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 0, .dead = 0.5}).value(axes), 0);
+    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 99}).value(axes), 0);
+}
+
+class ControllerFile : public testing::Test {
+protected:
+    test::TempFolder folder;
+    std::string refused(const std::string& text) {
+        folder.write("c.json", text);
+        return test::complaint_of([&] { read_controllers(folder / "c.json"); });
+    }
+};
+
+TEST_F(ControllerFile, SaysWhatAxesAndButtonsMean) {
+    folder.write("c.json", R"({"controllers": [{"match": "g29", "steering": {"axis": 0, "dead": 0.01}, "throttle": {"axis": 2, "rest": 1, "full": -1},
+        "brake": {"axis": 3, "rest": 1, "full": -1}, "buttons": [{"button": 4, "does": "indicate-right"}, {"button": 5, "does": "indicate-left"}]}]})");
+    const auto mappings = read_controllers(folder / "c.json");
+    ASSERT_EQ(mappings.size(), 1u);
+    EXPECT_EQ(mappings[0].buttons.at(5), Action::IndicateLeft);
+    EXPECT_EQ(find_mapping(mappings, "Logitech G29 Driving Force", false), &mappings[0]);
+    EXPECT_EQ(find_mapping(mappings, "some pad", true), &gamepad_mapping());
+    EXPECT_EQ(find_mapping(mappings, "some stick", false), nullptr);
+}
+
+TEST_F(ControllerFile, IsRefusedWithPlaceAndReason) {
+    const auto expect = [&](const std::string& text, const std::string& place, const std::string& reason) {
+        const std::string said = refused(text);
+        EXPECT_TRUE(test::contains(said, place)) << text;
+        EXPECT_TRUE(test::contains(said, reason)) << text;
+        EXPECT_EQ(said.find('\n'), said.npos);
+    };
+    expect("{", "c.json", "");
+    expect("{}", "c.json", "controllers");
+    expect(R"({"controllers": [{"match": "x", "colour": 1}]})", "/controllers/0", "colour");
+    expect(R"({"controllers": [{"steering": {"axis": 0}}]})", "/controllers/0", "match");
+    expect(R"({"controllers": [{"match": "x", "brake": {"axis": 1, "rest": 1}}]})", "/controllers/0/brake", "rest and full must differ");
+    expect(R"({"controllers": [{"match": "x", "brake": {"axis": 1, "rest": 2}}]})", "/controllers/0/brake/rest", "");
+    expect(R"({"controllers": [{"match": "x", "steering": {"axis": 64}}]})", "/controllers/0/steering/axis", "");
+    expect(R"({"controllers": [{"match": "x", "steering": {"axis": 0, "dead": 1}}]})", "/controllers/0/steering/dead", "");
+    expect(R"({"controllers": [{"match": "x", "buttons": [{"button": 0, "does": "fly"}]}]})", "/controllers/0/buttons/0/does", "autopilot");
+    expect(R"({"controllers": [{"match": "x", "buttons": [{"button": 0, "does": "pause"}, {"button": 0, "does": "beam"}]}]})", "/controllers/0/buttons/1", "already");
+    EXPECT_TRUE(test::contains(test::complaint_of([&] { read_controllers(folder / "none.json"); }), "none.json"));
+}
+
+ControllerState wheel(float turned, float throttle, bool button) {
+    return {.name = "G29", .axes = {turned, 0, throttle}, .buttons = {button}, .pad_axes = {}, .pad_buttons = {}};
+}
+
+std::vector<ControllerMapping> wheel_mapping() {
+    return {{.match = "G29", .gamepad = false, .steering = SteeringAxis{}, .throttle = PedalAxis{.axis = 2, .rest = 1, .full = -1}, .brake = {}, .buttons = {{0, Action::Pause}}}};
+}
+
+TEST(Hands, TakeTheWheelThatIsTurnedFurtherAndThePedalThatIsPressedHarder) {
+    Hands hands(wheel_mapping());
+    hands.look({wheel(-0.5f, 0, false)});
+    DriverInput input = hands.next({}, 0, 1.0 / 60);
+    EXPECT_DOUBLE_EQ(input.steering, 0.5);
+    EXPECT_DOUBLE_EQ(input.throttle, 0.5);
+    EXPECT_DOUBLE_EQ(input.brake, 0);
+    input = hands.next({.accelerate = true, .brake = true}, 0, 1.0 / 60);
+    EXPECT_DOUBLE_EQ(input.throttle, 1);
+    EXPECT_DOUBLE_EQ(input.brake, 1);
+}
+
+TEST(Hands, NoticePlugsAndPressesOfButtonsOnce) {
+    Hands hands(wheel_mapping());
+    EXPECT_TRUE(hands.look({wheel(0, 1, true)}).empty());  // held when it was plugged in: no press
+    EXPECT_TRUE(test::contains(hands.take_notice(), "G29 is ready"));
+    EXPECT_TRUE(hands.look({wheel(0, 1, false)}).empty());
+    EXPECT_EQ(hands.look({wheel(0, 1, true)}), std::vector{Action::Pause});
+    EXPECT_TRUE(hands.look({wheel(0, 1, true)}).empty());
+    EXPECT_EQ(hands.take_notice(), "");
+    hands.look({});
+    EXPECT_TRUE(test::contains(hands.take_notice(), "G29 was unplugged"));
+    EXPECT_DOUBLE_EQ(hands.next({}, 0, 1.0 / 60).throttle, 0);  // nothing stays pressed
+}
+
+TEST(Hands, SwitchesStayAsTheyWereSet) {
+    Hands hands;
+    EXPECT_TRUE(hands.press(Action::IndicateLeft));
+    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, Indicator::Left);
+    hands.press(Action::IndicateRight);
+    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, Indicator::Right);
+    hands.press(Action::IndicateRight);
+    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, Indicator::None);
+    hands.press(Action::Beam);
+    EXPECT_EQ(hands.next({}, 0, 0.1).beam, Beam::High);
+    hands.press(Action::Autopilot), hands.press(Action::Reverse);
+    EXPECT_TRUE(hands.next({}, 0, 0.1).autopilot && hands.next({}, 0, 0.1).reverse);
+    EXPECT_FALSE(hands.press(Action::Pause));
+    hands.release();
+    EXPECT_EQ(hands.next({}, 0, 0.1), DriverInput());
+}
+
+TEST(KeyboardWheel, TurnsWhileHeldReturnsAndTurnsLessAtSpeed) {
+    KeyboardWheel wheel;
+    double before = 0;
+    for (int i = 0; i < 120; ++i) {
+        const double now = wheel.turn({.left = true}, 0, 1.0 / 60);
+        EXPECT_GE(now, before);
+        before = now;
+    }
+    EXPECT_DOUBLE_EQ(before, 1);
+    for (int i = 0; i < 60; ++i) before = wheel.turn({}, 0, 1.0 / 60);
+    EXPECT_DOUBLE_EQ(before, 0);
+    for (int i = 0; i < 120; ++i) before = wheel.turn({.right = true}, 30, 1.0 / 60);
+    EXPECT_LT(before, -0.1);
+    EXPECT_GT(before, -0.2);
+}
+
+}  // namespace
+}  // namespace vesper

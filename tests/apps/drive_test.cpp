@@ -1,0 +1,249 @@
+// Sessions: drives that are recorded, broken off, read and driven again to the bit. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/luminance.h"
+#include "drive_file.h"
+#include "session.h"
+#include "support/program.h"
+
+namespace vesper::test {
+namespace {
+
+const std::string kWorld = std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json";
+constexpr VkExtent2D kSize{160, 100};
+
+std::vector<Frame> play(Session& session, const std::vector<DriveEvent>& events) {
+    std::vector<Frame> frames;
+    for (const DriveEvent& event : events) {
+        switch (event.kind) {
+            case DriveEvent::Kind::Step: session.step(event.input); break;
+            case DriveEvent::Kind::Set: session.set(event.name, event.value); break;
+            case DriveEvent::Kind::Restart: session.restart(); break;
+            case DriveEvent::Kind::Frame: frames.push_back(session.render(kSize, {.display = true, .scene = true})); break;
+        }
+    }
+    return frames;
+}
+
+// Mean luminance of the road 8 to 20 m ahead, cd/m^2.
+double road_luminance(const Frame& frame) {
+    double sum = 0;
+    int pixels = 0;
+    for (uint32_t y = 58; y < 70; ++y)
+        for (uint32_t x = 70; x < 95; ++x, ++pixels) {
+            const float* p = &frame.scene[4 * (size_t(y) * kSize.width + x)];
+            sum += luminance(glm::dvec3(p[0], p[1], p[2]));
+        }
+    return sum / pixels;
+}
+
+// Steering, pedals, lamps, cameras, operators and frames at uneven times, as a window makes them.
+std::vector<DriveEvent> adventure() {
+    std::vector<DriveEvent> events;
+    const auto add = [&](DriveEvent::Kind kind, const DriverInput& input = {}, const std::string& name = "", const std::string& value = "") {
+        events.push_back({.kind = kind, .input = input, .pose = {}, .name = name, .value = value});
+    };
+    using Kind = DriveEvent::Kind;
+    add(Kind::Frame);
+    for (int i = 0; i < 90; ++i) {
+        DriverInput input{.steering = 0.1 * std::sin(i * 0.1), .throttle = 0.4, .brake = i > 70 ? 0.7 : 0.0};
+        input.beam = i > 30 ? Beam::High : Beam::Low;
+        input.indicator = i > 50 ? Indicator::Left : Indicator::None;
+        input.autopilot = i > 80;
+        add(Kind::Step, input);
+        if (i == 20) add(Kind::Set, {}, "operator", "ward");
+        if (i == 40) add(Kind::Set, {}, "lamp:street lamp", "0.5");
+        if (i == 60) add(Kind::Set, {}, "camera", "chase");
+        if (i == 65) add(Kind::Set, {}, "operator", "irawan");
+        if (i % 17 == 3 || i == 64) add(Kind::Frame);
+    }
+    add(Kind::Restart);
+    add(Kind::Frame);
+    return events;
+}
+
+TEST(Drive, AReplayHasTheSameBytes) {
+    const TempFolder scratch;
+    Device device({.select = ""});
+    std::vector<Frame> driven;
+    {
+        Session session(device, {.scene = kWorld, .seed = 3, .settings = {{"age", "60"}}});
+        const std::vector<DriveEvent> events = adventure();
+        // Recording begins in the middle, and the file has the drive from its start.
+        driven = play(session, {events.begin(), events.begin() + 40});
+        session.record(scratch / "drive.json");
+        for (Frame& frame : play(session, {events.begin() + 40, events.end()})) driven.push_back(std::move(frame));
+        const Drive unfinished = read_drive(scratch / "drive.json");
+        EXPECT_FALSE(unfinished.complete);
+        EXPECT_EQ(unfinished.events.size(), events.size());
+    }
+    const Drive drive = read_drive(scratch / "drive.json");
+    EXPECT_TRUE(drive.complete);
+    EXPECT_EQ(drive.start.seed, 3u);
+    Session session(device, {.scene = drive.start.scene, .seed = drive.start.seed, .time_step = drive.start.time_step, .settings = drive.start.settings});
+    const std::vector<Frame> again = play(session, drive.events);
+    ASSERT_EQ(again.size(), driven.size());
+    for (size_t i = 0; i < again.size(); ++i) {
+        EXPECT_EQ(again[i].display, driven[i].display) << "frame " << i;
+        EXPECT_EQ(again[i].scene, driven[i].scene) << "frame " << i;
+        EXPECT_EQ(std::memcmp(&again[i].eye, &driven[i].eye, sizeof(shared::EyeState)), 0) << "frame " << i;
+    }
+    EXPECT_NE(driven[1].display, driven[2].display);
+}
+
+// Whatever the place where a program ended: all whole lines are there.
+TEST(Drive, ARecordingThatBreaksOffCanBeRead) {
+    const TempFolder scratch;
+    {
+        DriveRecorder recorder({.scene = kWorld, .run = {}, .scenario = {}, .seed = 1, .time_step = 1.0 / 60, .settings = {}});
+        recorder.open(scratch / "whole.json");
+        for (const DriveEvent& event : adventure()) recorder.add(event);
+        recorder.close();
+    }
+    const std::string text = read_text(scratch / "whole.json");
+    const size_t whole = read_drive(scratch / "whole.json").events.size(), head = text.find('\n') + 1;
+    EXPECT_EQ(whole, adventure().size());
+    for (size_t length = head; length < text.size(); length += 7) {
+        std::ofstream(scratch / "cut.json") << text.substr(0, length);
+        const Drive cut = read_drive(scratch / "cut.json");
+        const auto lines = size_t(std::count(text.begin() + long(head), text.begin() + long(length), '\n'));
+        EXPECT_GE(cut.events.size() + (length + 4 > text.size()), std::min(lines, whole)) << length;
+    }
+    for (const char* bad : {"", "{", "[]", "{\"vesper_drive\":2,\"scene\":\"x\",\"events\":[]}", "{\"vesper_drive\":1,\"scene\":\"x\",\"events\":[{\"step\":{\"steering\":7},\"pose\":[0,0,0,0]}]}",
+                            "{\"vesper_drive\":1,\"scene\":\"x\",\"events\":[{\"jump\":1}]}"}) {
+        std::ofstream(scratch / "bad.json") << bad;
+        EXPECT_THROW(read_drive(scratch / "bad.json"), Error) << bad;
+    }
+}
+
+TEST(Drive, SettingsAreTheOptionsOfRender) {
+    DriveSettings settings;
+    settings.set("operator", "reinhard");
+    settings.set("display-peak", "500");
+    settings.set("rods", "true");
+    settings.set("sun", "-4");
+    settings.set("free", "1,2,3,90,-10");
+    EXPECT_EQ(settings.render().tone_operator, Operator::Reinhard);
+    EXPECT_EQ(settings.render().display.peak, 500);
+    EXPECT_EQ(settings.sun(), -4.0);
+    EXPECT_EQ(settings.free_camera().position, glm::dvec3(1, 2, 3));
+    const auto before = settings.values();
+    for (const auto& [name, value] : std::map<std::string, std::string>{{"operator", "magic"}, {"age", "old"}, {"nothing", "1"}, {"lamp:x", "-1"}, {"display", "no such display"}, {"sun", "95"}})
+        EXPECT_THROW(settings.set(name, value), Error) << name;
+    EXPECT_EQ(settings.values(), before);
+    settings.set("operator", "");
+    EXPECT_EQ(settings.render().tone_operator, Operator::Irawan);
+}
+
+TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
+    Device device({.select = ""});
+    Session session(device, {.scene = kWorld, .settings = {}});
+    const Outputs outputs{.display = false, .scene = true};
+    std::vector<std::string> lamps;
+    for (const LampGroup& group : session.scenery().lamp_groups()) lamps.push_back(group.name);
+    for (const char* name : {"street lamp", "low beam", "high beam", "brake lamp", "tunnel lamp", "left front indicator"}) EXPECT_TRUE(std::find(lamps.begin(), lamps.end(), name) != lamps.end()) << name;
+    for (const std::string& lamp : lamps)
+        if (lamp != "low beam" && lamp != "high beam") session.set("lamp:" + lamp, "0");
+    session.step({.beam = Beam::Low});
+    const Frame low = session.render(kSize, outputs);
+    session.step({.beam = Beam::High});
+    const Frame high = session.render(kSize, outputs);
+    session.set("lamp:low beam", "0");
+    session.set("lamp:high beam", "0");
+    session.step({.beam = Beam::Low});
+    const Frame dark = session.render(kSize, outputs);
+    EXPECT_EQ(dark.lights, 0u);
+    EXPECT_EQ(high.lights, low.lights + 2);  // of the driver's car
+    EXPECT_GT(road_luminance(low), 2 * road_luminance(dark));
+    EXPECT_GT(road_luminance(high), road_luminance(low));
+    // They go with the car: the road before it stays lit.
+    session.set("lamp:low beam", "1");
+    for (int i = 0; i < 120; ++i) session.step({.beam = Beam::Low, .autopilot = true});
+    EXPECT_GT(road_luminance(session.render(kSize, outputs)), 2 * road_luminance(dark));
+}
+
+TEST(Drive, EveryCameraSeesTheStreet) {
+    Device device({.select = ""});
+    Session session(device, {.scene = kWorld, .settings = {}});
+    std::vector<std::vector<uint8_t>> seen;
+    for (const char* camera : {"driver", "chase", "bird", "free"}) {
+        session.set("camera", camera);
+        if (std::string(camera) == "free") session.set("free", "9.9,1.7,-190,45,0");
+        seen.push_back(session.render(kSize, {.display = true}).display);
+        for (size_t other = 0; other + 1 < seen.size(); ++other) EXPECT_NE(seen[other], seen.back()) << camera;
+    }
+}
+
+// Another device, as after one was lost: the eye goes on where it was.
+TEST(Drive, GoesOnWithAnotherDevice) {
+    Device device({.select = ""}), spare({.select = ""});
+    Session session(device, {.scene = kWorld, .settings = {}}), same(device, {.scene = kWorld, .settings = {}});
+    const auto drive = [&](Session& s) {
+        for (int i = 0; i < 10; ++i) s.step({.autopilot = true});
+        return s.render(kSize, {.display = true});
+    };
+    drive(session), drive(same);
+    session.use(spare);
+    EXPECT_EQ(drive(session).display, drive(same).display);
+}
+
+class DriveProgram : public ProgramTest {
+protected:
+    DriveProgram() : ProgramTest(VESPER_DRIVE) {}
+};
+
+TEST_F(DriveProgram, DrivesRecordsAndReplays) {
+    const std::string size = "--headless --size 96x60 ";
+    ASSERT_EQ(run(size + "--autopilot --seconds 0.5 --fps 10 --record drive.json --video a%02d.png --log a.csv --probe 0.5,0.7"), 0) << said;
+    ASSERT_EQ(run(size + "--replay drive.json --video b%02d.png --log b.csv --probe 0.5,0.7"), 0) << said;
+    EXPECT_EQ(said, "");
+    for (int i = 0; i < 6; ++i) {
+        const std::string name = "0" + std::to_string(i) + ".png";
+        ASSERT_TRUE(exists("a" + name));
+        EXPECT_EQ(read_text(folder / ("a" + name)), read_text(folder / ("b" + name))) << i;
+    }
+    // Rows are the same but for the times they took, which are last.
+    std::istringstream a(read_text(folder / "a.csv")), b(read_text(folder / "b.csv"));
+    std::string one, other;
+    int rows = 0;
+    const auto cut = [](std::string line) {
+        for (int i = 0; i < 2; ++i) line.resize(line.rfind(','));
+        return line;
+    };
+    std::ptrdiff_t commas = 0;
+    while (std::getline(a, one) && std::getline(b, other)) {
+        EXPECT_EQ(cut(one), cut(other));
+        if (rows++ == 0) commas = std::count(one.begin(), one.end(), ',');
+        EXPECT_EQ(std::count(one.begin(), one.end(), ','), commas);
+    }
+    EXPECT_EQ(rows, 7);
+    // Luminance, and rows without it.
+    EXPECT_EQ(run(size + "--replay drive.json --fps 2 --video %d.exr"), 0) << said;
+    EXPECT_TRUE(exists("1.exr"));
+    EXPECT_EQ(run(size + "--replay drive.json --operator ldr --log ldr.csv --probe 0.5,0.7"), 0) << said;
+    const std::string ldr = read_text(folder / "ldr.csv");
+    EXPECT_EQ(std::count(ldr.begin(), ldr.end(), ','), 7 * commas);
+}
+
+TEST_F(DriveProgram, RefusesWhatItCannotUse) {
+    folder.write("bad.json", R"({"version": 1, "scene": "no.gltf", "lanes": []})");
+    expect_refused("--headless", {"nothing to do"});
+    expect_refused("--headless no.world.json --log l.csv", {"no.world.json"});
+    expect_refused("--headless bad.json --log l.csv", {"bad.json", "lane"});
+    expect_refused("--headless --replay no.json --log l.csv", {"no.json"});
+    expect_refused("--headless --video x.avi", {"x.avi"});
+    expect_refused("--headless --video x.png", {"%05d"});
+    expect_refused("--headless --operator magic --log l.csv", {"magic"});
+    expect_refused("--headless --lamp street --log l.csv", {"NAME=FACTOR"});
+    EXPECT_FALSE(exists("l.csv"));
+}
+
+}  // namespace
+}  // namespace vesper::test

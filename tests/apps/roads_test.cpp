@@ -1,0 +1,54 @@
+// `vesper convert` of OpenDRIVE files as people run it, and a picture of the result. SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "io/atomic_file.h"
+#include "io/image_file.h"
+#include "scene/gltf.h"
+#include "support/program.h"
+
+namespace vesper::test {
+namespace {
+
+const std::string kStreet = VESPER_SOURCE_DIR "/data/rivoli/rivoli.xodr";
+
+class Roads : public ProgramTest {};
+
+TEST_F(Roads, BecomeALitSceneThatRenders) {
+    ASSERT_EQ(run("convert " + kStreet), 0) << said;
+    EXPECT_NE(printed.find("wrote rivoli.gltf"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("street lamps: "), std::string::npos) << printed;
+    const Scene scene = read_gltf(folder / "rivoli.gltf").scene;
+    EXPECT_EQ(scene.cameras.size(), 3u);
+    ASSERT_EQ(run("render rivoli.gltf --camera driver --size 97x61 --stats-json stats.json -o out.png"), 0) << said;
+    const Image picture = decode_image(read_file(folder / "out.png", 1 << 20), 1000);
+    const auto luminance_at = [&](uint32_t x, uint32_t y) { return picture.rgba[4 * (size_t(y) * picture.width + x)]; };
+    EXPECT_GT(luminance_at(48, 50), luminance_at(48, 5)) << "the road is brighter than the sky";
+}
+
+TEST_F(Roads, LampsAreChosen) {
+    ASSERT_EQ(run("convert " + kStreet + " --lamp-spacing 0 -o none.glb"), 0) << said;
+    ASSERT_EQ(run("convert " + kStreet + " --lamp-spacing 20 --lamp-side both --lamp-height 7 -o many.glb"), 0) << said;
+    const auto lamps = [&](const char* file) {
+        const Scene scene = read_gltf(folder / file).scene;
+        size_t count = 0;
+        for (const Node& node : scene.nodes) count += node.light != kNone && node.name.starts_with("street_lamp_");
+        return count;
+    };
+    EXPECT_EQ(lamps("none.glb"), 0u);
+    EXPECT_GT(lamps("many.glb"), 36u);
+}
+
+TEST_F(Roads, BadInputEndsInOneLine) {
+    std::ofstream(folder / "bad.xodr") << "<OpenDRIVE>\n<road id=\"1\" length=\"5\"/>\n</OpenDRIVE>";
+    expect_refused("convert bad.xodr", {"bad.xodr:2: road: road '1' has no planView"});
+    EXPECT_FALSE(exists("bad.gltf"));
+    expect_refused("convert none.xodr", {"none.xodr"});
+    expect_refused("convert " + kStreet + " -p a.json", {"--photometry has no meaning"});
+    expect_refused("convert " + kStreet + " -o a.obj", {".gltf or .glb"});
+    expect_refused("convert " + kStreet + " --luminaire none.ies", {"none.ies"});
+    expect_refused("convert a.gltf --lamp-spacing 3", {"--lamp-spacing has a meaning only"});
+    expect_refused("convert a.gltf", {"--photometry is required"});
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -1,0 +1,266 @@
+// Runs recorded by esmini, and the lamps of their scenarios. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <fstream>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "roads/esmini_run.h"
+#include "roads/opendrive.h"
+#include "scene/scene_files.h"
+#include "support/shared_data.h"
+
+namespace vesper {
+namespace {
+
+using Mode = LampEvent::Mode;
+
+class EsminiRuns : public testing::Test {
+protected:
+    std::filesystem::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+    std::string complaint(const std::string& table, const std::string& scenario = "") const {
+        const auto csv = write("run.csv", table);
+        try {
+            read_esmini_run(csv, scenario.empty() ? std::nullopt : std::optional(write("run.xosc", scenario)));
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    }
+    test::TempFolder folder_;
+};
+
+const std::string kHeader = "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_rot\n";
+
+/// A car that goes 10 m/s along x for 10 s, brakes with 2 m/s^2 from 4 s on to 9 s, then reverses.
+std::string braking_run() {
+    std::string text = kHeader;
+    double x = 0;
+    for (int i = 0; i <= 200; ++i) {
+        const double t = i * 0.05, v = t < 4 ? 10 : t < 9 ? 10 - 2 * (t - 4) : t < 9.5 ? 0 : -1;
+        char line[200];
+        std::snprintf(line, sizeof line, "%.3f, 0, Ego, %.3f, 0.000, 0.000, 0.000, 0.000, 0.000, %.3f, 0.000, 0.000\n",
+                      t, x, v);
+        text += line;
+        x += v * 0.05;
+    }
+    return text;
+}
+
+std::string light(const char* type, const char* mode, const std::string& more = "", const std::string& of_action = "") {
+    return std::string("<PrivateAction><AppearanceAction><LightStateAction ") + of_action +
+           "><LightType><VehicleLight vehicleLightType=\"" + type + "\"/></LightType><LightState mode=\"" + mode +
+           "\" " + more + "/></LightStateAction></AppearanceAction></PrivateAction>";
+}
+
+std::string event(const std::string& name, const std::string& actions, const std::string& condition,
+                  const std::string& of_condition = "delay=\"0\" conditionEdge=\"none\"") {
+    return "<Event name=\"" + name + "\" priority=\"parallel\"><Action name=\"" + name + "Action\">" + actions +
+           "</Action><StartTrigger><ConditionGroup><Condition name=\"c\" " + of_condition + ">" + condition +
+           "</Condition></ConditionGroup></StartTrigger></Event>";
+}
+
+std::string at_time(const std::string& value) {
+    return "<ByValueCondition><SimulationTimeCondition value=\"" + value +
+           "\" rule=\"greaterOrEqual\"/></ByValueCondition>";
+}
+
+std::string scenario(const std::string& events, const std::string& parameters = "") {
+    return "<OpenSCENARIO><ParameterDeclarations>" + parameters +
+           "</ParameterDeclarations><RoadNetwork><LogicFile "
+           "filepath=\"a.xodr\"/></RoadNetwork><Entities><ScenarioObject name=\"Ego\"><Vehicle name=\"v\" "
+           "vehicleCategory=\"truck\"><BoundingBox><Center x=\"1.5\" y=\"0\" "
+           "z=\"0.9\"/><Dimensions length=\"8\" width=\"2.5\" "
+           "height=\"3\"/></BoundingBox></Vehicle></ScenarioObject></Entities><Storyboard><Init><Actions/></"
+           "Init><Story><Act name=\"act\"><ManeuverGroup "
+           "name=\"g\"><Actors><EntityRef entityRef=\"Ego\"/></Actors><Maneuver name=\"m\">" +
+           events + "</Maneuver></ManeuverGroup></Act></Story></Storyboard></OpenSCENARIO>";
+}
+
+const std::vector<LampEvent>& events_of(const EsminiRun& run, RunLamp lamp, size_t entity = 0) {
+    return run.entities[entity].lamps[static_cast<size_t>(lamp)];
+}
+
+TEST_F(EsminiRuns, PosesLieBetweenRows) {
+    const auto run = read_esmini_run(
+        write("run.csv",
+              "Version: 2, OpenDRIVE: a.xodr, 3DModel: \n" + kHeader +
+                  "0.0, 7, Car, 0, 0, 0, 3.1, 0, 0, 10, 0.1, 6.0\n0.5, 7, Car, 5, 2, 1, -3.1, 0.2, 0, 12, 0.3, 0.2\n"));
+    ASSERT_EQ(run.entities.size(), 1u);
+    const RunEntity& car = run.entities[0];
+    EXPECT_EQ(car.id, 7);
+    EXPECT_EQ(run.duration, 0.5);
+    const RunPose pose = pose_at(car, 0.25);
+    EXPECT_NEAR(pose.position.x, 2.5, 1e-12);
+    EXPECT_NEAR(pose.position.z, 0.5, 1e-12);
+    EXPECT_NEAR(std::abs(std::remainder(pose.heading, 2 * M_PI)), M_PI, 1e-9) << "the short way round";
+    EXPECT_NEAR(pose.pitch, 0.1, 1e-12);
+    EXPECT_NEAR(pose.speed, 11, 1e-12);
+    EXPECT_NEAR(pose.wheel_angle, 0.2, 1e-12);
+    EXPECT_NEAR(pose.wheel_rotation, 6 + (0.2 + 2 * M_PI - 6) / 2, 1e-9) << "forwards";
+    EXPECT_EQ(pose_at(car, -1).position.x, 0);
+    EXPECT_EQ(pose_at(car, 9).position.x, 5);
+    EXPECT_FALSE(is_there(car, 0.6));
+}
+
+TEST_F(EsminiRuns, LampsFollowFromTheMotionWhereNothingIsStated) {
+    const auto run = read_esmini_run(write("run.csv", braking_run()));
+    EXPECT_EQ(lamp_at(run.entities[0], RunLamp::LowBeam, 0).level, 1);
+    EXPECT_EQ(lamp_at(run.entities[0], RunLamp::Brake, 3.5).level, 0);
+    for (double t = 4.3; t < 9.4; t += 0.1) EXPECT_EQ(lamp_at(run.entities[0], RunLamp::Brake, t).level, 1) << t;
+    EXPECT_EQ(lamp_at(run.entities[0], RunLamp::Reversing, 9).level, 0);
+    EXPECT_EQ(lamp_at(run.entities[0], RunLamp::Reversing, 9.7).level, 1);
+    EXPECT_EQ(lamp_at(run.entities[0], RunLamp::IndicatorLeft, 5).level, 0);
+}
+
+TEST_F(EsminiRuns, EventsSetLamps) {
+    const std::string text =
+        scenario(event("one",
+                       light("indicatorLeft", "flashing",
+                             "luminousIntensity=\"${2 * $cd}\" flashingOnDuration=\"0.4\" flashingOffDuration=\"0.3\""),
+                       at_time("$when")) +
+                     event("two", light("highBeam", "on", "luminousIntensity=\"30000\"", "transitionTime=\"1\""),
+                           "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"event\" "
+                           "storyboardElementRef=\"one\" state=\"completeState\"/></ByValueCondition>",
+                           "delay=\"1.5\" conditionEdge=\"rising\"") +
+                     event("three", light("brakeLights", "on"),
+                           "<ByEntityCondition><TriggeringEntities triggeringEntitiesRule=\"any\"><EntityRef "
+                           "entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><SpeedCondition value=\"5\" "
+                           "rule=\"lessThan\"/></EntityCondition></ByEntityCondition>"),
+                 "<ParameterDeclaration name=\"when\" value=\"2\"/><ParameterDeclaration name=\"cd\" value=\"250\"/>");
+    const auto run = read_esmini_run(write("run.csv", braking_run()), write("run.xosc", text));
+    EXPECT_TRUE(run.notes.empty()) << run.notes[0];
+    EXPECT_EQ(run.road_file, "a.xodr");
+    const RunEntity& ego = run.entities[0];
+    EXPECT_EQ(ego.kind, RunEntity::Kind::Truck);
+    EXPECT_EQ(ego.length, 8);
+    EXPECT_EQ(ego.centre.x, 1.5);
+    ASSERT_EQ(events_of(run, RunLamp::IndicatorLeft).size(), 1u);
+    EXPECT_NEAR(events_of(run, RunLamp::IndicatorLeft)[0].time, 2, 1e-9);
+    EXPECT_EQ(lamp_at(ego, RunLamp::IndicatorLeft, 2.39).level, 1);
+    EXPECT_EQ(lamp_at(ego, RunLamp::IndicatorLeft, 2.41).level, 0);
+    EXPECT_EQ(lamp_at(ego, RunLamp::IndicatorLeft, 2.71).level, 1);
+    EXPECT_EQ(lamp_at(ego, RunLamp::IndicatorLeft, 2.1).intensity, 500);
+    // 1.5 s after the step in which the first was complete.
+    ASSERT_EQ(events_of(run, RunLamp::HighBeam).size(), 1u);
+    EXPECT_NEAR(events_of(run, RunLamp::HighBeam)[0].time, 3.5, 0.11);
+    EXPECT_NEAR(lamp_at(ego, RunLamp::HighBeam, events_of(run, RunLamp::HighBeam)[0].time + 0.5).level, 0.5, 1e-9);
+    ASSERT_EQ(events_of(run, RunLamp::Brake).size(), 1u) << "as stated, not as driven";
+    EXPECT_NEAR(events_of(run, RunLamp::Brake)[0].time, 6.5, 0.11);
+}
+
+TEST_F(EsminiRuns, ErrorsNameFileAndLine) {
+    EXPECT_NE(complaint("a,b,c\n1,2,3\n").find("is no table of esmini"), std::string::npos);
+    EXPECT_NE(complaint(kHeader).find("no rows"), std::string::npos);
+    EXPECT_NE(complaint(kHeader + "0, 0, A, 1, 2\n").find("line 2"), std::string::npos)
+        << complaint(kHeader + "0, 0, A, 1, 2\n");
+    EXPECT_NE(complaint(kHeader + "0, 0, A, nan, 0, 0, 0, 0, 0, 0, 0, 0\n").find("x 'nan' is no number"),
+              std::string::npos)
+        << complaint(kHeader + "0, 0, A, nan, 0, 0, 0, 0, 0, 0, 0, 0\n");
+    EXPECT_NE(complaint(kHeader + "1, 0, A, 0, 0, 0, 0, 0, 0, 0, 0, 0\n0, 0, A, 0, 0, 0, 0, 0, 0, 0, 0, 0\n")
+                  .find("do not ascend"),
+              std::string::npos);
+    EXPECT_NE(complaint("time, id, name, x\n").find("no column 'y'"), std::string::npos);
+    EXPECT_NE(complaint(braking_run(), "<OpenDRIVE/>").find("run.xosc:1: OpenDRIVE: the root"), std::string::npos);
+    EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("$nothing"))))
+                  .find("there is no parameter"),
+              std::string::npos);
+    EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("${1 +}"))))
+                  .find("is no expression"),
+              std::string::npos);
+}
+
+TEST_F(EsminiRuns, WhatIsNotUnderstoodIsNoted) {
+    const auto run = read_esmini_run(
+        write("run.csv", braking_run()),
+        write("run.xosc",
+              scenario(event("e", light("lowBeam", "on"),
+                             "<ByEntityCondition><TriggeringEntities><EntityRef "
+                             "entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><CollisionCondition/>"
+                             "</EntityCondition></ByEntityCondition>"))));
+    ASSERT_EQ(run.notes.size(), 1u);
+    EXPECT_NE(run.notes[0].find("CollisionCondition that cannot be judged"), std::string::npos) << run.notes[0];
+}
+
+EsminiRun shared_run(const std::string& name, const RoadNetwork* roads = nullptr) {
+    return read_esmini_run(test::shared_data("scenario/esmini-output/" + name + ".csv"),
+                           test::shared_data("scenario/esmini/xosc/" + name + ".xosc"), roads);
+}
+
+/// When the speed of an entity first passes a value from `from` on.
+double first_time(const RunEntity& entity, double from, const std::function<bool(const RunPose&)>& when) {
+    for (const RunPose& pose : entity.poses)
+        if (pose.time >= from && when(pose)) return pose.time;
+    return 1e9;
+}
+
+// The recorded motion says when esmini itself started the events that set lamps and speeds together.
+TEST(SharedRuns, LampsOfLightState) {
+    if (!test::is_here(test::shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
+    const EsminiRun run = shared_run("light_state");
+    // The scenario says 2 s.
+    EXPECT_NEAR(events_of(run, RunLamp::FogFront)[1].time, 2, 0.11);
+    EXPECT_EQ(events_of(run, RunLamp::FogFront)[1].intensity, 1500);
+    EXPECT_EQ(events_of(run, RunLamp::IndicatorLeft)[0].mode, Mode::Flashing);
+    ASSERT_EQ(run.time_of_day.size(), 4u);
+    EXPECT_EQ(run.time_of_day[2].state, "2025-06-13T00:00:00.000+00:00");
+    EXPECT_NEAR(lamp_at(run.entities[1], RunLamp::LowBeam, 39).intensity, 4000, 1e-9);
+    EXPECT_EQ(lamp_at(run.entities[1], RunLamp::LowBeam, 20).level, 0) << "stated to be off";
+    const RunEntity& car = run.entities[0];
+    const double braking = first_time(car, 16, [](const RunPose& p) { return p.speed < 14.999; });
+    const double backwards = first_time(car, 20, [](const RunPose& p) { return p.speed < -0.001; });
+    EXPECT_NEAR(events_of(run, RunLamp::Brake)[0].time, braking, 0.15);
+    EXPECT_NEAR(events_of(run, RunLamp::Reversing)[0].time, backwards, 0.15);
+    EXPECT_NEAR(car.length, 5.04, 1e-9);
+}
+
+// The left indicator and a lane change belong to one event: the car leaves the circle of its lane when it begins to
+// flash.
+TEST(SharedRuns, IndicatorsBeginWithTheLaneChange) {
+    if (!test::is_here(test::shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
+    const EsminiRun run = shared_run("light_state");
+    const RoadNetwork roads = read_opendrive(test::shared_data("scenario/esmini/xodr/circle_300m.xodr"));
+    const PlanGeometry& circle = roads.roads[0].plan[0];
+    const double radius = 1 / circle.curvature;
+    const glm::dvec2 middle{circle.x - std::sin(circle.heading) * radius, circle.y + std::cos(circle.heading) * radius};
+    const auto from_middle = [&](const RunPose& p) { return glm::distance(glm::dvec2(p.position), middle); };
+    const RunEntity& car = run.entities[0];
+    const double lane = from_middle(car.poses[0]);
+    const double leaves = first_time(car, 5, [&](const RunPose& p) { return std::abs(from_middle(p) - lane) > 0.02; });
+    EXPECT_NEAR(events_of(run, RunLamp::IndicatorLeft)[0].time, leaves, 0.25);
+}
+
+TEST(SharedRuns, TrafficLightsTurnWhereTheCarCounts) {
+    if (!test::is_here(test::shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
+    const RoadNetwork roads =
+        read_opendrive(test::shared_data("scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr"));
+    const EsminiRun run = shared_run("traffic_lights", &roads);
+    EXPECT_TRUE(run.notes.empty()) << run.notes[0];
+    EXPECT_GT(run.signals.size(), 6u);
+    for (size_t i = 1; i < run.signals.size(); ++i) EXPECT_GE(run.signals[i].time, run.signals[i - 1].time);
+    // The car stops at the red light, and goes when it is green again.
+    const RunEntity& car = run.entities[0];
+    const double stands = first_time(car, 0, [](const RunPose& p) { return p.speed < 0.01; });
+    EXPECT_EQ(signal_at(run, "1", 0), "off;off;on");
+    EXPECT_EQ(signal_at(run, "1", stands), "on;off;off");
+    const double goes = first_time(car, stands + 1, [](const RunPose& p) { return p.speed > 0.05; });
+    EXPECT_EQ(signal_at(run, "1", goes + 0.3), "off;off;on");
+}
+
+TEST(SharedRuns, AllAreRead) {
+    if (!test::is_here(test::shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
+    for (const char* name : {"cut-in", "light_state", "pedestrian", "traffic_lights"}) {
+        const EsminiRun run = shared_run(name);
+        EXPECT_GE(run.entities.size(), 2u);
+        EXPECT_GT(run.duration, 10);
+        for (const RunEntity& entity : run.entities)
+            EXPECT_TRUE(entity.length > 0 || entity.kind == RunEntity::Kind::Object) << entity.name;
+    }
+}
+
+}  // namespace
+}  // namespace vesper

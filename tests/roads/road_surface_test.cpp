@@ -1,0 +1,137 @@
+// Points on roads against closed forms. SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "roads/road_surface.h"
+#include "roads/road_texts.h"
+
+namespace vesper {
+namespace {
+
+using test::geometry;
+using test::network_of;
+using test::road;
+using test::two_way_section;
+
+RoadNetwork straight(const std::string& profiles, const std::string& lanes = two_way_section()) {
+    return network_of("<road id=\"1\" length=\"100\"><planView>" + geometry(0, 0, 0, 0, 100, "<line/>") +
+                      "</planView>" + profiles + "<lanes>" + lanes + "</lanes></road>");
+}
+
+void expect_at(const RoadPoint& got, double x, double y, double z) {
+    EXPECT_NEAR(got.position.x, x, 1e-9);
+    EXPECT_NEAR(got.position.y, y, 1e-9);
+    EXPECT_NEAR(got.position.z, z, 1e-9);
+}
+
+TEST(RoadPoints, SuperelevationTurnsTheCrossSection) {
+    const auto network = straight("<lateralProfile><superelevation s=\"0\" a=\"0.1\"/></lateralProfile>");
+    const RoadPoint left = surface_point(network.roads[0], 40, 5);
+    expect_at(left, 40, 5 * std::cos(0.1), 5 * std::sin(0.1));
+    EXPECT_NEAR(left.up.y, -std::sin(0.1), 1e-12);
+    EXPECT_NEAR(left.up.z, std::cos(0.1), 1e-12);
+    expect_at(surface_point(network.roads[0], 40, 0, 2), 40, -2 * std::sin(0.1), 2 * std::cos(0.1));
+}
+
+TEST(RoadPoints, ElevationIsACubicOfS) {
+    const auto network = straight(
+        "<elevationProfile><elevation s=\"0\" a=\"1\" b=\"0.02\"/><elevation s=\"50\" a=\"2\" b=\"0.02\" c=\"0.001\" "
+        "d=\"-0.00001\"/></elevationProfile>");
+    expect_at(surface_point(network.roads[0], 30, -2), 30, -2, 1.6);
+    expect_at(surface_point(network.roads[0], 80, 0), 80, 0, 2 + 0.6 + 0.9 - 0.27);
+    const double slope = 0.02 + 0.06 - 0.027;
+    EXPECT_NEAR(reference_point(network.roads[0], 80).forward.z / reference_point(network.roads[0], 80).forward.x,
+                slope, 1e-12);
+}
+
+TEST(RoadPoints, ShapesLieBetweenTheirStations) {
+    const auto network = straight(
+        "<lateralProfile><shape s=\"0\" t=\"-5\" a=\"0.5\" b=\"-0.1\"/><shape s=\"0\" t=\"0\" a=\"0\" "
+        "b=\"0.02\"/><shape s=\"100\" t=\"-5\" a=\"0\"/></lateralProfile>");
+    expect_at(surface_point(network.roads[0], 0, -3), 0, -3, 0.3);
+    expect_at(surface_point(network.roads[0], 0, 4), 0, 4, 0.08);
+    expect_at(surface_point(network.roads[0], 50, -3), 50, -3, 0.15);
+}
+
+TEST(RoadPoints, CrossfallFallsOutwards) {
+    const auto network = straight("<lateralProfile><crossfall side=\"both\" s=\"0\" a=\"0.025\"/></lateralProfile>");
+    expect_at(surface_point(network.roads[0], 10, 4), 10, 4, -4 * std::tan(0.025));
+    expect_at(surface_point(network.roads[0], 10, -4), 10, -4, -4 * std::tan(0.025));
+}
+
+TEST(RoadPoints, StripsOfACrossSectionFollowEachOther) {
+    const auto network = straight(
+        "<lateralProfile><crossSectionSurface><tOffset><coefficients s=\"0\" a=\"0.5\"/></tOffset><surfaceStrips>"
+        "<strip id=\"1\"><width><coefficients s=\"0\" a=\"2\"/></width><linear><coefficients s=\"0\" "
+        "a=\"-0.1\"/></linear></strip>"
+        "<strip id=\"2\"><quadratic><coefficients s=\"0\" a=\"0.05\"/></quadratic></strip>"
+        "<strip id=\"-1\"><constant><coefficients s=\"0\" a=\"0.2\" "
+        "b=\"0.01\"/></constant></strip></surfaceStrips></crossSectionSurface></lateralProfile>");
+    expect_at(surface_point(network.roads[0], 10, 1.5), 10, 1.5, -0.1);
+    expect_at(surface_point(network.roads[0], 10, 4.5), 10, 4.5, -0.2 + 0.05 * 4);
+    expect_at(surface_point(network.roads[0], 10, -1), 10, -1, 0.3);
+}
+
+TEST(RoadPoints, LanesAddUpFromTheLaneOffset) {
+    const auto network = straight("", "<laneOffset s=\"0\" a=\"1\" b=\"0.01\"/>" + two_way_section());
+    const Road& r = network.roads[0];
+    EXPECT_NEAR(lane_border(r, r.sections[0], 0, 50), 1.5, 1e-12);
+    EXPECT_NEAR(lane_border(r, r.sections[0], 2, 50), 7, 1e-12);
+    EXPECT_NEAR(lane_border(r, r.sections[0], -2, 50), -4, 1e-12);
+    expect_at(lane_point(r, r.sections[0], -1, 50, 0.5), 50, 1.5 - 1.75, 0);
+    expect_at(lane_point(r, r.sections[0], 2, 50, 1), 50, 7, 0.12);
+}
+
+TEST(RoadPoints, BordersAreWhereTheyAreUnlessAnInnerOneIsFurtherOut) {
+    const auto network = straight("",
+                                  "<laneSection s=\"0\"><left><lane id=\"2\" type=\"driving\"><border sOffset=\"0\" "
+                                  "a=\"5\" b=\"-0.04\"/></lane><lane id=\"1\" type=\"driving\"><border sOffset=\"0\" "
+                                  "a=\"4\"/></lane></left><center><lane id=\"0\"/></center></laneSection>");
+    const Road& r = network.roads[0];
+    EXPECT_NEAR(lane_border(r, r.sections[0], 2, 10), 4.6, 1e-12);
+    EXPECT_NEAR(lane_border(r, r.sections[0], 2, 75), 4, 1e-12) << "not inside lane 1";
+    ASSERT_EQ(network.notes.size(), 1u);
+    EXPECT_NE(network.notes[0].find("lane 2 is as little as -3"), std::string::npos) << network.notes[0];
+}
+
+TEST(RoadPoints, LevelLanesDoNotFollowTheSuperelevation) {
+    const auto network = straight("<lateralProfile><superelevation s=\"0\" a=\"0.1\"/></lateralProfile>",
+                                  "<laneSection s=\"0\"><left><lane id=\"2\" type=\"sidewalk\" level=\"true\"><width "
+                                  "sOffset=\"0\" a=\"2\"/></lane><lane id=\"1\" type=\"driving\"><width sOffset=\"0\" "
+                                  "a=\"3\"/></lane></left><center><lane id=\"0\"/></center></laneSection>");
+    const Road& r = network.roads[0];
+    expect_at(lane_point(r, r.sections[0], 2, 0, 1), 0, 3 * std::cos(0.1) + 2, 3 * std::sin(0.1));
+}
+
+// The bound that road_stations states, on an arc with a bump.
+TEST(RoadPoints, StationsKeepToTheChord) {
+    const auto network =
+        network_of("<road id=\"1\" length=\"100\"><planView>" + geometry(0, 0, 0, 0, 100, "<arc curvature=\"0.02\"/>") +
+                   "</planView><elevationProfile><elevation s=\"0\" a=\"0\"/><elevation s=\"40\" a=\"0\" c=\"0.01\" "
+                   "d=\"-0.0005\"/><elevation s=\"60\" a=\"0\"/></elevationProfile><lanes>" +
+                   two_way_section() + "</lanes></road>");
+    const Road& r = network.roads[0];
+    const LaneSection& section = r.sections[0];
+    for (const double chord : {0.1, 0.01}) {
+        const auto stations = road_stations(r, section, chord, 20);
+        EXPECT_EQ(stations.front(), 0);
+        EXPECT_EQ(stations.back(), 100);
+        EXPECT_LT(stations.size(), 300u);
+        for (size_t i = 1; i < stations.size(); ++i) {
+            EXPECT_GT(stations[i], stations[i - 1]);
+            EXPECT_LE(stations[i] - stations[i - 1], 20);
+            for (const int id : {0, 2, -2}) {
+                const auto at = [&](double s) { return surface_point(r, s, lane_border(r, section, id, s)).position; };
+                const glm::dvec3 a = at(stations[i - 1]), b = at(stations[i]), along = glm::normalize(b - a);
+                for (double f = 0.05; f < 1; f += 0.05) {
+                    const glm::dvec3 p = at(glm::mix(stations[i - 1], stations[i], f)) - a;
+                    EXPECT_LT(glm::length(p - along * glm::dot(p, along)), chord * 1.1);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace vesper

@@ -1,0 +1,151 @@
+#!/usr/bin/env bash
+# Opens vesper-drive on a display of its own and drives it by keys, as somebody would: steers, resizes, minimises and fills the
+# screen, switches operators, breaks the scene's file, records. What the window shows is the headless picture of the same frame, and a replay of the recording, twice, gives
+# the same bytes. The validation layer watches. Waits for what the title says, never for a time. SPDX-License-Identifier: MIT
+#   tests/window/drive.sh VESPER_DRIVE WORLD
+set -euo pipefail
+
+program=$1 world=$2
+for tool in Xvfb xdotool import compare openbox; do
+    command -v "$tool" >/dev/null || { echo "skipped: $tool is missing (Debian, Ubuntu: apt install xvfb xdotool openbox imagemagick)"; exit 77; }
+done
+
+folder=$(mktemp -d)
+# A street of our own, to be broken.
+cp -r "${world%/*}" "$folder/street"
+ln -s "${world%/*/*}/photometry" "$folder"
+cd "$folder"
+world=street/${world##*/}
+started=()
+finish() {
+    for pid in "${started[@]}"; do kill "$pid" 2>/dev/null || true; done
+    wait 2>/dev/null || true
+    rm -rf "$folder"
+}
+trap finish EXIT
+fail() {
+    echo "failed: $*" >&2
+    echo "title: $(title)" >&2
+    cat said.txt >&2 2>/dev/null || true
+    exit 1
+}
+
+# The X server says which display it took.
+mkfifo display
+Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp -noreset 3>display >/dev/null 2>&1 &
+started+=($!)
+read -r number <display
+export DISPLAY=:$number
+unset WAYLAND_DISPLAY
+openbox >/dev/null 2>&1 &
+started+=($!)
+# GLFW waits without end for a window that is opened before its manager is there.
+for ((i = 0; i < 600; ++i)); do xdotool get_num_desktops >/dev/null 2>&1 && break; sleep 0.1; done
+
+window=
+title() { xdotool getwindowname "$window" 2>/dev/null || true; }
+# until WHAT COMMAND...: tries until the command succeeds; gives up after very long.
+until_true() {
+    local what=$1
+    shift
+    for ((i = 0; i < 600; ++i)); do
+        "$@" >/dev/null 2>&1 && return
+        kill -0 "$drive" 2>/dev/null || fail "vesper-drive ended while waiting for $what"
+        sleep 0.2
+    done
+    fail "waited in vain for $what"
+}
+titled() { [[ $(title) == *"$1"* ]]; }
+untitled() { [[ $(title) != *"$1"* ]]; }
+key() { xdotool key --window "$window" "$1"; }
+find_window() { window=$(xdotool search --name ' - Vesper$' | head -n 1) && [[ -n $window ]]; }
+seconds() { title | sed -E 's/.*, ([0-9.]+) s, .*/\1/'; }
+beyond() { awk -v now="$(seconds)" -v than="$1" 'BEGIN { exit !(now > than) }'; }
+sized() { [[ $(xdotool getwindowgeometry "$window") == *"Geometry: $1"* ]]; }
+# Identical pixels, whatever else the files say.
+same() { [[ $(compare -metric AE "$1" "$2" null: 2>&1) == 0 ]]; }
+
+VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT \
+    "$program" "$world" --size 240x150 --window 240x150 --device cpu --record drive.json >said.txt 2>&1 &
+drive=$!
+started+=("$drive")
+until_true "a window" find_window
+until_true "time to pass" beyond 0.2
+titled "irawan, driver, recording" || fail "is not irawan, seen by the driver, recorded"
+
+# Drives, by keys that are held.
+xdotool windowfocus --sync "$window"
+xdotool keydown --window "$window" Up
+until_true "some driving" beyond 1.5
+xdotool keydown --window "$window" Left
+xdotool windowsize "$window" 333 222
+until_true "another size" sized 333x222
+until_true "more driving" beyond 2.5
+xdotool keyup --window "$window" Left
+key o
+until_true "the next operator" titled ward
+key g
+key c
+until_true "another camera" titled chase
+xdotool keyup --window "$window" Up
+xdotool windowsize "$window" 240 150
+until_true "the first size" sized 240x150
+key 1
+until_true "the driver's camera" titled driver
+
+# Full screen and back, minimised and back, every way of waiting for the screen.
+key F11
+until_true "full screen" sized 800x600
+key m
+key m
+key F11
+until_true "a window again" sized 240x150
+key m
+xdotool windowminimize --sync "$window"
+xdotool windowactivate "$window"
+now=$(seconds)
+until_true "time after the window is back" beyond "$(awk -v t="$now" 'BEGIN { print t + 0.2 }')"
+
+# A scene that cannot be read any more is named; the drive, and its recording, go on.
+mv "$world" kept.json
+echo '{' >"$world"
+key ctrl+r
+until_true "a complaint about the scene" grep -q "^vesper-drive: .*$world" said.txt
+mv kept.json "$world"
+titled recording || fail "the recording has ended with the scene"
+key F4
+key space
+until_true "a pause" titled paused
+
+# The picture that stands there, without instruments.
+key F2
+key F12
+until_true "a saved picture" test -s picture-001.png
+plain() { import -silent -window "$window" shown.png && same shown.png picture-001.png; }
+until_true "the plain picture in the window" plain
+
+key ctrl+q
+wait "$drive" || fail "vesper-drive ended with $?"
+grep -qE 'VUID|SYNC-|Validation' said.txt && fail "the validation layer complains"
+
+# Where there is nothing to show a window or its codes on, a line says so.
+refused() {
+    local code=0
+    "$@" >refused.txt 2>&1 || code=$?
+    [[ $code == 2 && $(wc -l <refused.txt) == 1 && $(<refused.txt) == "vesper-drive: "* ]] || fail "$* ends with $code and says $(<refused.txt)"
+}
+refused env DISPLAY=:none "$program" "$world"
+refused "$program" "$world" --fullscreen 7
+refused "$program" "$world" --device cpu --size 64x64 --display hdr10
+
+# What was recorded, twice again: the same bytes, and the last frame is what the window showed.
+for run in a b; do
+    mkdir $run
+    "$program" --headless --replay drive.json --device cpu --size 240x150 --video "$run/%05d.png" >>said.txt 2>&1 || fail "the replay ended with $?"
+done
+frames=$(ls a | grep -c png)
+((frames > 10)) || fail "only $frames frames"
+for file in a/*.png; do cmp "$file" "b/${file##*/}" || fail "two replays differ"; done
+grep -q 'another way' said.txt && fail "the replay drives another way"
+same shown.png "$(ls a/*.png | tail -n 1)" || fail "the window shows other pixels than the headless program"
+echo "drove $frames frames; the window, and two replays, show the same pixels"

@@ -1,0 +1,175 @@
+// Pictures in windows: codes arrive unchanged, other sizes are scaled as said, and instruments lie over them. SPDX-License-Identifier: MIT
+#include "window/presenter.h"
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "gpu/memory.h"
+
+namespace vesper {
+namespace {
+
+class PresenterTest : public testing::Test {
+protected:
+    std::string complaints;
+    Device device{{.select = "", .validation = true, .on_message = [this](const std::string& message) { complaints += message + "\n"; }}};
+    std::vector<uint8_t> letters = std::vector<uint8_t>(4, 255);
+    Presenter presenter{device, {2, 2}, letters};
+
+    ~PresenterTest() override { EXPECT_EQ(complaints, ""); }
+
+    /// What an image of a window would hold, as words of its format.
+    std::vector<uint32_t> drawn(VkFormat format, VkExtent2D window, const Picture& picture, Scaling scaling, const Overlay& overlay = {}, bool hdr10 = false) {
+        const OwnedImage image = make_image(device, image_info(format, window, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+        Arena arena(device);
+        arena.bind(image.get());
+        const OwnedImageView view = make_view(device, image.get(), format);
+        const uint64_t bytes = uint64_t(window.width) * window.height * 4;
+        const HostBuffer back(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostBuffer::Direction::FromDevice);
+        device.run_once([&](VkCommandBuffer commands) {
+            const auto change = [&](VkImageLayout from, VkImageLayout to) {
+                const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                                                    .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                                    .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                                    .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                                    .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                                    .oldLayout = from,
+                                                    .newLayout = to,
+                                                    .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                                    .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                                    .image = image.get(),
+                                                    .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+                const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
+                vkCmdPipelineBarrier2(commands, &dependency);
+            };
+            change(VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+            presenter.draw(commands, {view.get(), window, format, hdr10, 0}, picture, scaling, overlay);
+            change(VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+            const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {window.width, window.height, 1}};
+            vkCmdCopyImageToBuffer(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.buffer(), 1, &copy);
+            const VkMemoryBarrier2 host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                        .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                        .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                        .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                        .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+            const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &host};
+            vkCmdPipelineBarrier2(commands, &dependency);
+        });
+        back.invalidate();
+        std::vector<uint32_t> words(bytes / 4);
+        std::memcpy(words.data(), back.data(), bytes);
+        return words;
+    }
+};
+
+/// Every code of every channel, in pictures of any size.
+std::vector<uint32_t> words_of(VkExtent2D extent, uint32_t bits) {
+    std::vector<uint32_t> words;
+    const uint32_t most = (1u << bits) - 1;
+    for (uint32_t i = 0; i < extent.width * extent.height; ++i)
+        words.push_back((i & most) | ((i * 7 + 3) & most) << bits | ((i * 31 + 5) & most) << 2 * bits | (bits == 8 ? 255u << 24 : 3u << 30));
+    return words;
+}
+
+Picture picture_of(const std::vector<uint32_t>& words, VkExtent2D extent, uint32_t bits = 8) {
+    return {{reinterpret_cast<const uint8_t*>(words.data()), words.size() * 4}, extent, bits};
+}
+
+uint32_t swapped(uint32_t word) { return (word & 0xff00ff00u) | (word & 0xffu) << 16 | (word >> 16 & 0xffu); }
+int channel(uint32_t word, int which) { return int(word >> 8 * which & 0xff); }
+
+TEST_F(PresenterTest, CodesArriveUnchanged) {
+    for (const VkExtent2D extent : {VkExtent2D{1, 1}, VkExtent2D{7, 5}, VkExtent2D{64, 17}}) {
+        const auto words = words_of(extent, 8);
+        EXPECT_EQ(drawn(VK_FORMAT_R8G8B8A8_UNORM, extent, picture_of(words, extent), Scaling::Fit), words);
+        auto blue_first = words;
+        for (uint32_t& word : blue_first) word = swapped(word);
+        EXPECT_EQ(drawn(VK_FORMAT_B8G8R8A8_UNORM, extent, picture_of(words, extent), Scaling::Whole), blue_first);
+    }
+}
+
+TEST_F(PresenterTest, TenBitsArriveUnchanged) {
+    const VkExtent2D extent{64, 16};  // all 1024
+    const auto words = words_of(extent, 10);
+    EXPECT_EQ(drawn(VK_FORMAT_A2B10G10R10_UNORM_PACK32, extent, picture_of(words, extent, 10), Scaling::Fit, {}, true), words);
+}
+
+TEST_F(PresenterTest, WholeMultiplesRepeatPixelsAmidBlack) {
+    const VkExtent2D extent{3, 2}, window{11, 8};  // three times, with a column and a row of black on either side
+    const auto words = words_of(extent, 8);
+    const auto shown = drawn(VK_FORMAT_R8G8B8A8_UNORM, window, picture_of(words, extent), Scaling::Whole);
+    for (uint32_t y = 0; y < window.height; ++y)
+        for (uint32_t x = 0; x < window.width; ++x) {
+            const bool inside = x >= 1 && x < 10 && y >= 1 && y < 7;
+            EXPECT_EQ(shown[y * window.width + x], inside ? words[(y - 1) / 3 * extent.width + (x - 1) / 3] : 0xff000000u) << x << "," << y;
+        }
+}
+
+TEST_F(PresenterTest, HalfTheSizeIsATent) {
+    // Weights of a tent of two pixels' reach, at the middle between four: 1/8, 3/8, 3/8, 1/8 along each side.
+    const VkExtent2D extent{8, 8}, window{4, 4};
+    const auto words = words_of(extent, 8);
+    const auto shown = drawn(VK_FORMAT_R8G8B8A8_UNORM, window, picture_of(words, extent), Scaling::Fit);
+    const double weights[] = {0.125, 0.375, 0.375, 0.125};
+    for (int c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (uint32_t j = 0; j < 4; ++j)
+            for (uint32_t i = 0; i < 4; ++i) sum += weights[i] * weights[j] * channel(words[(1 + j) * 8 + 1 + i], c);
+        EXPECT_NEAR(channel(shown[1 * 4 + 1], c), sum, 0.51) << c;
+    }
+}
+
+TEST_F(PresenterTest, AFlatPictureStaysFlatAtAnySize) {
+    const VkExtent2D extent{13, 9};
+    const std::vector<uint32_t> words(13 * 9, 0xff5a3c11u);
+    for (const VkExtent2D window : {VkExtent2D{1, 1}, VkExtent2D{5, 3}, VkExtent2D{31, 57}}) {
+        const Placement at = place(extent, window, Scaling::Fit);
+        const auto shown = drawn(VK_FORMAT_R8G8B8A8_UNORM, window, picture_of(words, extent), Scaling::Fit);
+        for (uint32_t y = 0; y < window.height; ++y)
+            for (uint32_t x = 0; x < window.width; ++x) {
+                const bool inside = int(x) >= at.area.offset.x && x < at.area.offset.x + at.area.extent.width && int(y) >= at.area.offset.y && y < at.area.offset.y + at.area.extent.height;
+                EXPECT_EQ(shown[y * window.width + x], inside ? words[0] : 0xff000000u);
+            }
+    }
+}
+
+TEST_F(PresenterTest, InstrumentsLieOverThePictureWithinTheirClips) {
+    const VkExtent2D extent{8, 4};
+    const std::vector<uint32_t> words(32, 0xff000000u);
+    // A square over all, half opaque white, in a clip that leaves the window.
+    const Overlay overlay{.vertices = {{{0, 0}, {0.5f, 0.5f}, 0x80ffffffu}, {{8, 0}, {0.5f, 0.5f}, 0x80ffffffu}, {{8, 4}, {0.5f, 0.5f}, 0x80ffffffu}, {{0, 4}, {0.5f, 0.5f}, 0x80ffffffu}},
+                          .indices = {0, 1, 2, 0, 2, 3},
+                          .batches = {{0, 6, {{2, 1}, {100, 2}}}, {0, 6, {{8, 0}, {1, 1}}}}};
+    const auto shown = drawn(VK_FORMAT_R8G8B8A8_UNORM, extent, picture_of(words, extent), Scaling::Fit, overlay);
+    for (uint32_t y = 0; y < 4; ++y)
+        for (uint32_t x = 0; x < 8; ++x) EXPECT_EQ(shown[y * 8 + x], x >= 2 && y >= 1 && y < 3 ? 0xff808080u : 0xff000000u) << x << "," << y;
+}
+
+TEST_F(PresenterTest, WhiteOfInstrumentsIsGraphicsWhiteInHdr10) {
+    const VkExtent2D extent{2, 2};
+    const Overlay overlay{.vertices = {{{-2, -2}, {0.5f, 0.5f}, ~0u}, {{6, -2}, {0.5f, 0.5f}, ~0u}, {{-2, 6}, {0.5f, 0.5f}, ~0u}}, .indices = {0, 1, 2}, .batches = {{0, 3, {{0, 0}, {2, 2}}}}};
+    const uint32_t word = drawn(VK_FORMAT_A2B10G10R10_UNORM_PACK32, extent, {}, Scaling::Fit, overlay, true)[3];
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(int(word >> 10 * c & 1023), 594, 1) << c;  // 203 cd/m^2 are 58 % of PQ (ITU-R BT.2408)
+}
+
+TEST(Placement, IsCentredAndNeverEmpty) {
+    const auto is = [](const Placement& p, VkRect2D area, uint32_t times) {
+        EXPECT_EQ(p.area.offset.x, area.offset.x);
+        EXPECT_EQ(p.area.offset.y, area.offset.y);
+        EXPECT_EQ(p.area.extent.width, area.extent.width);
+        EXPECT_EQ(p.area.extent.height, area.extent.height);
+        EXPECT_EQ(p.times, times);
+    };
+    is(place({100, 50}, {100, 50}, Scaling::Fit), {{0, 0}, {100, 50}}, 1);
+    is(place({100, 50}, {200, 200}, Scaling::Fit), {{0, 50}, {200, 100}}, 2);
+    is(place({100, 50}, {250, 200}, Scaling::Fit), {{0, 37}, {250, 125}}, 0);
+    is(place({100, 50}, {250, 200}, Scaling::Whole), {{25, 50}, {200, 100}}, 2);
+    is(place({100, 50}, {60, 300}, Scaling::Whole), {{0, 135}, {60, 30}}, 0);
+    is(place({4000, 10}, {20, 20}, Scaling::Fit), {{0, 9}, {20, 1}}, 0);
+}
+
+}  // namespace
+}  // namespace vesper

@@ -124,13 +124,7 @@ private:
 // One picture of all channels; the log is of the one that is looked at.
 void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, double fps) {
     Wall wall = session.render(channels, outlet.outputs(session));
-    Frame& logged = wall.channels[channels.gaze];
-    double device = 0;
-    for (const Frame& channel : wall.channels)
-        for (const Timing& timing : channel.timings) device += timing.milliseconds;
-    logged.curve = wall.shown.curve, logged.eye = wall.shown.eye, logged.histogram = wall.shown.histogram;
-    logged.timings = wall.shown.timings;
-    logged.timings.push_back({.pass = "channels", .milliseconds = device});
+    const Frame logged = looked_at(wall, channels);
     outlet.take(index, session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), wall.shown, logged, fps);
 }
 

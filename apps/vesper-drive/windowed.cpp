@@ -89,15 +89,16 @@ void WindowedDrive::open_session() {
 
 // A scene that cannot be used leaves everything as it is.
 void WindowedDrive::reload(const std::string& scene) {
+    const bool same = scene == arguments_.scene;  // then the run on it, too
     try {
-        auto made = std::make_unique<Session>(device_, SessionOptions{.scene = scene, .seed = arguments_.seed, .settings = session_->settings().values()});
+        auto made = std::make_unique<Session>(device_, SessionOptions{.scene = scene, .run = same ? arguments_.run : "", .scenario = same ? arguments_.scenario : "", .seed = arguments_.seed, .settings = session_->settings().values()});
         if (!recording_.empty()) session_->stop_recording();
         session_ = std::move(made);
     } catch (const Error& error) {
         return say(error.what(), true);
     }
+    if (!same) arguments_.run.clear(), arguments_.scenario.clear();
     arguments_.scene = scene;
-    arguments_.run.clear(), arguments_.scenario.clear();
     recording_.clear(), replay_.reset(), instruments_.forget();
     stale_ = true;
     say("loaded " + scene);

@@ -83,13 +83,11 @@ void require(bool holds, const char* otherwise) {
     if (!holds) throw BadArgument{otherwise};
 }
 
-/// A structure as this library has it: what an older caller does not know is zero or as in `defaults`.
+/// A structure as this library has it. All of them are as in the first version, so none may be smaller; a newer caller's may be larger.
 template <class T>
-T known(const T* given, const char* otherwise, const T& defaults = T{sizeof(T)}) {
-    require(given && given->size >= sizeof(uint32_t) && given->size <= 65536, otherwise);
-    T made = defaults;
-    std::memcpy(&made, given, std::min<size_t>(given->size, sizeof(T)));
-    return made;
+T known(const T* given, const char* otherwise) {
+    require(given && given->size >= sizeof(T) && given->size <= 65536, otherwise);
+    return *given;
 }
 
 constexpr uint32_t kMostPixels = 16384;  // in width or height
@@ -112,7 +110,7 @@ VesperToneSettings default_settings() {
 }
 
 RenderSettings settings_of(const VesperToneSettings* given) {
-    const VesperToneSettings s = given ? known(given, "tone settings without their size", default_settings()) : default_settings();
+    const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
     const auto is_operator = [&](const OperatorInfo& info) { return info.tone_operator != Operator::Ldr && uint32_t(info.tone_operator) == s.tone_operator; };
     require(std::any_of(operators().begin(), operators().end(), is_operator), "there is no such tone operator");
     require(s.glare <= VESPER_GLARE_LDR, "there is no such glare");
@@ -147,16 +145,16 @@ void give(const std::vector<T>& values, T* to) {
 void give(const ToneMapped& frame, const VesperOutputs& to) {
     give(frame.display, to.codes), give(frame.scene, to.luminance), give(frame.light, to.display_light);
     if (!to.report) return;
-    VesperFrameReport report{to.report->size};
+    VesperFrameReport report{sizeof report};
     report.adaptation = frame.curve.adaptation, report.log_average = frame.curve.log_average;
     report.not_finite = frame.histogram.non_finite;
     report.milliseconds = frame.milliseconds;
-    std::memcpy(to.report, &report, std::min<size_t>(to.report->size, sizeof report));
+    *to.report = report;
 }
 
 VesperOutputs outputs_of(const VesperOutputs* given) {
     const VesperOutputs to = known(given, "outputs without their size");
-    require(!to.report || to.report->size >= sizeof(uint32_t), "a report without its size");
+    require(!to.report || to.report->size >= sizeof(VesperFrameReport), "a report without its size");
     return to;
 }
 
@@ -236,6 +234,7 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
         const VkExtent2D extent = extent_of(p.width, p.height);
         require(p.values && (p.channels == 3 || p.channels == 4), "a picture has values, of 3 or 4 channels");
         require(p.scale > 0 && std::isfinite(p.scale), "the scale of a picture is more than 0 cd/m^2");
+        require(p.vertical_fov > 0 && p.vertical_fov < 3.1f, "a picture covers 0 to 3.1 rad in height");
         const HostPicture host{.extent = extent, .values = {p.values, size_t{p.width} * p.height * p.channels}, .channels = p.channels, .scale = p.scale, .vertical_fov = double(p.vertical_fov)};
         const ToneMapped shown = mapper->mapper.map(settings_of(settings), host, seconds, wanted(to));
         mapper->eye = shown.eye;
@@ -256,6 +255,9 @@ VesperResult vesper_tone_mapper_set_eye(VesperToneMapper* mapper, const void* by
     return guarded(error, [&] {
         require(mapper && bytes, "no tone mapper, or nothing to remember");
         require(size == sizeof(shared::EyeState), "what an eye of another version remembers");
+        float values[sizeof(shared::EyeState) / sizeof(float)];
+        std::memcpy(values, bytes, size);
+        require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }), "no eye remembers that");
         std::memcpy(&mapper->eye, bytes, size);
         mapper->mapper.set_eye(mapper->eye);
     });

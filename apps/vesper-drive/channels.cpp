@@ -63,6 +63,17 @@ View channel_view(const ScreenChannel& c, const View& driver) {
     return view;
 }
 
+Frame looked_at(Wall& wall, const Channels& channels) {
+    double device = 0;
+    for (const Frame& channel : wall.channels)
+        for (const Timing& timing : channel.timings) device += timing.milliseconds;
+    Frame frame = std::move(wall.channels[channels.gaze]);
+    frame.curve = wall.shown.curve, frame.eye = wall.shown.eye, frame.histogram = wall.shown.histogram;
+    frame.timings = wall.shown.timings;
+    frame.timings.push_back({.pass = "channels", .milliseconds = device});
+    return frame;
+}
+
 Wall ChannelRenderer::render(Renderer& renderer, const Channels& channels, const RenderSettings& settings, const View& driver, const SceneFrame& frame,
                              float seconds, Outputs outputs) {
     Wall wall;

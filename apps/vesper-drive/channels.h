@@ -36,6 +36,9 @@ struct Wall {
     std::vector<Frame> channels;     ///< each with its lamps and times; luminance as it falls on the retina
 };
 
+/// The channel that is looked at, with the eye, curve and times of the whole: what is logged.
+Frame looked_at(Wall&, const Channels&);
+
 /// Renders channels one after the other, each with the light that its eye scatters, that of lamps in the other channels
 /// included; then adapts and shows them as one picture: one histogram, one eye, one tone curve.
 class ChannelRenderer {

@@ -44,7 +44,7 @@ void add_drive(CLI::App& program) {
     program.add_option("--log", a->log, "Write one row per frame to a CSV file: pose, eye, luminances, glare, times");
     program.add_option("--probe", a->probes, "Headless: X,Y, parts of the picture from its top left: a column of luminance in the log; may be given several times");
     program.add_option("--size,-s", a->size, "WIDTHxHEIGHT of pictures, px")->capture_default_str();
-    program.add_option("--channels", a->channels, "Headless: a file of views of the driver's eye, on screens side by side (docs/simulator.md)");
+    program.add_option("--channels", a->channels, "A file of views of the driver's eye, on screens side by side (docs/simulator.md)");
     program.add_option("--seed", a->seed, "Of everything that is drawn by lot")->capture_default_str();
     program.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     program.add_option("--window", a->window, "WIDTHxHEIGHT of the window, px")->capture_default_str();

@@ -112,15 +112,21 @@ Drive read_drive(const std::filesystem::path& file) {
     DriverInput input;
     for (const JsonValue& event : root.at("events").elements()) {
         event.allow_only({"step", "pose", "frame", "set", "restart"});
+        if (event.json().size() != (event.find("step") ? 2 : 1)) event.fail("is more than one step, frame, set or restart");
+        const auto happens = [&](const char* name) {
+            const auto found_event = event.find(name);
+            if (found_event && !(found_event->json().is_boolean() && found_event->json().get<bool>())) found_event->fail("must be true");
+            return found_event.has_value();
+        };
         if (const auto step = event.find("step")) {
             input = read_input(*step, input);
             const auto pose = event.at("pose").elements(4);
             drive.events.push_back({.kind = DriveEvent::Kind::Step, .input = input, .pose = {pose[0].number(), pose[1].number(), pose[2].number(), pose[3].number()}, .name = {}, .value = {}});
         } else if (const auto set = event.find("set")) {
             for (const auto& [name, value] : read_values(*set)) drive.events.push_back({.kind = DriveEvent::Kind::Set, .name = name, .value = value});
-        } else if (event.find("frame")) {
+        } else if (happens("frame")) {
             drive.events.push_back({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
-        } else if (event.find("restart")) {
+        } else if (happens("restart")) {
             drive.events.push_back({.kind = DriveEvent::Kind::Restart, .name = {}, .value = {}});
         } else {
             event.fail("is no step, frame, set or restart");

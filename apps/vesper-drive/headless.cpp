@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
+#include <filesystem>
 
 #include "arguments.h"
 #include "base/error.h"
@@ -36,14 +38,16 @@ std::vector<LogProbe> probes_of(const std::vector<std::string>& texts) {
 
 // Steps of time with frames at an even rate among them.
 std::vector<DriveEvent> evenly(const std::vector<DriveEvent>& events, double time_step, double fps) {
-    const auto stride = std::max<uint64_t>(1, uint64_t(std::lround(1 / (fps * time_step))));
     const DriveEvent frame{.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}};
     std::vector<DriveEvent> made{frame};
-    uint64_t steps = 0;
+    uint64_t steps = 0, frames = 1;
     for (const DriveEvent& event : events) {
         if (event.kind == DriveEvent::Kind::Frame) continue;
         made.push_back(event);
-        if (event.kind == DriveEvent::Kind::Step && ++steps % stride == 0) made.push_back(frame);
+        // The first step that has reached the frame's time; at most one frame a step.
+        if (event.kind != DriveEvent::Kind::Step || double(++steps) * time_step * fps < double(frames) - 1e-6) continue;
+        made.push_back(frame);
+        frames = std::max(frames + 1, uint64_t(double(steps) * time_step * fps + 1e-6) + 1);
     }
     return made;
 }
@@ -75,6 +79,9 @@ public:
             if (!film_ && !exr_ && !a.video.ends_with(".png")) throw Error("--video " + one_line(a.video) + ": .mp4, .png or .exr is expected");
             if (!film_) names_ = numbered_name("--video", a.video);
             if (!film_ && !names_) throw Error("--video " + one_line(a.video) + ": one file a frame needs a number in the name, such as %05d");
+            for (const std::string& file : {a.scene, a.replay, a.run, a.scenario, a.channels, a.record, a.log})
+                if (!file.empty()) others_.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(file)));
+            if (film_) check_free(a.video);
             Files files;
             files.writes("--video", film_ ? a.video : names_->at(0));
         }
@@ -91,6 +98,7 @@ public:
         const Display& display = session.settings().render().display;
         if (film_ && !video_) video_ = std::make_unique<Video>(arguments_.video, extent_.width, extent_.height, fps, display);
         if (video_) video_->add(shown.display);
+        if (names_) check_free(names_->at(index));
         if (names_ && !exr_) write_codes(names_->at(index), shown, display);
         if (names_ && exr_) write_exr(names_->at(index), extent_.width, extent_.height, shown.scene, header(session, shown, logged.lights));
         if (!log_.empty()) log_ += drive_log_row(index, session, view, logged, probes_);
@@ -101,6 +109,9 @@ public:
     }
 
 private:
+    void check_free(const std::string& file) const {
+        if (others_.contains(std::filesystem::weakly_canonical(std::filesystem::absolute(file)))) throw Error("--video " + one_line(file) + ": is read or written for something else");
+    }
     Header header(const Session& session, const ToneMapped& frame, uint32_t lights) const {
         Header made{{"vesper:version", VESPER_VERSION},
                     {"vesper:scene", session.scenery().scene().name},
@@ -117,6 +128,7 @@ private:
     std::vector<LogProbe> probes_;
     bool film_ = false, exr_ = false;
     std::optional<NumberedName> names_;
+    std::set<std::filesystem::path> others_;  // files that no frame may replace
     std::unique_ptr<Video> video_;
     std::string log_;
 };
@@ -124,13 +136,7 @@ private:
 // One picture of all channels; the log is of the one that is looked at.
 void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, double fps) {
     Wall wall = session.render(channels, outlet.outputs(session));
-    Frame& logged = wall.channels[channels.gaze];
-    double device = 0;
-    for (const Frame& channel : wall.channels)
-        for (const Timing& timing : channel.timings) device += timing.milliseconds;
-    logged.curve = wall.shown.curve, logged.eye = wall.shown.eye, logged.histogram = wall.shown.histogram;
-    logged.timings = wall.shown.timings;
-    logged.timings.push_back({.pass = "channels", .milliseconds = device});
+    const Frame logged = looked_at(wall, channels);
     outlet.take(index, session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), wall.shown, logged, fps);
 }
 
@@ -162,7 +168,7 @@ void run_headless(const DriveArguments& a) {
     }
     const bool own_frames = frames_in(events) > 0 && a.fps == 0;
     if (outlet.wanted() && !own_frames) events = evenly(events, options.time_step, a.fps > 0 ? a.fps : 30);
-    const double fps = rate_of(events, options.time_step);
+    const double fps = own_frames ? rate_of(events, options.time_step) : std::min(a.fps > 0 ? a.fps : 30, 1 / options.time_step);
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
 
     Device device({.select = a.device});

@@ -21,9 +21,9 @@ struct Moment {
     const Session& session;
     const Screen& screen;
     const Frame& frame;              ///< the last one that was rendered
-    const View& view;                ///< and what it was a view of
+    const View& view;                ///< of the channel under the mouse, or of all of it
     const Hands& hands;
-    std::optional<glm::uvec2> pixel; ///< of it, under the mouse
+    std::optional<glm::uvec2> pixel, view_pixel; ///< of the frame and of that view, under the mouse
     double shown_per_second = 0;     ///< pictures
     bool paused = false;
     std::string recording;           ///< file; empty: none

@@ -100,7 +100,7 @@ void Instruments::draw_probe(const Moment& now) {
             ImGui::Text("shown as about %.4g cd/m²", shown_luminance(frame.curve, operator_info(settings.tone_operator).form, here, settings.display));
             const Scene& scene = now.session.scenery().scene();
             const SceneFrame moment = now.session.scenery().frame(now.session.actors(), now.session.settings());
-            if (const auto point = surface_at(scene, moment, now.view, *now.pixel)) {
+            if (const auto point = now.view_pixel ? surface_at(scene, moment, now.view, *now.view_pixel) : std::nullopt) {
                 const double lamps = lamp_illuminance(scene, moment, *point);
                 const double ambient = moment.ambient ? luminance(moment.ambient->illuminance) : double(scene.ambient_illuminance);
                 ImGui::Text("illuminance %.4g lx: lamps %.4g, sky %.4g", lamps + ambient, lamps, ambient);

@@ -112,10 +112,16 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
     if (world.lanes.empty()) throw Error(one_line(roads.string()) + ": there is no lane to drive on");
     for (const Kerb& kerb : graph.kerbs()) world.barriers.push_back({{kerb.from.x, kerb.from.z}, {kerb.to.x, kerb.to.z}});
     world.driver_s = 3;
-    for (const Node& node : made.scene.nodes) {
+    for (Node& node : made.scene.nodes) {
+        // Lamps go by what they are; by day those of the road are off, and signals are not.
+        if (node.light != kNone) {
+            node.name = made.scene.lights[node.light].name;
+            if (node.name != "street lamp" && std::find(made.world.by_day.begin(), made.world.by_day.end(), node.name) == made.world.by_day.end()) made.world.by_day.push_back(node.name);
+        }
         if (node.name == "car_ego") world.driver_node = node.name;
         if (node.camera != kNone && made.scene.cameras[node.camera].name == "driver") made.world.camera = "driver";
     }
+    if (made.world.by_day.empty()) made.world.by_day = {"none"};
     if (run.empty())
         add_traffic(made);
     else

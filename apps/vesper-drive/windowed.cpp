@@ -49,9 +49,11 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
       screen_(window_, device_),
       screen_settings_{.vsync = vsync_of(a.vsync), .scaling = a.scaling == "whole" ? Scaling::Whole : Scaling::Fit},
       hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
+    if (!a.channels.empty()) channels_ = read_channels(a.channels);
     if (!a.replay.empty()) {
         replay_ = read_drive(a.replay);
         arguments_.scene = replay_->start.scene.string();
+        arguments_.run = replay_->start.run.string(), arguments_.scenario = replay_->start.scenario.string();
         replay_has_frames_ = std::any_of(replay_->events.begin(), replay_->events.end(), [](const DriveEvent& e) { return e.kind == DriveEvent::Kind::Frame; });
         if (!replay_->complete) say(a.replay + " breaks off; what there is of it is shown");
     }
@@ -74,7 +76,7 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
 }
 
 void WindowedDrive::open_session() {
-    SessionOptions options{.scene = arguments_.scene, .seed = arguments_.seed, .settings = arguments_.settings};
+    SessionOptions options{.scene = arguments_.scene, .run = arguments_.run, .scenario = arguments_.scenario, .seed = arguments_.seed, .settings = arguments_.settings};
     if (replay_) {
         options.seed = replay_->start.seed, options.time_step = replay_->start.time_step;
         options.settings = replay_->start.settings;
@@ -87,13 +89,15 @@ void WindowedDrive::open_session() {
 
 // A scene that cannot be used leaves everything as it is.
 void WindowedDrive::reload(const std::string& scene) {
+    const bool same = scene == arguments_.scene;  // then the run on it, too
     try {
-        auto made = std::make_unique<Session>(device_, SessionOptions{.scene = scene, .seed = arguments_.seed, .settings = session_->settings().values()});
+        auto made = std::make_unique<Session>(device_, SessionOptions{.scene = scene, .run = same ? arguments_.run : "", .scenario = same ? arguments_.scenario : "", .seed = arguments_.seed, .settings = session_->settings().values()});
         if (!recording_.empty()) session_->stop_recording();
         session_ = std::move(made);
     } catch (const Error& error) {
         return say(error.what(), true);
     }
+    if (!same) arguments_.run.clear(), arguments_.scenario.clear();
     arguments_.scene = scene;
     recording_.clear(), replay_.reset(), instruments_.forget();
     stale_ = true;
@@ -189,20 +193,43 @@ void WindowedDrive::render(bool moved) {
     const bool lacks = (outputs.scene && frame_.scene.empty()) || extent.width != rendered_.width || extent.height != rendered_.height;
     if (!moved && !stale_ && !lacks) return;
     view_ = session_->view(extent);
-    frame_ = session_->render(view_, outputs);
+    Wall wall;
+    if (channels_) {
+        wall = session_->render(*channels_, outputs);
+        frame_ = looked_at(wall, *channels_);
+    } else {
+        frame_ = session_->render(view_, outputs);
+    }
     rendered_ = extent, stale_ = false, ++frame_number_;
     instruments_.remember(*session_, frame_);
-    if (log_.is_open() && !(log_ << drive_log_row(logged_++, *session_, view_, frame_, {}) << std::flush)) {
+    if (log_.is_open() && !(log_ << drive_log_row(logged_++, *session_, channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_, frame_, {}) << std::flush)) {
         log_.close();
         say("--log " + arguments_.log + ": cannot be written any more", true);
     }
+    if (!channels_) return;
+    const std::vector<Timing> timings = std::move(frame_.timings);
+    static_cast<ToneMapped&>(frame_) = std::move(wall.shown);
+    frame_.timings = timings, columns_ = wall.columns;
+}
+
+// The view that a pixel of the frame belongs to, and its place there.
+std::pair<View, std::optional<glm::uvec2>> WindowedDrive::view_at(std::optional<glm::uvec2> pixel) const {
+    if (!channels_ || !pixel) return {view_, pixel};
+    for (size_t i = 0; i < columns_.size(); ++i) {
+        const ScreenChannel& screen = channels_->screens[i];
+        if (pixel->x >= columns_[i] && pixel->x < columns_[i] + screen.extent.width && pixel->y < screen.extent.height)
+            return {channel_view(screen, view_), *pixel - glm::uvec2(columns_[i], 0)};
+    }
+    return {view_, std::nullopt};
 }
 
 void WindowedDrive::present() {
     const Display& display = session_->settings().render().display;
     screen_.begin_instruments(instruments_.has_keyboard());
     const bool talks = Clock::now() < message_until_;
-    const Moment now{.session = *session_, .screen = screen_, .frame = frame_, .view = view_, .hands = hands_, .pixel = screen_.pixel_under_mouse(frame_.extent, screen_settings_.scaling),
+    const std::optional<glm::uvec2> pixel = screen_.pixel_under_mouse(frame_.extent, screen_settings_.scaling);
+    const auto [view, view_pixel] = view_at(pixel);
+    const Moment now{.session = *session_, .screen = screen_, .frame = frame_, .view = view, .hands = hands_, .pixel = pixel, .view_pixel = view_pixel,
                      .shown_per_second = pictures_per_second_, .paused = paused_, .recording = recording_, .message = talks ? message_ : "", .alarm = alarm_};
     const std::vector<Change> changes = instruments_.draw(now);
     const bool colours = instruments_.shows_false_colour() && display.bits == 8;

@@ -49,6 +49,7 @@ private:
     bool replay_to_next_frame();
     void render(bool moved);
     void present();
+    std::pair<View, std::optional<glm::uvec2>> view_at(std::optional<glm::uvec2> pixel) const;
     void say(const std::string& text, bool alarm = false);
     std::string title() const;
     VkExtent2D picture_extent() const;
@@ -73,6 +74,8 @@ private:
     VkExtent2D rendered_{};
     Frame frame_;
     View view_;
+    std::optional<Channels> channels_;
+    std::vector<uint32_t> columns_;  // where each begins in the frame
     uint64_t frame_number_ = 0;
     glm::dvec2 mouse_{0};
     std::string recording_, message_;

@@ -12,7 +12,8 @@ namespace {
 using glm::dvec2, glm::dvec3, glm::ivec2;
 
 constexpr int kTopTexels = 1100;   // at most so many texels of the top make the picture
-constexpr double kNodeStep = 0.14;  // tangents between two nodes, at most
+constexpr double kNodeStep = 0.14;  // tangents between two nodes, at most,
+constexpr int kMostNodes = 17;     // of a row or column: beyond 2.4 tangents across (100 degrees) steps grow, so that a fit takes seconds at most
 constexpr int kPhases = 8;        // places of the eye's axis within a texel of the top
 constexpr int kAzimuths = 12;
 constexpr int kNear = 3;          // texels of the top whose weights are fitted
@@ -403,7 +404,7 @@ ScatterFit fit_scatter(const EyeScatter& psf, const ImageAngles& image) {
     while (texels(fit.levels) > kTopTexels) ++fit.levels;
     // Odd, so that a symmetric picture has a node in its middle and needs only a quarter of them.
     const dvec2 span = image.high - image.low;
-    fit.nodes = 2 * ivec2(glm::ceil(span / (2 * kNodeStep))) + 1;
+    fit.nodes = ivec2(glm::min(2.0 * glm::ceil(span / (2 * kNodeStep)) + 1.0, dvec2(kMostNodes)));
     const Fits fits = fit_nodes(psf, image, fit.levels, fit.nodes);
     for (const std::vector<double>& at : fits.at) fit.kernels.insert(fit.kernels.end(), at.begin(), at.begin() + kTaps * fit.levels);
     fit.top = top_matrix(psf, fit, fits);

@@ -129,6 +129,17 @@ void read_strips(OpenDriveReader& reader, const XmlElement& surface, Road& road)
                      [](const SurfaceStrip& a, const SurfaceStrip& b) { return std::abs(a.id) < std::abs(b.id); });
 }
 
+// At the ends of every part and between.
+void check_heights(const OpenDriveReader& reader, const XmlElement& element, const Road& road) {
+    const std::vector<Cubic>& parts = road.elevation.parts;
+    for (size_t i = 0; i < parts.size(); ++i) {
+        const double end = i + 1 < parts.size() ? std::min(parts[i + 1].s, road.length) : road.length;
+        for (int k = 0; k <= 8; ++k)
+            if (const double z = parts[i].at(parts[i].s + std::max(0.0, end - parts[i].s) * k / 8); !(std::abs(z) <= reader.limits.height))
+                element.fail("road '" + road.id + "' is " + std::to_string(z) + " m high");
+    }
+}
+
 }  // namespace
 
 Profile profile_of(OpenDriveReader& reader, const XmlElement& element, std::string_view name, const char* s_name,
@@ -171,7 +182,7 @@ void read_plan(OpenDriveReader& reader, const XmlElement& element, Road& road) {
 
 void read_profiles(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     if (const auto holder = element.child("elevationProfile"))
-        road.elevation = profile_of(reader, *holder, "elevation", "s", 0);
+        road.elevation = profile_of(reader, *holder, "elevation", "s", 0), check_heights(reader, *holder, road);
     if (const auto holder = element.child("lateralProfile")) {
         road.superelevation = profile_of(reader, *holder, "superelevation", "s", 0);
         read_crossfall(reader, *holder, road);

@@ -161,24 +161,42 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     vesper_tone_mapper_destroy(nullptr), vesper_renderer_destroy(nullptr), vesper_scene_destroy(nullptr), vesper_device_close(nullptr);
 }
 
-// Fields are added at the end: a caller that knows fewer has the defaults of the rest.
-TEST_F(CInterface, OlderCallersHaveDefaults) {
+// Fields are added at the end: a caller that knows more may say so, one with less than the first version has made a mistake.
+TEST_F(CInterface, SizesAreOfTheFirstVersionAtLeast) {
     VesperToneMapper* mapper = nullptr;
     ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
     const std::vector<float> rgb = night(9, 9);
-    const VesperPicture picture = picture_of(rgb, 9, 9);
-    std::vector<uint8_t> old(4 * 81), now(4 * 81);
+    VesperPicture picture = picture_of(rgb, 9, 9);
+    std::vector<uint8_t> codes(4 * 81, 77);
     VesperToneSettings settings;
     vesper_tone_settings_defaults(&settings);
-    settings.tone_operator = VESPER_REINHARD;
+    VesperFrameReport report = VESPER_INIT(VesperFrameReport);
     VesperOutputs outputs = VESPER_INIT(VesperOutputs);
-    outputs.codes = now.data();
-    ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_OK);
-    settings.size = offsetof(VesperToneSettings, display_peak);
-    settings.display_peak = -5;
-    outputs.codes = old.data();
-    ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_OK) << error.message;
-    EXPECT_EQ(old, now);
+    outputs.codes = codes.data(), outputs.report = &report;
+    const auto result = [&] { return vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error); };
+    for (uint32_t* size : {&settings.size, &picture.size, &outputs.size, &report.size}) {
+        const uint32_t right = *size;
+        for (const uint32_t wrong : {0u, 6u, right - 1, 65537u}) {
+            if (size == &report.size && wrong > right) continue;
+            *size = wrong;
+            EXPECT_EQ(result(), VESPER_BAD_ARGUMENT) << wrong;
+            EXPECT_EQ(codes, std::vector<uint8_t>(4 * 81, 77));
+        }
+        *size = right;
+    }
+    settings.size += 8, report.size += 8;
+    EXPECT_EQ(result(), VESPER_OK) << error.message;
+    EXPECT_EQ(report.size, sizeof report);
+    vesper_tone_mapper_destroy(mapper);
+}
+
+TEST_F(CInterface, NoEyeRemembersAnything) {
+    VesperToneMapper* mapper = nullptr;
+    ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
+    for (const float poison : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()}) {
+        const std::vector<float> eye(vesper_eye_size() / sizeof(float), poison);
+        EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), vesper_eye_size(), &error), VESPER_BAD_ARGUMENT) << poison;
+    }
     vesper_tone_mapper_destroy(mapper);
 }
 

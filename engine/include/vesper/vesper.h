@@ -104,7 +104,7 @@ VESPER_API void vesper_tone_settings_defaults(VesperToneSettings *settings);
 
 /** What a frame brings besides its pixels. */
 typedef struct VesperFrameReport {
-    uint32_t size;
+    uint32_t size;        /**< comes back as what this library knows */
     float adaptation;     /**< luminance the eye adapts to, cd/m^2 */
     float log_average;    /**< of the luminance of the frame, cd/m^2 */
     uint64_t not_finite;  /**< pixels that are NaN or infinite: shown black */

@@ -13,8 +13,17 @@
 namespace vesper {
 namespace {
 
-const std::map<std::string, Glare> kGlares{{"none", Glare::None}, {"ldr", Glare::Ldr}, {"cie", Glare::Scatter}, {"spencer", Glare::Scatter}, {"ward", Glare::Scatter}, {"temporal", Glare::Scatter}};
-const std::map<std::string, ScatterSettings::Model> kScatters{{"cie", ScatterSettings::Model::Cie}, {"spencer", ScatterSettings::Model::Spencer}, {"ward", ScatterSettings::Model::Ward}, {"temporal", ScatterSettings::Model::Temporal}};
+struct NamedGlare {
+    const char* name;
+    Glare glare;
+    ScatterSettings::Model model = ScatterSettings::Model::Cie;
+};
+constexpr NamedGlare kGlares[]{{"none", Glare::None},
+                               {"cie", Glare::Scatter, ScatterSettings::Model::Cie},
+                               {"temporal", Glare::Scatter, ScatterSettings::Model::Temporal},
+                               {"spencer", Glare::Scatter, ScatterSettings::Model::Spencer},
+                               {"ward", Glare::Scatter, ScatterSettings::Model::Ward},
+                               {"ldr", Glare::Ldr}};
 const std::map<std::string, SpencerState> kPupils{{"photopic", SpencerState::Photopic}, {"mesopic", SpencerState::Mesopic}, {"scotopic", SpencerState::Scotopic}};
 
 Display display_of(const ToneArguments& arguments) {
@@ -35,7 +44,7 @@ Display display_of(const ToneArguments& arguments) {
 
 void add_tone_options(CLI::App& command, ToneArguments& a) {
     add_eye_options(command, a.eye, a.histogram, a.tone);
-    command.add_option("--glare", a.glare, "Light scattered in the eye: cie (CIE 135/1 total glare function), spencer (1995; needles and halo), ward (the veil of 1997), temporal (cie with needles and halo that move, after Ritschel 2009), all in cd/m^2 before the operator; ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember({"none", "ldr", "cie", "spencer", "ward", "temporal"}))->capture_default_str();
+    command.add_option("--glare", a.glare, "Light scattered in the eye: cie (CIE 135/1 total glare function), spencer (1995; needles and halo), ward (the veil of 1997), temporal (cie with needles and halo that move, after Ritschel 2009), all in cd/m^2 before the operator; ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember(glare_names()))->capture_default_str();
     command.add_option("--iris", a.iris, "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")->check(between(0.0, 1.5))->capture_default_str();
     command.add_option("--pupil", a.pupil, "spencer: of what size, for the eye's adaptation")->check(CLI::IsMember({"photopic", "mesopic", "scotopic"}))->capture_default_str();
     command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: whose eye: what needles it has, and when it moves")->check(CLI::Range(0u, 0xffffffffu))->capture_default_str();
@@ -59,8 +68,9 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
 
 ToneChainSettings tone_settings(const ToneArguments& arguments) {
     ToneChainSettings settings;
-    settings.glare = kGlares.at(arguments.glare);
-    settings.scatter = {settings.glare == Glare::Scatter ? kScatters.at(arguments.glare) : ScatterSettings::Model::Cie, {arguments.tone.observer.age, arguments.iris}, kPupils.at(arguments.pupil), {arguments.eye_seed, arguments.lashes}};
+    const NamedGlare& glare = *std::find_if(std::begin(kGlares), std::end(kGlares), [&](const NamedGlare& one) { return arguments.glare == one.name; });
+    settings.glare = glare.glare;
+    settings.scatter = {glare.model, {arguments.tone.observer.age, arguments.iris}, kPupils.at(arguments.pupil), {arguments.eye_seed, arguments.lashes}};
     settings.histogram = arguments.histogram;
     settings.tone = arguments.tone;
     apply(arguments.eye, settings);
@@ -74,8 +84,17 @@ ToneChainSettings tone_settings(const ToneArguments& arguments) {
     return settings;
 }
 
+const std::vector<std::string>& glare_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> made;
+        for (const NamedGlare& glare : kGlares) made.emplace_back(glare.name);
+        return made;
+    }();
+    return names;
+}
+
 std::string name_of(ScatterSettings::Model wanted) {
-    return std::find_if(kScatters.begin(), kScatters.end(), [&](const auto& named) { return named.second == wanted; })->first;
+    return std::find_if(std::begin(kGlares), std::end(kGlares), [&](const NamedGlare& one) { return one.glare == Glare::Scatter && one.model == wanted; })->name;
 }
 
 std::string name_of(Operator wanted) { return std::string(operator_info(wanted).name); }

@@ -31,6 +31,8 @@ ToneChainSettings tone_settings(const ToneArguments&);
 /// The name an operator has on the command line.
 std::string name_of(Operator);
 std::string name_of(ScatterSettings::Model);
+/// What --glare takes.
+const std::vector<std::string>& glare_names();
 /// What a picture's header should say of how it is shown.
 Header describe_tone(const ToneChainSettings&, const ToneMapped&);
 /// Nine digits, as in headers.

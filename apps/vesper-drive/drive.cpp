@@ -29,6 +29,13 @@ void check(DriveArguments& a) {
 
 }  // namespace
 
+DriveStart start_of(const DriveArguments& a, const std::optional<Drive>& replayed) {
+    if (!replayed) return {.scene = a.scene, .run = a.run, .scenario = a.scenario, .seed = a.seed, .settings = a.settings};
+    DriveStart start = replayed->start;
+    for (const auto& [name, value] : a.settings) start.settings[name] = value;
+    return start;
+}
+
 void add_drive(CLI::App& program) {
     const auto a = std::make_shared<DriveArguments>();
     program.add_option("scene", a->scene, "A world (.json, docs/simulator.md), roads (.xodr) or a photometric scene (.gltf, .glb); default: the street of data/rivoli");

@@ -1,11 +1,13 @@
 // The command line of vesper-drive. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "drive_file.h"
 #include "settings.h"
 
 namespace vesper {
@@ -29,6 +31,9 @@ struct DriveArguments {
 };
 
 void add_drive(CLI::App& program);
+
+/// How the drive begins that the command line asks for, or, of a recording, that one, with the settings given beside it.
+DriveStart start_of(const DriveArguments&, const std::optional<Drive>& replayed);
 
 /// Drives or replays without a window.
 void run_headless(const DriveArguments&);

@@ -23,10 +23,11 @@ struct DriveEvent {
 
 /// How a drive begins.
 struct DriveStart {
-    std::filesystem::path scene, run, scenario;  ///< as of SessionOptions
+    std::filesystem::path scene;          ///< a world (.json), roads (.xodr) or a scene (.gltf, .glb)
+    std::filesystem::path run, scenario;  ///< as of Scenery
     uint64_t seed = 1;
-    double time_step = 1.0 / 60;  ///< s
-    DriveSettings::Values settings;
+    double time_step = 1.0 / 60;          ///< s
+    DriveSettings::Values settings;       ///< what differs from the defaults
 };
 
 struct Drive {

@@ -153,15 +153,13 @@ void run_headless(const DriveArguments& a) {
     if (!a.channels.empty()) channels = read_channels(a.channels);
     const VkExtent2D extent = channels ? extent_of(*channels) : parse_size(a.size);
     Outlet outlet(a, extent);
-    SessionOptions options{.scene = a.scene, .run = a.run, .scenario = a.scenario, .seed = a.seed, .settings = a.settings};
+    std::optional<Drive> replayed;
+    if (!a.replay.empty()) replayed = read_drive(a.replay);
+    const DriveStart options = start_of(a, replayed);
     std::vector<DriveEvent> events;
-    if (!a.replay.empty()) {
-        const Drive drive = read_drive(a.replay);
-        if (!drive.complete) std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", a.replay.c_str());
-        options.scene = drive.start.scene, options.run = drive.start.run, options.scenario = drive.start.scenario, options.seed = drive.start.seed, options.time_step = drive.start.time_step;
-        options.settings = drive.start.settings;
-        for (const auto& [name, value] : a.settings) options.settings[name] = value;
-        events = drive.events;
+    if (replayed) {
+        if (!replayed->complete) std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", a.replay.c_str());
+        events = std::move(replayed->events);
     } else {
         DriverInput input{.autopilot = a.autopilot};
         events.assign(size_t(std::lround(a.seconds / options.time_step)), {.kind = DriveEvent::Kind::Step, .input = input, .name = {}, .value = {}});

@@ -1,6 +1,5 @@
 // Switches of the eye, the display and the lamps. SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "arguments.h"
@@ -44,7 +43,6 @@ private:
     std::vector<Change>& changes_;
 };
 
-const std::array<std::string, 4> kGlareNames{"none", "cie", "spencer", "ldr"};
 
 }  // namespace
 
@@ -61,7 +59,7 @@ void Instruments::draw_switches(const Moment& now, std::vector<Change>& changes)
         to.choice("operator", "operator", name_of(render.tone_operator), names);
         ImGui::TextWrapped("%s", std::string(operator_info(render.tone_operator).summary).c_str());
 
-        to.choice("glare", "glare", to.text("glare", "none"), kGlareNames);
+        to.choice("glare", "glare", to.text("glare", "none"), glare_names());
         if (render.glare == Glare::Scatter) to.slider("iris", "iris", float(render.scatter.eye.pigmentation), 0, 1.5f, "%.2f (0 dark, 1.2 light blue)");
 
         names.clear();

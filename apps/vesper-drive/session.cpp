@@ -1,10 +1,8 @@
 #include "session.h"
 
-#include "drive_file.h"
-
 namespace vesper {
 
-Session::Session(Device& device, SessionOptions options)
+Session::Session(Device& device, DriveStart options)
     : options_(std::move(options)),
       scenery_(options_.scene, options_.run, options_.scenario),
       settings_(options_.settings),
@@ -16,7 +14,11 @@ Session::Session(Device& device, SessionOptions options)
 
 Session::~Session() = default;
 
-DriveStart Session::start() const { return {options_.scene, options_.run, options_.scenario, options_.seed, options_.time_step, settings_.values()}; }
+DriveStart Session::start() const {
+    DriveStart now = options_;
+    now.settings = settings_.values();
+    return now;
+}
 
 void Session::step(const DriverInput& input) {
     input_ = input;

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "channels.h"
+#include "drive_file.h"
 #include "gpu/device.h"
 #include "settings.h"
 #include "simulation/world.h"
@@ -29,25 +30,14 @@
 
 namespace vesper {
 
-class DriveRecorder;
-struct DriveStart;
-
-struct SessionOptions {
-    std::filesystem::path scene;       ///< a world (.json), roads (.xodr) or a scene (.gltf, .glb)
-    std::filesystem::path run, scenario;  ///< as of Scenery
-    uint64_t seed = 1;
-    double time_step = 1.0 / 60;       ///< s
-    DriveSettings::Values settings;    ///< what differs from the defaults
-};
-
 class Session {
 public:
-    Session(Device&, SessionOptions);
+    Session(Device&, DriveStart);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    const SessionOptions& options() const { return options_; }
+    const DriveStart& options() const { return options_; }
     const Scenery& scenery() const { return scenery_; }
 
     // The world.
@@ -89,7 +79,7 @@ private:
     void begin_frame();
     void end_frame(const shared::EyeState&);
 
-    SessionOptions options_;
+    DriveStart options_;
     Scenery scenery_;
     DriveSettings settings_;
     std::unique_ptr<World> world_;

@@ -76,12 +76,7 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
 }
 
 void WindowedDrive::open_session() {
-    SessionOptions options{.scene = arguments_.scene, .run = arguments_.run, .scenario = arguments_.scenario, .seed = arguments_.seed, .settings = arguments_.settings};
-    if (replay_) {
-        options.seed = replay_->start.seed, options.time_step = replay_->start.time_step;
-        options.settings = replay_->start.settings;
-        for (const auto& [name, value] : arguments_.settings) options.settings[name] = value;
-    }
+    const DriveStart options = start_of(arguments_, replay_);
     if (!screen_.shows(DriveSettings(options.settings).render().display)) throw Error("--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
     session_ = std::make_unique<Session>(device_, options);
     for (const std::string& note : session_->scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
@@ -91,7 +86,7 @@ void WindowedDrive::open_session() {
 void WindowedDrive::reload(const std::string& scene) {
     const bool same = scene == arguments_.scene;  // then the run on it, too
     try {
-        auto made = std::make_unique<Session>(device_, SessionOptions{.scene = scene, .run = same ? arguments_.run : "", .scenario = same ? arguments_.scenario : "", .seed = arguments_.seed, .settings = session_->settings().values()});
+        auto made = std::make_unique<Session>(device_, DriveStart{.scene = scene, .run = same ? arguments_.run : "", .scenario = same ? arguments_.scenario : "", .seed = arguments_.seed, .settings = session_->settings().values()});
         if (!recording_.empty()) session_->stop_recording();
         session_ = std::move(made);
     } catch (const Error& error) {

@@ -126,7 +126,7 @@ void WindowedDrive::press_view(Action action) {
         case Action::CameraFree: change("camera", "free"); break;
         case Action::NextOperator: cycle("operator", names, 1); break;
         case Action::PreviousOperator: cycle("operator", names, -1); break;
-        case Action::NextGlare: cycle("glare", {"none", "cie", "temporal", "spencer", "ward", "ldr"}, 1); break;
+        case Action::NextGlare: cycle("glare", glare_names(), 1); break;
         case Action::NextDisplay: next_display(); break;
         case Action::OlderObserver: age(kAgeStep); break;
         case Action::YoungerObserver: age(-kAgeStep); break;

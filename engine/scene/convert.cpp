@@ -12,10 +12,6 @@
 #include "scene/photometry_parts.h"
 #include "scene/uri.h"
 
-#ifndef VESPER_VERSION
-#define VESPER_VERSION "0.1.0"
-#endif
-
 namespace vesper {
 namespace {
 

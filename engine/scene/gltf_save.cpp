@@ -14,10 +14,6 @@
 #include "scene/photometry_parts.h"
 #include "scene/reflection_json.h"
 
-#ifndef VESPER_VERSION
-#define VESPER_VERSION "0.1.0"
-#endif
-
 namespace vesper {
 namespace {
 

@@ -65,9 +65,9 @@ PyramidLevel pyramid_level(std::span<const Rgb> image, uint32_t width, uint32_t 
 
 /// Levels 1, 2, ... until one texel is left; one level for a single pixel.
 template <class Rgb>
-std::vector<PyramidLevel> pyramid(std::span<const Rgb> image, uint32_t width, uint32_t height) {
+std::vector<PyramidLevel> pyramid(std::span<const Rgb> image, uint32_t width, uint32_t height, double epsilon = 0) {
     std::vector<PyramidLevel> levels;
-    do levels.push_back(pyramid_level(image, width, height, uint32_t(levels.size()) + 1));
+    do levels.push_back(pyramid_level(image, width, height, uint32_t(levels.size()) + 1, epsilon));
     while (levels.back().width > 1 || levels.back().height > 1);
     return levels;
 }

@@ -23,16 +23,16 @@ std::vector<glm::vec4> night(VkExtent2D extent, uint32_t seed) {
     return pixels;
 }
 
-void expect_pyramid(const std::vector<glm::vec4>& pixels, VkExtent2D extent) {
+void expect_pyramid(const std::vector<glm::vec4>& pixels, VkExtent2D extent, float log_epsilon = 0) {
     PassRig rig;
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, extent, pixels);
-    const Pyramid pyramid = add_pyramid(graph, rig.kernels(), scene, extent);
+    const Pyramid pyramid = add_pyramid(graph, rig.kernels(), scene, extent, log_epsilon);
     std::vector<Resource> kept;
     for (Resource level : pyramid.levels) kept.push_back(keep<glm::vec4>(graph, level));
     rig.run(graph);
 
-    const auto want = reference::pyramid(std::span<const glm::vec4>(pixels), extent.width, extent.height);
+    const auto want = reference::pyramid(std::span<const glm::vec4>(pixels), extent.width, extent.height, double(log_epsilon));
     ASSERT_EQ(kept.size(), want.size());
     for (size_t k = 0; k < want.size(); ++k) {
         ASSERT_EQ(pyramid.extents[k].width, want[k].width);
@@ -80,6 +80,17 @@ TEST(Pyramid, CountsBlackAndNegativePixels) {
     for (size_t i = 0; i < pixels.size(); i += 4) pixels[i] = i % 8 ? glm::vec4(0) : glm::vec4(-2, -1, -3, 1);
     pixels[0] = pixels[1] = pixels[9] = pixels[10] = {-1, -1, -1, 1};  // a texel whose maximum is negative
     expect_pyramid(pixels, extent);
+}
+
+TEST(Pyramid, TakesLogarithmsOfAnyFloat) {
+    const VkExtent2D extent{23, 14};
+    std::vector<glm::vec4> pixels(23 * 14);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> decades(-37, 36);
+    for (glm::vec4& p : pixels) p = glm::vec4(std::pow(10.0f, decades(random)));
+    expect_pyramid(pixels, extent);
+    expect_pyramid(pixels, extent, 1e-6f);
+    expect_pyramid(pixels, extent, 1e-30f);
 }
 
 TEST(Pyramid, FovealTexelIsNearestToADegree) {

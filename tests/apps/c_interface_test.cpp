@@ -107,7 +107,7 @@ TEST_F(CInterface, WhatTheEyeRemembersCanBeKept) {
     EXPECT_EQ(show(bright, 0.05f), dazzled);
     EXPECT_NE(dazzled, settled);
     EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), 3, &error), VESPER_BAD_ARGUMENT);
-    vesper_tone_mapper_reset(mapper);
+    ASSERT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK);
     show(bright, 0);
     vesper_tone_mapper_destroy(mapper);
 }
@@ -144,6 +144,14 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     refuses([](auto&, auto& s, auto&, auto&) { s.tone_operator = 99; });
     refuses([](auto&, auto& s, auto&, auto&) { s.glare = 9; });
     refuses([](auto&, auto& s, auto&, auto&) { s.bins = 257; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.adapt_to = 5; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.pupil = 3; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.smoothing = -1; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.low_vision = 0; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.histogram_high = s.histogram_low; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.key = kNan; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.white = 1, s.black = 2; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.display_gamma = 0; });
     refuses([](auto&, auto& s, auto&, auto&) { s.age = kNan; });
     refuses([](auto&, auto& s, auto&, auto&) { s.gaze[1] = kNan; });
     refuses([](auto&, auto& s, auto&, auto&) { s.display_peak = -1; });
@@ -193,10 +201,18 @@ TEST_F(CInterface, SizesAreOfTheFirstVersionAtLeast) {
 TEST_F(CInterface, NoEyeRemembersAnything) {
     VesperToneMapper* mapper = nullptr;
     ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
-    for (const float poison : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()}) {
-        const std::vector<float> eye(vesper_eye_size() / sizeof(float), poison);
-        EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), vesper_eye_size(), &error), VESPER_BAD_ARGUMENT) << poison;
-    }
+    std::vector<unsigned char> eye(vesper_eye_size());
+    ASSERT_EQ(vesper_tone_mapper_eye(mapper, eye.data(), &error), VESPER_OK);
+    for (const float poison : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()})
+        for (const size_t place : {size_t(8), eye.size() - 4}) {
+            std::vector<unsigned char> bytes = eye;
+            std::memcpy(&bytes[place], &poison, sizeof poison);
+            EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, bytes.data(), bytes.size(), &error), VESPER_BAD_ARGUMENT) << poison << " at " << place;
+        }
+    EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size(), &error), VESPER_OK);
+    EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size() - 4, &error), VESPER_BAD_ARGUMENT);
+    eye[1] ^= 1;
+    EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size(), &error), VESPER_BAD_ARGUMENT) << "bytes of something else";
     vesper_tone_mapper_destroy(mapper);
 }
 

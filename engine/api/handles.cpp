@@ -119,6 +119,7 @@ shared::EyeState eye_of(const void* bytes, size_t size) {
     float values[sizeof kept.eye / sizeof(float)];
     std::memcpy(values, &kept.eye, sizeof values);
     require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }), "no eye remembers that");
+    require(kept.eye.steps >= 0 && kept.eye.steps <= float(shared::kMaxBins), "no eye remembers that");
     return kept.eye;
 }
 

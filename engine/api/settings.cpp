@@ -1,4 +1,6 @@
 // Settings of the tone chain as callers give them. SPDX-License-Identifier: MIT
+#include <cstring>
+
 #include "api/handles.h"
 #include "scene/display_file.h"
 
@@ -82,6 +84,9 @@ RenderSettings vesper::api::settings_of(const VesperToneSettings* given) {
     return settings;
 }
 
-void vesper_tone_settings_defaults(VesperToneSettings* settings) {
-    if (settings) *settings = default_settings();
+void vesper_tone_settings_defaults(VesperToneSettings* settings, size_t size) {
+    if (!settings || size < sizeof settings->size) return;
+    VesperToneSettings made = default_settings();
+    made.size = uint32_t(std::min(size, sizeof made));
+    std::memcpy(settings, &made, made.size);
 }

@@ -63,7 +63,7 @@ TEST_F(CInterface, MapsAsTheEngineDoes) {
         const std::vector<float> rgb = night(width, height);
         const VesperPicture picture = picture_of(rgb, width, height);
         VesperToneSettings settings;
-        vesper_tone_settings_defaults(&settings);
+        vesper_tone_settings_defaults(&settings, sizeof settings);
         settings.tone_operator = VESPER_WARD, settings.display_peak = 150, settings.bins = 64;
         std::vector<uint8_t> codes(4 * width * height);
         std::vector<float> light(4 * width * height);
@@ -120,7 +120,7 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     const auto refuses = [&](auto change) {
         VesperPicture picture = picture_of(rgb, 2, 2);
         VesperToneSettings settings;
-        vesper_tone_settings_defaults(&settings);
+        vesper_tone_settings_defaults(&settings, sizeof settings);
         VesperOutputs outputs = VESPER_INIT(VesperOutputs);
         outputs.codes = codes.data();
         float seconds = 0;
@@ -177,7 +177,7 @@ TEST_F(CInterface, SizesAreOfTheFirstVersionAtLeast) {
     VesperPicture picture = picture_of(rgb, 9, 9);
     std::vector<uint8_t> codes(4 * 81, 77);
     VesperToneSettings settings;
-    vesper_tone_settings_defaults(&settings);
+    vesper_tone_settings_defaults(&settings, sizeof settings);
     VesperFrameReport report = VESPER_INIT(VesperFrameReport);
     VesperOutputs outputs = VESPER_INIT(VesperOutputs);
     outputs.codes = codes.data(), outputs.report = &report;

@@ -30,7 +30,7 @@ protected:
         const VesperHostDevice lent = host.lent();
         ASSERT_EQ(vesper_device_borrow(&lent, &device, &error), VESPER_OK) << error.message;
         ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK) << error.message;
-        vesper_tone_settings_defaults(&settings);
+        vesper_tone_settings_defaults(&settings, sizeof settings);
     }
     void TearDown() override {
         vesper_tone_mapper_destroy(mapper);

@@ -5,28 +5,17 @@
 #include <cstdio>
 #include <memory>
 
+#include <vesper/vesper.hpp>
 #include <vesper/vulkan.h>
 
 #include "host.h"
+
+using namespace vesper::cpp;
 
 namespace {
 
 constexpr VkExtent2D kExtent{640, 400};
 constexpr unsigned kFrames = 6;
-
-void check(VesperResult result, const VesperError& error) {
-    if (result != VESPER_OK) throw std::runtime_error(error.message);
-}
-
-template <auto Destroy>
-struct Destroyer {
-    template <class T>
-    void operator()(T* object) const {
-        Destroy(object);
-    }
-};
-using Device = std::unique_ptr<VesperDevice, Destroyer<vesper_device_close>>;
-using Mapper = std::unique_ptr<VesperToneMapper, Destroyer<vesper_tone_mapper_destroy>>;
 
 // A night street as a renderer would leave it, in units of 100 cd/m^2: sky, road, and two rows of lamps that pass by.
 void draw_street(VkCommandBuffer commands, const Image& hdr, unsigned frame) {
@@ -75,8 +64,6 @@ void write_picture(const char* name, const std::vector<uint8_t>& rgba) {
 }
 
 void run(const Instance& instance, const char* out) {
-    VesperError error;
-
     // The host's device: what the host wants (timeline semaphores), and what Vesper needs.
     const VkPhysicalDevice physical = instance.first_device();
     const uint32_t family = graphics_family(physical);
@@ -84,7 +71,7 @@ void run(const Instance& instance, const char* out) {
     VkPhysicalDeviceVulkan12Features f12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &f13};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &f12, {}};
     f12.timelineSemaphore = VK_TRUE;
-    check(vesper_device_features(physical, &features, &error), error);
+    call(vesper_device_features, physical, &features);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue_info{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, family, 1, &priority};
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
@@ -101,28 +88,23 @@ void run(const Instance& instance, const char* out) {
     Image shown = host.make_image(VK_FORMAT_R8G8B8A8_SRGB, kExtent, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
 
     // Lent to Vesper.
-    VesperHostDevice lent = VESPER_INIT(VesperHostDevice);
+    auto lent = sized<VesperHostDevice>();
     lent.api_version = VK_API_VERSION_1_3;
     lent.instance = instance.get(), lent.physical_device = physical, lent.device = device, lent.created_with = &info;
     lent.queue = queue, lent.queue_family = family;
-    VesperDevice* borrowed = nullptr;
-    check(vesper_device_borrow(&lent, &borrowed, &error), error);
-    Device vesper(borrowed);
-    VesperToneMapper* made = nullptr;
-    check(vesper_tone_mapper_create(vesper.get(), &made, &error), error);
-    Mapper mapper(made);
+    Device device_of_vesper = make<Device>(vesper_device_borrow, &lent);
+    ToneMapper mapper = make<ToneMapper>(vesper_tone_mapper_create, device_of_vesper.get());
 
-    VesperImage from = VESPER_INIT(VesperImage);
+    auto from = sized<VesperImage>();
     from.image = hdr.image, from.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     from.width = kExtent.width, from.height = kExtent.height;
     from.layout_before = from.layout_after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     VesperImage to = from;
     to.image = shown.image, to.format = VK_FORMAT_R8G8B8A8_SRGB;
     to.layout_before = VK_IMAGE_LAYOUT_UNDEFINED, to.layout_after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    VesperImagePicture picture = VESPER_INIT(VesperImagePicture);
+    auto picture = sized<VesperImagePicture>();
     picture.image = &from, picture.scale = 100, picture.vertical_fov = 0.7f;
-    VesperToneSettings settings;
-    vesper_tone_settings_defaults(&settings);
+    VesperToneSettings settings = default_tone_settings();
     settings.glare = VESPER_GLARE_CIE;
 
     // Frames: the timeline is at 2 i + 1 when the host's part of frame i is done, and at 2 i + 2 when Vesper's is. On one queue that is not
@@ -134,17 +116,17 @@ void run(const Instance& instance, const char* out) {
         drawn.semaphore = host.timeline(), drawn.value = time, drawn.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         VkSemaphoreSubmitInfo mapped = drawn;
         mapped.value = ++time;
-        VesperHandover handover = VESPER_INIT(VesperHandover);
+        auto handover = sized<VesperHandover>();
         handover.wait_count = handover.signal_count = 1, handover.waits = &drawn, handover.signals = &mapped;
-        check(vesper_tone_map_image(mapper.get(), &settings, &picture, 1 / 60.0f, &to, &handover, &error), error);
+        call(vesper_tone_map_image, mapper.get(), &settings, &picture, 1 / 60.0f, &to, &handover);
     }
-    VesperFrameReport report = VESPER_INIT(VesperFrameReport);
-    check(vesper_tone_mapper_finish(mapper.get(), &report, &error), error);
-    std::printf("%u frames on %s: the eye is adapted to %.3g cd/m^2\n", kFrames, vesper_device_name(vesper.get()), report.adaptation);
+    auto report = sized<VesperFrameReport>();
+    call(vesper_tone_mapper_finish, mapper.get(), &report);
+    std::printf("%u frames on %s: the eye is adapted to %.3g cd/m^2\n", kFrames, vesper_device_name(device_of_vesper.get()), report.adaptation);
     write_picture(out, host.read(shown, kExtent, ++time));
 
     // Vesper goes, the host goes on.
-    mapper.reset(), vesper.reset();
+    mapper.reset(), device_of_vesper.reset();
     host.submit([&](VkCommandBuffer commands) { draw_street(commands, hdr, kFrames); }, ++time);
     host.wait(time);
     host.destroy(hdr), host.destroy(shown);

@@ -20,13 +20,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** Of every function: seen from outside of the shared library. */
-#if defined(VESPER_BUILDING_SHARED)
-#define VESPER_API __attribute__((visibility("default")))
-#else
-#define VESPER_API
-#endif
-
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -35,16 +28,16 @@ extern "C" {
  * Of the interface that this header describes (semantic versioning, docs/embedding.md).
  * @{ */
 #define VESPER_VERSION_MAJOR 0 /**< changes when something is taken away */
-#define VESPER_VERSION_MINOR 1 /**< changes when something is added; before 1.0 also when something is taken away */
+#define VESPER_VERSION_MINOR 1 /**< changes when something is added, and before 1.0 also when something is taken away */
 #define VESPER_VERSION_PATCH 0 /**< changes when something works better */
 /** @} */
 
 /** Major, minor and patch number of the library that is linked. */
-VESPER_API void vesper_version(uint32_t version[3]);
+void vesper_version(uint32_t version[3]);
 
 /** What came of a call. */
 typedef enum VesperResult {
-    VESPER_OK = 0,
+    VESPER_OK = 0,                   /**< it did what it says */
     VESPER_BAD_ARGUMENT = 1,         /**< a null pointer, a size or a number that cannot be */
     VESPER_FAILED = 2,               /**< a file, the device or a setting: see the message */
     VESPER_OUT_OF_MEMORY = 3,        /**< of the host */
@@ -79,11 +72,11 @@ typedef struct VesperDeviceOptions {
 } VesperDeviceOptions;
 
 /** Opens a Vulkan 1.3 device. `options` may be null. */
-VESPER_API VesperResult vesper_device_open(const VesperDeviceOptions *options, VesperDevice **device, VesperError *error);
+VesperResult vesper_device_open(const VesperDeviceOptions *options, VesperDevice **device, VesperError *error);
 /** Closes a device, of which nothing is left; one that was borrowed is only given back. */
-VESPER_API void vesper_device_close(VesperDevice *device);
+void vesper_device_close(VesperDevice *device);
 /** Valid until the device is closed. */
-VESPER_API const char *vesper_device_name(const VesperDevice *device);
+const char *vesper_device_name(const VesperDevice *device);
 
 /** @} */
 
@@ -104,7 +97,7 @@ typedef enum VesperOperator {
 
 /** Light scattered in the eye, before anything adapts to it (docs/glare.md). */
 typedef enum VesperGlare {
-    VESPER_GLARE_NONE = 0,
+    VESPER_GLARE_NONE = 0,     /**< none */
     VESPER_GLARE_CIE = 1,      /**< CIE total glare function (CIE 135/1, 1999) of an eye of `age` and `pigmentation` */
     VESPER_GLARE_LDR = 2,      /**< that of Petit, Bremond and Vienne, on the tone-mapped image */
     VESPER_GLARE_TEMPORAL = 3, /**< CIE, with needles and a halo that move, after Ritschel et al. 2009 */
@@ -114,9 +107,9 @@ typedef enum VesperGlare {
 
 /** The eye's state of adaptation, for VESPER_GLARE_SPENCER. */
 typedef enum VesperPupil {
-    VESPER_PUPIL_PHOTOPIC = 0,
-    VESPER_PUPIL_MESOPIC = 1,
-    VESPER_PUPIL_SCOTOPIC = 2
+    VESPER_PUPIL_PHOTOPIC = 0, /**< by day */
+    VESPER_PUPIL_MESOPIC = 1,  /**< at dusk, and on lit roads */
+    VESPER_PUPIL_SCOTOPIC = 2  /**< in the dark */
 } VesperPupil;
 
 /** What the eye adapts to. */
@@ -160,8 +153,8 @@ typedef struct VesperToneSettings {
     int32_t lashes;            /**< VESPER_GLARE_TEMPORAL: the eye squints (0 or 1) */
 } VesperToneSettings;
 
-/** What `vesper tonemap` does without options. */
-VESPER_API void vesper_tone_settings_defaults(VesperToneSettings *settings);
+/** What `vesper tonemap` does without options; `size` is that of the caller's structure. */
+void vesper_tone_settings_defaults(VesperToneSettings *settings, size_t size);
 
 /** What a frame brings besides its pixels. */
 typedef struct VesperFrameReport {
@@ -201,22 +194,22 @@ typedef struct VesperPicture {
 } VesperPicture;
 
 /** Makes a tone mapper: compiles its shaders. */
-VESPER_API VesperResult vesper_tone_mapper_create(VesperDevice *device, VesperToneMapper **mapper, VesperError *error);
+VesperResult vesper_tone_mapper_create(VesperDevice *device, VesperToneMapper **mapper, VesperError *error);
 /** Waits for what it still has to do, and destroys it. */
-VESPER_API void vesper_tone_mapper_destroy(VesperToneMapper *mapper);
+void vesper_tone_mapper_destroy(VesperToneMapper *mapper);
 /** Maps a picture in an array. `seconds` have passed since the last one: the eye adapts from each to the next, also when their size changes. */
-VESPER_API VesperResult vesper_tone_map(VesperToneMapper *mapper, const VesperToneSettings *settings, const VesperPicture *picture, float seconds,
-                                        const VesperOutputs *outputs, VesperError *error);
+VesperResult vesper_tone_map(VesperToneMapper *mapper, const VesperToneSettings *settings, const VesperPicture *picture, float seconds,
+                             const VesperOutputs *outputs, VesperError *error);
 /** Forgets what the eye was adapted to, as at a cut. */
-VESPER_API VesperResult vesper_tone_mapper_reset(VesperToneMapper *mapper, VesperError *error);
+VesperResult vesper_tone_mapper_reset(VesperToneMapper *mapper, VesperError *error);
 /** Waits for the picture that vesper_tone_map_image handed over last, and reports it; without one `report` is all zero. */
-VESPER_API VesperResult vesper_tone_mapper_finish(VesperToneMapper *mapper, VesperFrameReport *report, VesperError *error);
+VesperResult vesper_tone_mapper_finish(VesperToneMapper *mapper, VesperFrameReport *report, VesperError *error);
 /** Bytes of what the eye remembers. */
-VESPER_API size_t vesper_eye_size(void);
+size_t vesper_eye_size(void);
 /** What the eye remembers after the last picture, for which it waits: `bytes` of vesper_eye_size(), to be kept as they are, for the same version. */
-VESPER_API VesperResult vesper_tone_mapper_eye(VesperToneMapper *mapper, void *bytes, VesperError *error);
+VesperResult vesper_tone_mapper_eye(VesperToneMapper *mapper, void *bytes, VesperError *error);
 /** The next picture goes on from there. */
-VESPER_API VesperResult vesper_tone_mapper_set_eye(VesperToneMapper *mapper, const void *bytes, size_t size, VesperError *error);
+VesperResult vesper_tone_mapper_set_eye(VesperToneMapper *mapper, const void *bytes, size_t size, VesperError *error);
 
 /** @} */
 
@@ -229,15 +222,15 @@ VESPER_API VesperResult vesper_tone_mapper_set_eye(VesperToneMapper *mapper, con
 typedef struct VesperScene VesperScene;
 
 /** Makes a scene of nothing. */
-VESPER_API VesperResult vesper_scene_create(VesperScene **scene, VesperError *error);
+VesperResult vesper_scene_create(VesperScene **scene, VesperError *error);
 /** Reads a photometric scene (.gltf or .glb, as vesper convert writes them). */
-VESPER_API VesperResult vesper_scene_read(const char *file, VesperScene **scene, VesperError *error);
+VesperResult vesper_scene_read(const char *file, VesperScene **scene, VesperError *error);
 /** Destroys a scene that no renderer draws any more. */
-VESPER_API void vesper_scene_destroy(VesperScene *scene);
+void vesper_scene_destroy(VesperScene *scene);
 /** Nodes there are, those that were removed among them. */
-VESPER_API uint32_t vesper_scene_node_count(const VesperScene *scene);
+uint32_t vesper_scene_node_count(const VesperScene *scene);
 /** Valid until the scene changes; null where there is no such node. */
-VESPER_API const char *vesper_scene_node_name(const VesperScene *scene, uint32_t node);
+const char *vesper_scene_node_name(const VesperScene *scene, uint32_t node);
 
 /** A surface. Set all of it: zero is a black mirror. */
 typedef struct VesperMaterial {
@@ -253,7 +246,7 @@ typedef struct VesperMaterial {
 } VesperMaterial;
 
 /** Adds a material, of which everything is copied. */
-VESPER_API VesperResult vesper_scene_add_material(VesperScene *scene, const VesperMaterial *material, uint32_t *index, VesperError *error);
+VesperResult vesper_scene_add_material(VesperScene *scene, const VesperMaterial *material, uint32_t *index, VesperError *error);
 
 /** Triangles of one material. */
 typedef struct VesperMesh {
@@ -268,9 +261,9 @@ typedef struct VesperMesh {
 } VesperMesh;
 
 /** Adds a mesh, of which everything is copied. It is drawn where nodes have it. */
-VESPER_API VesperResult vesper_scene_add_mesh(VesperScene *scene, const VesperMesh *mesh, uint32_t *index, VesperError *error);
+VesperResult vesper_scene_add_mesh(VesperScene *scene, const VesperMesh *mesh, uint32_t *index, VesperError *error);
 /** Adds a node: with a mesh, or with VESPER_NONE to hang others on. `node_to_world`: 16 values, m; null: at the origin. */
-VESPER_API VesperResult vesper_scene_add_node(VesperScene *scene, const char *name, uint32_t mesh, const float *node_to_world, uint32_t *node, VesperError *error);
+VesperResult vesper_scene_add_node(VesperScene *scene, const char *name, uint32_t mesh, const float *node_to_world, uint32_t *node, VesperError *error);
 
 /** A lamp: a lobe of its own, or one that was measured. */
 typedef struct VesperLamp {
@@ -288,13 +281,13 @@ typedef struct VesperLamp {
 } VesperLamp;
 
 /** Adds a lamp, at a node of its own. */
-VESPER_API VesperResult vesper_scene_add_lamp(VesperScene *scene, const VesperLamp *lamp, uint32_t *node, VesperError *error);
+VesperResult vesper_scene_add_lamp(VesperScene *scene, const VesperLamp *lamp, uint32_t *node, VesperError *error);
 /** Hangs a node on an earlier one: it moves with that, and where it stands is meant in that one's frame from now on. */
-VESPER_API VesperResult vesper_scene_attach(VesperScene *scene, uint32_t node, uint32_t to, VesperError *error);
+VesperResult vesper_scene_attach(VesperScene *scene, uint32_t node, uint32_t to, VesperError *error);
 /** Takes what is at a node, and what hangs on it, out of the scene; a mesh that no node has then is freed. */
-VESPER_API VesperResult vesper_scene_remove(VesperScene *scene, uint32_t node, VesperError *error);
+VesperResult vesper_scene_remove(VesperScene *scene, uint32_t node, VesperError *error);
 /** Light that comes from no lamp: on any surface, RGB lx, and where nothing is drawn, RGB cd/m^2. */
-VESPER_API VesperResult vesper_scene_set_sky(VesperScene *scene, const float illuminance[3], const float luminance[3], VesperError *error);
+VesperResult vesper_scene_set_sky(VesperScene *scene, const float illuminance[3], const float luminance[3], VesperError *error);
 
 /** @} */
 
@@ -305,13 +298,13 @@ VESPER_API VesperResult vesper_scene_set_sky(VesperScene *scene, const float ill
 typedef struct VesperRenderer VesperRenderer;
 
 /** Takes what it needs of the scene to the device. The scene must outlive it. */
-VESPER_API VesperResult vesper_renderer_create(VesperDevice *device, const VesperScene *scene, VesperRenderer **renderer, VesperError *error);
+VesperResult vesper_renderer_create(VesperDevice *device, const VesperScene *scene, VesperRenderer **renderer, VesperError *error);
 /** Waits for what it still has to do, and destroys it. */
-VESPER_API void vesper_renderer_destroy(VesperRenderer *renderer);
+void vesper_renderer_destroy(VesperRenderer *renderer);
 /** Puts a node, and what hangs on it, somewhere else from now on: node frame to world, m. */
-VESPER_API VesperResult vesper_renderer_place(VesperRenderer *renderer, uint32_t node, const float node_to_world[16], VesperError *error);
+VesperResult vesper_renderer_place(VesperRenderer *renderer, uint32_t node, const float node_to_world[16], VesperError *error);
 /** The lamp at a node has its intensity times `factor` from now on; 0 switches it off. */
-VESPER_API VesperResult vesper_renderer_dim(VesperRenderer *renderer, uint32_t node, float factor, VesperError *error);
+VesperResult vesper_renderer_dim(VesperRenderer *renderer, uint32_t node, float factor, VesperError *error);
 
 /** Where the eye is. */
 typedef struct VesperView {
@@ -328,16 +321,16 @@ typedef struct VesperView {
 } VesperView;
 
 /** Renders into arrays. `seconds` have passed since the last frame, for the eye. */
-VESPER_API VesperResult vesper_render(VesperRenderer *renderer, const VesperToneSettings *settings, const VesperView *view, float seconds,
-                                      const VesperOutputs *outputs, VesperError *error);
+VesperResult vesper_render(VesperRenderer *renderer, const VesperToneSettings *settings, const VesperView *view, float seconds,
+                           const VesperOutputs *outputs, VesperError *error);
 /** Waits for the frame that vesper_render_image handed over last, and reports it; without one `report` is all zero. */
-VESPER_API VesperResult vesper_renderer_finish(VesperRenderer *renderer, VesperFrameReport *report, VesperError *error);
+VesperResult vesper_renderer_finish(VesperRenderer *renderer, VesperFrameReport *report, VesperError *error);
 /** Forgets what the eye was adapted to, as at a camera cut. */
-VESPER_API VesperResult vesper_renderer_reset(VesperRenderer *renderer, VesperError *error);
+VesperResult vesper_renderer_reset(VesperRenderer *renderer, VesperError *error);
 /** What the eye remembers after the last frame, for which it waits (vesper_tone_mapper_eye; either takes the other's). */
-VESPER_API VesperResult vesper_renderer_eye(VesperRenderer *renderer, void *bytes, VesperError *error);
+VesperResult vesper_renderer_eye(VesperRenderer *renderer, void *bytes, VesperError *error);
 /** The next frame goes on from there. */
-VESPER_API VesperResult vesper_renderer_set_eye(VesperRenderer *renderer, const void *bytes, size_t size, VesperError *error);
+VesperResult vesper_renderer_set_eye(VesperRenderer *renderer, const void *bytes, size_t size, VesperError *error);
 
 /** @} */
 

@@ -29,10 +29,10 @@ extern "C" {
  * @{ */
 
 /** Names of the device extensions that a device must be made with; they stay valid. Its instance is made for Vulkan 1.3. */
-VESPER_API const char *const *vesper_device_extensions(uint32_t *count);
+const char *const *vesper_device_extensions(uint32_t *count);
 /** Sets the features that a device must be made with, and leaves others as they are. The chain of `features` holds the structures of
  * Vulkan 1.2 and 1.3, or those of the extensions that became part of these. Fails where the device cannot do, and names all that it lacks. */
-VESPER_API VesperResult vesper_device_features(VkPhysicalDevice physical_device, VkPhysicalDeviceFeatures2 *features, VesperError *error);
+VesperResult vesper_device_features(VkPhysicalDevice physical_device, VkPhysicalDeviceFeatures2 *features, VesperError *error);
 
 /** A device that the host made. */
 typedef struct VesperHostDevice {
@@ -50,7 +50,7 @@ typedef struct VesperHostDevice {
 } VesperHostDevice;
 
 /** Borrows a device. Fails where it was made without something that Vesper needs, and names all of that. */
-VESPER_API VesperResult vesper_device_borrow(const VesperHostDevice *host, VesperDevice **device, VesperError *error);
+VesperResult vesper_device_borrow(const VesperHostDevice *host, VesperDevice **device, VesperError *error);
 
 /** @} */
 
@@ -89,11 +89,11 @@ typedef struct VesperImagePicture {
 /** As vesper_tone_map, from an image to an image of the same extent. Hands its work to the queue and returns; at most three pictures are on their
  * way at once. Waits only for the picture before where sizes or settings have changed, and with glare that moves (VESPER_GLARE_TEMPORAL, _SPENCER).
  * `handover` may be null. */
-VESPER_API VesperResult vesper_tone_map_image(VesperToneMapper *mapper, const VesperToneSettings *settings, const VesperImagePicture *picture, float seconds,
-                                              const VesperImage *shown, const VesperHandover *handover, VesperError *error);
+VesperResult vesper_tone_map_image(VesperToneMapper *mapper, const VesperToneSettings *settings, const VesperImagePicture *picture, float seconds,
+                                   const VesperImage *shown, const VesperHandover *handover, VesperError *error);
 /** As vesper_render, into an image of the view's extent; likewise. */
-VESPER_API VesperResult vesper_render_image(VesperRenderer *renderer, const VesperToneSettings *settings, const VesperView *view, float seconds,
-                                            const VesperImage *shown, const VesperHandover *handover, VesperError *error);
+VesperResult vesper_render_image(VesperRenderer *renderer, const VesperToneSettings *settings, const VesperView *view, float seconds,
+                                 const VesperImage *shown, const VesperHandover *handover, VesperError *error);
 
 /** @} */
 

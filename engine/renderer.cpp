@@ -96,6 +96,7 @@ void Renderer::submit(const RenderSettings& settings, const View& view, const Sc
     FrameGraph graph;
     pending.declared = declare(graph, settings, view, frame, lights, sources, given, outputs);
     const double declared_after = pending.watch.milliseconds();
+    pending_.reset();  // what the frame before left, and nobody read
     executor_.submit(graph, handover);
     eye_.submitted();
     plan_ = graph.describe(executor_.plan());

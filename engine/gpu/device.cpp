@@ -327,7 +327,12 @@ void Device::submit(const VkSubmitInfo2& work, VkFence fence, std::string_view w
     check(result, what);
 }
 
-void Device::wait(VkFence fence) const { check(vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX), "waiting for the device"); }
+void Device::wait(VkFence fence) const {
+    const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
+    // What was submitted uses what goes now. A lost device does nothing any more; a borrowed one has other queues, at which others may be.
+    if (waited != VK_SUCCESS && !borrowed_) vkDeviceWaitIdle(device_);
+    check(waited, "waiting for the device");
+}
 
 OwnedFence make_fence(const Device& device) {
     const VkFenceCreateInfo info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};

@@ -42,7 +42,8 @@ struct Executor::Past {
     OwnedImage images[2];
     OwnedImageView views[2];
     OwnedBuffer buffers[2];
-    int current = 0;  // the half the next frame writes
+    int current = 0;        // the half the next frame writes
+    bool forgotten = true;  // zero before the next frame
 
     Past(const Device& device, const Shape& s, uint32_t u) : shape(s), usage(u), arena(device) {
         for (int half : {0, 1}) {
@@ -55,10 +56,9 @@ struct Executor::Past {
                 arena.bind(buffers[half].get());
             }
         }
-        zero(device);
     }
 
-    void zero(const Device& device) const {
+    void zero(const Device& device) {
         device.run_once([&](VkCommandBuffer commands) {
             for (int half : {0, 1}) {
                 if (!shape.is_image()) {
@@ -80,6 +80,7 @@ struct Executor::Past {
                 vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1, &all);
             }
         });
+        forgotten = false;
     }
 };
 
@@ -136,15 +137,16 @@ void Executor::submit(const FrameGraph& graph, const Handover& handover) {
     plan_ = graph.compile(measure());
     enter_slot();
     place(graph);
+    realize_histories(graph);
     realize_uploads(graph);
     realize_externals(graph);
     realize_foreign_images(graph);
     realize_readbacks(graph);
-    realize_histories(graph);  // last: their halves change places, and nothing may fail after that
     host_times_.plan = watch.lap();
     record(graph, among_others);
     host_times_.record = watch.lap();
     slot_->submit(handover);
+    turn_histories(graph);
     host_times_.submit = watch.lap();
 }
 
@@ -219,18 +221,23 @@ void Executor::realize_histories(const FrameGraph& graph) {
         uint32_t usage = plan_.usage[i] | plan_.usage[info.partner];
         usage |= info.shape.is_image() ? uint32_t(VK_IMAGE_USAGE_TRANSFER_DST_BIT) : uint32_t(VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         auto& past = histories_[info.name];
-        if (!past || !(past->shape == info.shape) || past->usage != usage) {
-            finish();
-            past = std::make_unique<Past>(device_, info.shape, usage);
-        }
+        const bool fits = past && past->shape == info.shape && past->usage == usage;
+        if (!fits || past->forgotten) finish();  // what is under way uses it
+        if (!fits) past = std::make_unique<Past>(device_, info.shape, usage);
+        if (past->forgotten) past->zero(device_);
         for (const auto& [index, half] : {std::pair{i, past->current}, std::pair{info.partner, 1 - past->current}}) {
             Realized& r = resources_[index];
             r.image = past->images[half].get(), r.view = past->views[half].get();
             r.buffer = past->buffers[half].get(), r.offset = 0, r.bytes = info.shape.bytes;
             view_borrowed(r, info.shape.format, usage);
         }
-        past->current = 1 - past->current;
     }
+}
+
+// Only a frame that was submitted is the past of the next.
+void Executor::turn_histories(const FrameGraph& graph) {
+    for (uint32_t i = 0; i < graph.resources().size(); ++i)
+        if (graph.resources()[i].origin == FrameGraph::Origin::HistoryCurrent && plan_.usage[i]) histories_.at(graph.resources()[i].name)->current ^= 1;
 }
 
 void Executor::realize_uploads(const FrameGraph& graph) {
@@ -310,8 +317,7 @@ std::span<const std::byte> Executor::read(Resource readback) const {
 }
 
 void Executor::reset(const std::string& history) {
-    finish();
-    if (const auto found = histories_.find(history); found != histories_.end()) found->second->zero(device_);
+    if (const auto found = histories_.find(history); found != histories_.end() && found->second) found->second->forgotten = true;
 }
 
 uint64_t Executor::heap_bytes() const {

@@ -40,7 +40,8 @@ public:
 
     /// What the device's resources of a shape occupy.
     Measure measure() const;
-    /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error.
+    /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error; a frame that failed has left
+    /// histories as they were, and unless the device is lost the next can be run.
     void run(const FrameGraph& graph);
     /// Hands the frame to the queue, behind all that is there already, and returns. Waits where it is declared unlike the frame before, or where
     /// kFramesUnderWay are on their way.
@@ -59,7 +60,7 @@ public:
     const Plan& plan() const { return plan_; }                     ///< of the last frame
     const std::vector<Timing>& timings() const { return timings_; } ///< of the last frame; empty without timestamps
     const HostTimes& host_times() const { return host_times_; }    ///< of the last frame
-    /// Makes a history zero again, as after a camera cut. Unknown names are ignored.
+    /// Makes a history zero again for the next frame, as after a camera cut. Unknown names are ignored.
     void reset(const std::string& history);
     uint64_t heap_bytes() const;  ///< device memory behind transients, bytes
 
@@ -70,6 +71,7 @@ private:
 
     void enter_slot();
     void place(const FrameGraph& graph);
+    void turn_histories(const FrameGraph& graph);
     void view_borrowed(Realized& resource, VkFormat format, uint32_t usage);
     void realize_histories(const FrameGraph& graph);
     void realize_uploads(const FrameGraph& graph);

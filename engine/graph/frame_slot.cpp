@@ -40,7 +40,9 @@ void FrameSlot::submit(const Handover& handover) {
                              .pCommandBufferInfos = &submitted,
                              .signalSemaphoreInfoCount = uint32_t(handover.signal.size()),
                              .pSignalSemaphoreInfos = handover.signal.data()};
-    device.submit(work, fence.get(), "submitting a frame");
+    const VkFence done = fence.get();
+    check(vkResetFences(device.handle(), 1, &done), "submitting a frame");
+    device.submit(work, done, "submitting a frame");
     under_way = true;
 }
 
@@ -48,8 +50,6 @@ void FrameSlot::wait() {
     if (!under_way) return;
     under_way = false;  // whatever comes of it
     device.wait(fence.get());
-    const VkFence done = fence.get();
-    check(vkResetFences(device.handle(), 1, &done), "waiting for a frame");
     if (readbacks.bytes()) readbacks.invalidate();
 }
 

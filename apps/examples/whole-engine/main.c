@@ -78,7 +78,7 @@ int main(int count, char **arguments) {
     headlamp.inner_cone = 0.1f, headlamp.outer_cone = 0.4f;
     stop_if(vesper_scene_add_lamp(scene, &headlamp, &lamp, &error), &error);
     stop_if(vesper_scene_attach(scene, lamp, car, &error), &error);
-    const float ambient[3] = {0.5f, 0.5f, 0.6f}, sky[3] = {0.002f, 0.002f, 0.003f};
+    const float ambient[3] = {5, 5, 6}, sky[3] = {0.02f, 0.02f, 0.03f};
     stop_if(vesper_scene_set_sky(scene, ambient, sky, &error), &error);
     stop_if(vesper_renderer_create(device, scene, &renderer, &error), &error);
 

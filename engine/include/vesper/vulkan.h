@@ -4,9 +4,9 @@
  * The host makes the device as vesper_device_extensions and vesper_device_features say, and hands it over. Vesper calls the functions
  * of the Vulkan loader of the process (libvulkan.so.1), whichever way the host calls them (linked, or by volk).
  *
- * Rules. The host keeps everything it hands over alive until the VesperDevice is closed, and destroys it itself. The queue is used by
- * calls of vesper_tone_map*, vesper_render*, vesper_*_create, vesper_*_reset and the renderer's first frame after a change of its scene;
- * where other threads use it at the same time, lock_queue and unlock_queue keep them apart. Vesper never waits for the queue to be idle.
+ * Rules. The host keeps everything it hands over alive until what uses it is done (images, semaphores) or the VesperDevice is closed, and
+ * destroys it itself. The queue is used inside of vesper_tone_map*, vesper_render* and vesper_renderer_create; where other threads
+ * use it at the same time, lock_queue and unlock_queue keep them apart. Vesper never waits for the queue to be idle.
  *
  * Images of the host's are 2D; the first level of their first layer is used. They belong to the queue's family, or are shared by
  * families (VK_SHARING_MODE_CONCURRENT). What was handed to the same queue before a call is done before Vesper begins, and what is handed

@@ -2,34 +2,40 @@
 
 #include <optional>
 
-#include "base/stopwatch.h"
 #include "resident/retro.h"
 #include "resident/sky.h"
 
 namespace vesper {
+
 Renderer::Renderer(Device& device, const Scene& scene)
-    : kernels_(device),
-      resident_(device, scene),
-      lights_(placed_lights(scene)),
-      sources_(placed_sources(scene)),
-      maps_(light_maps(scene)),
-      map_arena_(device),
-      map_texels_(upload_texels(device, maps_.texels)),
-      ambient_{scene.ambient_illuminance * scene.ambient_colour, scene.sky_luminance * scene.sky_colour},
-      scatter_(device),
-      executor_(device) {
-    maps_.texels = std::vector<glm::vec4>();  // the device has them
+    : device_(device), kernels_(device), scene_(std::make_unique<Drawn>(device, scene)), eye_(device), executor_(device) {}
+
+Renderer::Drawn::Drawn(const Device& device, const Scene& scene)
+    : resident(device, scene),
+      lights(placed_lights(scene)),
+      sources(placed_sources(scene)),
+      maps(light_maps(scene)),
+      map_arena(device),
+      map_texels(upload(device, maps.texels)),
+      ambient{scene.ambient_illuminance * scene.ambient_colour, scene.sky_luminance * scene.sky_colour} {
+    maps.texels = std::vector<glm::vec4>();  // the device has them
     if (scene.environment) {
         const SkyMap map = make_sky_map(*scene.environment);
-        sky_sharp_side_ = map.sharp.side;
-        sky_ = upload_texels(device, sky_texels(map));
+        sky_sharp_side = map.sharp.side;
+        sky = upload(device, sky_texels(map));
     }
-    if (!scene.retroreflectors.empty()) retro_ = upload_texels(device, retro_texels(scene.retroreflectors));
+    if (!scene.retroreflectors.empty()) retro = upload(device, retro_texels(scene.retroreflectors));
 }
 
-Renderer::TexelBuffer Renderer::upload_texels(const Device& device, const std::vector<glm::vec4>& texels) {
+Renderer::TexelBuffer Renderer::Drawn::upload(const Device& device, const std::vector<glm::vec4>& texels) {
     const auto bytes = std::as_bytes(std::span(texels));
-    return {upload_buffer(device, map_arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT), bytes.size()};
+    return {upload_buffer(device, map_arena, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT), bytes.size()};
+}
+
+void Renderer::set_scene(const Scene& scene) {
+    auto drawn = std::make_unique<const Drawn>(device_, scene);
+    executor_.finish();  // what is under way uses the one that goes
+    scene_ = std::move(drawn);
 }
 
 Resource Renderer::TexelBuffer::in(FrameGraph& graph, const std::string& name) const {
@@ -37,27 +43,27 @@ Resource Renderer::TexelBuffer::in(FrameGraph& graph, const std::string& name) c
 }
 
 Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
-                                     const LightList& lights, const SourceList& sources, const ChainInputs& given, Outputs outputs) const {
+                                     const LightList& lights, const SourceList& sources, const ChainInputs& given, const Outputs& outputs) const {
     const bool ldr = settings.tone_operator == Operator::Ldr;
     ClusterSettings clustering = settings.clusters;
-    clustering.far = resident_.farthest_depth(frame, view.world_to_view);
+    clustering.far = scene_->resident.farthest_depth(frame, view.world_to_view);
     ShadeSettings shading{.all_lights = settings.all_lights};
     if (ldr || settings.paper_lambert) shading.lambert = 1;
-    const AmbientLight ambient = frame.ambient.value_or(ambient_);
+    const AmbientLight ambient = frame.ambient.value_or(scene_->ambient);
     if (ldr)
         shading.emission_limit = 1;
     else
         shading.ambient = frame.tunnels.empty() ? ambient.illuminance : glm::vec3(0), shading.sky = ambient.sky;
 
-    const GBuffer surfaces = add_gbuffer(graph, resident_, frame, view);
-    const MapTexels maps{map_texels_.in(graph, "maps"), maps_.roads.empty() ? 0 : maps_.roads.front(), !maps_.roads.empty()};
+    const GBuffer surfaces = add_gbuffer(graph, scene_->resident, frame, view);
+    const MapTexels maps{scene_->map_texels.in(graph, "maps"), scene_->maps.roads.empty() ? 0 : scene_->maps.roads.front(), !scene_->maps.roads.empty()};
     const Clusters clusters = add_clusters(graph, kernels_, lights, maps, view, clustering);
-    if (retro_ && !ldr) shading.retro = retro_.in(graph, "retroreflection");
+    if (scene_->retro && !ldr) shading.retro = scene_->retro.in(graph, "retroreflection");
     Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
     if (!frame.tunnels.empty() && !ldr) scene = add_daylight(graph, kernels_, surfaces, scene, frame.tunnels, view, ambient.illuminance, shading.lambert);
-    if (sky_ && !ldr) {
-        const Resource sky = sky_.in(graph, "sky map");
-        scene = add_sky(graph, kernels_, surfaces, scene, sky, sky_sharp_side_, view, shading.lambert);
+    if (scene_->sky && !ldr) {
+        const Resource sky = scene_->sky.in(graph, "sky map");
+        scene = add_sky(graph, kernels_, surfaces, scene, sky, scene_->sky_sharp_side, view, shading.lambert);
     }
     scene = add_sources(graph, kernels_, scene, surfaces.surface, sources, view);
     return {.chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs),
@@ -65,50 +71,60 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
             .far = clusters.push.far};
 }
 
-Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, Outputs outputs) {
-    const Stopwatch watch;
-    const bool ldr = settings.tone_operator == Operator::Ldr;
-    LightList lights = light_list(lights_, maps_, frame, view);
-    if (ldr) set_to_one(lights, settings.ldr_reference_distance);
-    SourceList sources = source_list(sources_, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
+Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs) {
+    submit(settings, view, frame, seconds, outputs, {});
+    return *finish();
+}
 
-    ChainInputs given{.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = {}};
+void Renderer::submit(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs, const Handover& handover) {
+    if (EyeKeeper::looks_back(settings)) finish();
+    Pending pending{};
+    const bool ldr = settings.tone_operator == Operator::Ldr;
+    LightList lights = light_list(scene_->lights, scene_->maps, frame, view);
+    if (ldr) set_to_one(lights, settings.ldr_reference_distance);
+    SourceList sources = source_list(scene_->sources, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
+
+    ToneChainSettings chain = settings;
+    if (ldr && chain.glare == Glare::Scatter) chain.glare = Glare::None;
+    ChainInputs given = eye_.inputs(executor_, chain, view, seconds);
     if (!ldr) {
-        const shared::EyeState& before = eye_ ? *eye_ : last_eye_;
-        if (settings.glare == Glare::Scatter) given.scatter = &scatter_.at(settings.scatter, view);
-        if (given.scatter && settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.adaptation), double(before.seconds + seconds));
         given.outside = settings.lamps_elsewhere;
         for (const GlareSource& source : sources.dazzling)
             if (source.inside < 1) given.outside.push_back({source.direction, (1 - source.inside) * source.illuminance});
     }
 
     FrameGraph graph;
-    const Declared declared = declare(graph, settings, view, frame, lights, sources, given, outputs);
-    const double declared_after = watch.milliseconds();
-    executor_.run(graph);
-    eye_.reset();
-    const double milliseconds = watch.milliseconds();
+    pending.declared = declare(graph, settings, view, frame, lights, sources, given, outputs);
+    const double declared_after = pending.watch.milliseconds();
+    pending_.reset();  // what the frame before left, and nobody read
+    executor_.submit(graph, handover);
+    eye_.submitted();
     plan_ = graph.describe(executor_.plan());
 
-    Frame result;
-    read_tone_chain(executor_, declared.chain, view.extent, result);
-    last_eye_ = result.eye;
+    Frame& result = pending.frame;
+    result.extent = view.extent;
+    result.host_times.declare = declared_after;
     if (given.corona) result.pupil = given.corona->pupil, result.pattern_milliseconds = given.corona->milliseconds;
-    result.clusters = read_one<shared::ClusterReport>(executor_, declared.clusters);
     result.lights = uint32_t(lights.lights.size());
     result.sources = uint32_t(sources.sources.size());
-    result.far = declared.far;
+    result.far = pending.declared.far;
     if (!ldr) result.glare_sources = std::move(sources.dazzling);
     result.outside = std::move(given.outside);
-    result.host_times.declare = declared_after;
-    result.milliseconds = milliseconds;
-    return result;
+    pending_ = std::move(pending);
 }
 
-void Renderer::reset_adaptation() {
-    executor_.reset(kEyeHistory);
-    eye_.reset();
-    last_eye_ = {};
+std::optional<Frame> Renderer::finish() {
+    executor_.finish();
+    if (!pending_) return std::nullopt;
+    Frame result = std::move(pending_->frame);
+    const double declared_after = result.host_times.declare;
+    result.milliseconds = pending_->watch.milliseconds();
+    read_tone_chain(executor_, pending_->declared.chain, result.extent, result);
+    result.host_times.declare = declared_after;
+    eye_.read(result.eye);
+    result.clusters = read_one<shared::ClusterReport>(executor_, pending_->declared.clusters);
+    pending_.reset();
+    return result;
 }
 
 }  // namespace vesper

@@ -1,10 +1,12 @@
 // The engine's face: a scene, a view and settings in, a picture in cd/m^2 and on the display out. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "resident/cameras.h"
 #include "resident/lights.h"
 #include "resident/resident_scene.h"
@@ -38,16 +40,23 @@ public:
 
     /// Renders the scene as `view` sees it, with everything at its pose of `frame`. `seconds` have passed since the last
     /// frame. Throws Error.
-    Frame render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, Outputs outputs);
+    Frame render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs);
+
+    /// The same, handed to the queue between semaphores of others, without waiting; best with Outputs::shown.
+    void submit(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs, const Handover& handover);
+    /// Waits for all of them, and gives what the last one left; nothing where there was none.
+    std::optional<Frame> finish();
+    /// Takes another scene, or the same after a change. The eye goes on.
+    void set_scene(const Scene& scene);
 
     /// The plan of the last frame as text.
     const std::string& plan() const { return plan_; }
     /// Forgets what the eye was adapted to, as at a camera cut.
-    void reset_adaptation();
+    void reset_adaptation() { eye_.reset(executor_); }
     /// The next frame goes on from this state, such as Frame::eye of an earlier run.
-    void set_eye(const shared::EyeState& eye) { eye_ = eye; }
-    const ResidentScene& scene() const { return resident_; }
-    uint64_t device_bytes() const { return resident_.bytes() + map_arena_.bytes() + executor_.heap_bytes(); }
+    void set_eye(const shared::EyeState& eye) { eye_.set(eye); }
+    const ResidentScene& scene() const { return scene_->resident; }
+    uint64_t device_bytes() const { return scene_->resident.bytes() + scene_->map_arena.bytes() + executor_.heap_bytes(); }
 
 private:
     /// The frame's resources that the host reads.
@@ -63,26 +72,37 @@ private:
         explicit operator bool() const { return bytes != 0; }
         Resource in(FrameGraph& graph, const std::string& name) const;
     };
-    TexelBuffer upload_texels(const Device& device, const std::vector<glm::vec4>& texels);
-    Declared declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
-                     const LightList& lights, const SourceList& sources, const ChainInputs& given, Outputs outputs) const;
+    /// What is kept of a scene.
+    struct Drawn {
+        ResidentScene resident;
+        std::vector<PlacedLight> lights;
+        SourceSet sources;
+        LightMaps maps;               // without its texels, which are uploaded
+        Arena map_arena;
+        TexelBuffer map_texels;
+        TexelBuffer sky, retro;       // without buffers where the scene has no picture of a sky, nothing retroreflective
+        uint32_t sky_sharp_side = 0;
+        AmbientLight ambient;         // of the scene
 
+        Drawn(const Device& device, const Scene& scene);
+        TexelBuffer upload(const Device& device, const std::vector<glm::vec4>& texels);
+    };
+    /// A frame that was handed to the queue.
+    struct Pending {
+        Stopwatch watch;
+        Frame frame;
+        Declared declared;
+    };
+    Declared declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
+                     const LightList& lights, const SourceList& sources, const ChainInputs& given, const Outputs& outputs) const;
+
+    const Device& device_;
     Kernels kernels_;
-    ResidentScene resident_;
-    std::vector<PlacedLight> lights_;
-    SourceSet sources_;
-    LightMaps maps_;              // without its texels, which are uploaded
-    Arena map_arena_;
-    TexelBuffer map_texels_;
-    TexelBuffer sky_, retro_;     // without buffers where the scene has no picture of a sky, nothing retroreflective
-    uint32_t sky_sharp_side_ = 0;
-    AmbientLight ambient_;        // of the scene
-    ScatterCache scatter_;
-    CoronaCache corona_;
-    Executor executor_;
-    std::optional<shared::EyeState> eye_;  // set for the next frame
-    shared::EyeState last_eye_{};          // what the last frame left
+    std::unique_ptr<const Drawn> scene_;
+    EyeKeeper eye_;
     std::string plan_;
+    Executor executor_;  // waits for its frames, which use the rest
+    std::optional<Pending> pending_;
 };
 
 }  // namespace vesper

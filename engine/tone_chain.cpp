@@ -51,8 +51,13 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     Resource glare;
     if (settings.glare == Glare::Ldr)
         glare = add_ldr_glare(graph, kernels, seen, adaptation.curve, tone, view, settings.display, settings.ldr_glare);
-    const CompositeInputs inputs{.scene = seen, .curve = adaptation.curve, .luminance_glare = {}, .ldr_glare = glare};
-    const Resource display = add_composite(graph, kernels, inputs, tone, view, settings.display, settings.ldr_glare.gain);
+    const auto shown = outputs.shown ? shown_format(outputs.shown->format) : std::nullopt;
+    if (outputs.shown && !shown) throw Error("codes cannot be shown in an image of Vulkan format " + std::to_string(outputs.shown->format));
+    Display screen = settings.display;
+    if (shown) screen.bits = shown->bits;
+    const CompositeInputs inputs{.scene = seen, .curve = adaptation.curve, .luminance_glare = {}, .ldr_glare = glare, .blue_first = shown && shown->blue_first};
+    const Resource display = add_composite(graph, kernels, inputs, tone, view, screen, settings.ldr_glare.gain);
+    if (shown) graph.copy("show", display, graph.target("shown", *outputs.shown));
 
     ToneChain chain{.display = {}, .scene = {}, .light = {},
                     .curve = bring_back(graph, "tone curve", adaptation.curve, sizeof(shared::ToneCurve)),
@@ -81,6 +86,41 @@ void read_tone_chain(const Executor& executor, const ToneChain& chain, VkExtent2
     to.foveal_level = chain.foveal_level;
     to.timings = executor.timings();
     to.host_times = executor.host_times();
+}
+
+std::optional<ShownFormat> shown_format(VkFormat format) {
+    switch (format) {
+        case VK_FORMAT_R8G8B8A8_UNORM:
+        case VK_FORMAT_R8G8B8A8_SRGB:
+        case VK_FORMAT_A8B8G8R8_UNORM_PACK32:
+        case VK_FORMAT_A8B8G8R8_SRGB_PACK32:
+            return ShownFormat{8, false};
+        case VK_FORMAT_B8G8R8A8_UNORM:
+        case VK_FORMAT_B8G8R8A8_SRGB:
+            return ShownFormat{8, true};
+        case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
+            return ShownFormat{10, false};
+        case VK_FORMAT_A2R10G10B10_UNORM_PACK32:
+            return ShownFormat{10, true};
+        default:
+            return std::nullopt;
+    }
+}
+
+ChainInputs EyeKeeper::inputs(Executor& executor, const ToneChainSettings& settings, const View& view, float seconds) {
+    ChainInputs given{.seconds = seconds, .remembered = given_ ? &*given_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = {}};
+    if (settings.glare != Glare::Scatter) return given;
+    if (!scatter_.has(settings.scatter, view)) executor.finish();  // what is under way uses the one that goes
+    given.scatter = &scatter_.at(settings.scatter, view);
+    const shared::EyeState& before = given_ ? *given_ : last_;
+    if (settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.adaptation), double(before.seconds + seconds));
+    return given;
+}
+
+void EyeKeeper::reset(Executor& executor) {
+    executor.reset(kEyeHistory);
+    given_.reset();
+    last_ = {};
 }
 
 }  // namespace vesper

@@ -34,7 +34,17 @@ struct Outputs {
     /// Only `scene`, but as it falls on the retina, with what the eye scatters; no eye adapts and nothing is shown. For several
     /// pictures of one eye.
     bool retina = false;
+    /// An image of somebody else's that gets the codes, too, in the order and with the bits that its format has (shown_format).
+    std::optional<ForeignImage> shown = {};
 };
+
+/// How codes lie in an image of a format.
+struct ShownFormat {
+    uint32_t bits;     ///< of a channel, 8 or 10
+    bool blue_first;   ///< blue in the lowest bits of a word
+};
+/// Of formats that codes can be copied to as they are: RGBA and BGRA of 8 bits, UNORM or SRGB, and of 10 bits. Nothing for others.
+std::optional<ShownFormat> shown_format(VkFormat);
 
 /// What the chain leaves for the host. Resources that were not asked for are none.
 struct ToneChain {
@@ -86,5 +96,29 @@ T read_one(const Executor& executor, Resource readback) {
 
 /// Takes what the chain left, except for the time on the host's clock.
 void read_tone_chain(const Executor&, const ToneChain&, VkExtent2D, ToneMapped& to);
+
+/// What the host keeps of an eye from frame to frame: its glare, and what it remembers in place of the device.
+class EyeKeeper {
+public:
+    explicit EyeKeeper(const Device& device) : scatter_(device) {}
+
+    /// What a frame of `view` brings, with light scattered if `settings` say so.
+    ChainInputs inputs(Executor&, const ToneChainSettings& settings, const View& view, float seconds);
+    /// Whether `settings` ask for what the frame before left, so that the host has to have read it.
+    static bool looks_back(const ToneChainSettings& settings) { return settings.glare == Glare::Scatter && settings.scatter.has_corona(); }
+    void submitted() { given_.reset(); }
+    void read(const shared::EyeState& eye) { last_ = eye; }
+
+    /// The next frame goes on from this state.
+    void set(const shared::EyeState& eye) { given_ = eye; }
+    /// The next frame is the first.
+    void reset(Executor&);
+
+private:
+    ScatterCache scatter_;
+    CoronaCache corona_;
+    std::optional<shared::EyeState> given_;  // for the next frame
+    shared::EyeState last_{};                // what the last frame left
+};
 
 }  // namespace vesper

@@ -2,11 +2,17 @@
 
 #include <numbers>
 
-#include "base/stopwatch.h"
-
 namespace vesper {
+namespace {
 
-ToneMapper::ToneMapper(Device& device) : device_(device), kernels_(device), executor_(device), scatter_(device) {}
+View view_of(VkExtent2D extent, double vertical_fov) {
+    if (!(vertical_fov > 0 && vertical_fov < std::numbers::pi)) throw Error("a picture covers more than 0 and less than 180 degrees in height");
+    return View::symmetric(extent, float(vertical_fov), glm::mat4(1));
+}
+
+}  // namespace
+
+ToneMapper::ToneMapper(Device& device) : device_(device), kernels_(device), eye_(device), executor_(device) {}
 
 ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture& picture, float seconds, Outputs outputs) {
     const Stopwatch watch;
@@ -14,8 +20,9 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
     const uint64_t pixels = uint64_t{width} * height, bytes = pixels * 4 * sizeof(float);
     if (pixels == 0 || (picture.channels != 3 && picture.channels != 4) || picture.values.size() != pixels * picture.channels)
         throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) + " px does not have " + std::to_string(picture.values.size()) + " values");
-    if (!(picture.vertical_fov > 0 && picture.vertical_fov < std::numbers::pi)) throw Error("a picture covers more than 0 and less than 180 degrees in height");
+    const View view = view_of(picture.extent, picture.vertical_fov);
 
+    finish();
     if (pixels_.bytes() < bytes) {
         pixels_ = {};  // before the next one takes its memory
         pixels_ = HostBuffer(device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
@@ -30,23 +37,46 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
     FrameGraph graph;
     const Resource scene = graph.transient("scene", image_shape(kSceneFormat, picture.extent));
     graph.copy("picture", graph.external("picture", pixels_.buffer(), bytes), scene);
-    const View view = View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1));
-    ChainInputs given{.seconds = seconds, .remembered = eye_ ? &*eye_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = picture.outside};
-    const shared::EyeState& before = eye_ ? *eye_ : last_eye_;
-    if (settings.glare == Glare::Scatter) given.scatter = &scatter_.at(settings.scatter, view);
-    if (given.scatter && settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.adaptation), double(before.seconds + seconds));
-    const ToneChain chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs);
-    const double declared_after = watch.milliseconds();
-    executor_.run(graph);
-    eye_.reset();
-    plan_ = graph.describe(executor_.plan());
+    submit(graph, scene, settings, view, seconds, picture.outside, outputs, {}, watch);
+    return *finish();
+}
 
-    ToneMapped result;
-    read_tone_chain(executor_, chain, picture.extent, result);
-    last_eye_ = result.eye;
-    if (given.corona) result.pupil = given.corona->pupil, result.pattern_milliseconds = given.corona->milliseconds;
+void ToneMapper::submit(const ToneChainSettings& settings, const DevicePicture& picture, const ForeignImage& shown, float seconds, const Handover& handover) {
+    const Stopwatch watch;
+    const View view = view_of(picture.image.extent, picture.vertical_fov);
+    FrameGraph graph;
+    const Resource scene = add_picture(graph, kernels_, graph.external("picture", picture.image), picture.image.extent, picture.scale);
+    submit(graph, scene, settings, view, seconds, {}, {.display = false, .shown = shown}, handover, watch);
+}
+
+void ToneMapper::submit(FrameGraph& graph, Resource scene, const ToneChainSettings& settings, const View& view, float seconds, const std::vector<OutsideLamp>& outside,
+                        const Outputs& outputs, const Handover& handover, Stopwatch watch) {
+    if (EyeKeeper::looks_back(settings)) finish();
+    ChainInputs given = eye_.inputs(executor_, settings, view, seconds);
+    given.outside = outside;
+    Pending pending{watch, {}, {}};
+    pending.chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs);
+    pending.result.extent = view.extent;
+    if (given.corona) pending.result.pupil = given.corona->pupil, pending.result.pattern_milliseconds = given.corona->milliseconds;
+    const double declared_after = watch.milliseconds();
+    pending_.reset();  // what the frame before left, and nobody read
+    executor_.submit(graph, handover);
+    eye_.submitted();
+    plan_ = graph.describe(executor_.plan());
+    pending_ = std::move(pending);
+    pending_->result.host_times.declare = declared_after;
+}
+
+std::optional<ToneMapped> ToneMapper::finish() {
+    executor_.finish();
+    if (!pending_) return std::nullopt;
+    ToneMapped result = std::move(pending_->result);
+    const double declared_after = result.host_times.declare;
+    read_tone_chain(executor_, pending_->chain, result.extent, result);
+    eye_.read(result.eye);
     result.host_times.declare = declared_after;
-    result.milliseconds = watch.milliseconds();
+    result.milliseconds = pending_->watch.milliseconds();
+    pending_.reset();
     return result;
 }
 

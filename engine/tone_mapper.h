@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "base/stopwatch.h"
 #include "gpu/memory.h"
 #include "tone_chain.h"
 
@@ -19,6 +20,13 @@ struct HostPicture {
     std::vector<OutsideLamp> outside = {};  ///< lamps that scatter light into it; the picture is seen along -z, y up
 };
 
+/// A picture on the device, in an image of somebody else's that can be sampled.
+struct DevicePicture {
+    ForeignImage image;             ///< RGB in linear Rec. 709, rows from the top
+    float scale = 1;                ///< cd/m^2 per unit
+    double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
+};
+
 /// Maps pictures of any size to the display, one after the other; the eye remembers from each to the next, also when the
 /// size changes. Not thread-safe; several may share a device in one thread.
 class ToneMapper {
@@ -28,27 +36,35 @@ public:
     /// `seconds` have passed since the last picture. NaN and infinities are shown black and counted. Throws Error.
     ToneMapped map(const ToneChainSettings&, const HostPicture&, float seconds, Outputs outputs = {});
 
+    /// The same for a picture on the device, shown in an image there: handed to the queue between semaphores of others, without waiting.
+    void submit(const ToneChainSettings&, const DevicePicture&, const ForeignImage& shown, float seconds, const Handover&);
+    /// Waits for all of them, and gives what the last one left; nothing where there was none.
+    std::optional<ToneMapped> finish();
+
     /// Forgets what the eye was adapted to, as between pictures that have nothing to do with each other.
-    void reset_adaptation() {
-        executor_.reset(kEyeHistory);
-        eye_.reset();
-        last_eye_ = {};
-    }
+    void reset_adaptation() { eye_.reset(executor_); }
     /// The next picture goes on from this state, such as ToneMapped::eye of an earlier run.
-    void set_eye(const shared::EyeState& eye) { eye_ = eye; }
+    void set_eye(const shared::EyeState& eye) { eye_.set(eye); }
     /// The plan of the last picture as text.
     const std::string& plan() const { return plan_; }
 
 private:
+    /// A picture that was handed to the queue.
+    struct Pending {
+        Stopwatch watch;
+        ToneMapped result;
+        ToneChain chain;
+    };
+    void submit(FrameGraph&, Resource scene, const ToneChainSettings&, const View&, float seconds, const std::vector<OutsideLamp>&, const Outputs&, const Handover&,
+                Stopwatch);
+
     Device& device_;
     Kernels kernels_;
-    Executor executor_;
     HostBuffer pixels_;
-    ScatterCache scatter_;
-    CoronaCache corona_;
-    std::optional<shared::EyeState> eye_;  // set for the next picture
-    shared::EyeState last_eye_{};          // what the last picture left
+    EyeKeeper eye_;
     std::string plan_;
+    Executor executor_;  // waits for its frames, which use the rest
+    std::optional<Pending> pending_;
 };
 
 }  // namespace vesper

@@ -8,6 +8,8 @@
 #include "encode.glsl"
 #include "show.glsl"
 
+layout(constant_id = 5) const uint kBlueFirst = 0u;  // codes begin with blue
+
 layout(binding = 4) uniform samplerBuffer cells;
 layout(binding = 5, r32ui) writeonly uniform uimage2D display_image;
 
@@ -18,7 +20,7 @@ void main() {
         const vec3 rgb = perceived(tone, scene_light(at));
         vec3 light = displayed(curve, tone, rgb, of_the_display(rgb), push.display_low, push.display_high);
         if (kLdrGlare != 0u) light = clamp(light + of_the_display(glare_light(at)), 0.0, 1.0);
-        const uint codes = codes_of(cells, push.encode, light);
+        const uint codes = codes_of(cells, push.encode, kBlueFirst == 0u ? light : light.bgr);
         if (all(lessThan(at, push.size))) imageStore(display_image, ivec2(at), uvec4(codes));
     }
 }

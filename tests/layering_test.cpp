@@ -36,6 +36,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"graph", {"base", "gpu"}},
     {"resident", {"base", "photometry", "perception", "scene", "gpu", "glsl"}},
     {"passes", {"base", "photometry", "perception", "scene", "gpu", "graph", "resident", "glsl"}},
+    {"api", {"", "base", "io", "photometry", "perception", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
     {"", {"base", "io", "photometry", "perception", "scene", "roads", "gpu", "graph", "resident", "passes", "glsl"}},
 };
 

@@ -26,7 +26,10 @@ class ToneSettings(Sized):
     _fields_ = [("size", c.c_uint32), ("tone_operator", c.c_uint32), ("glare", c.c_uint32), ("bins", c.c_uint32), ("age", c.c_float),
                 ("pigmentation", c.c_float), ("gaze", c.c_float * 2), ("colour_loss", c.c_int32), ("acuity_loss", c.c_int32),
                 ("purkinje", c.c_int32), ("display", c.c_char_p), ("display_peak", c.c_float), ("display_black", c.c_float),
-                ("display_ambient", c.c_float)]
+                ("display_ambient", c.c_float), ("display_gamma", c.c_float), ("display_reflection", c.c_float), ("adapt_to", c.c_uint32),
+                ("smoothing", c.c_float), ("low_vision", c.c_float), ("rods", c.c_int32), ("histogram_low", c.c_float),
+                ("histogram_high", c.c_float), ("key", c.c_float), ("white", c.c_float), ("black", c.c_float), ("pupil", c.c_uint32),
+                ("eye_seed", c.c_uint32), ("lashes", c.c_int32)]
 
 
 class Picture(Sized):
@@ -63,7 +66,7 @@ class ToneMapper:
         height, width, channels = values.shape
         codes = np.empty((height, width, 4), np.uint8)
         tone = ToneSettings()
-        self.calls.vesper_tone_settings_defaults(c.byref(tone))
+        self.calls.vesper_tone_settings_defaults(c.byref(tone), c.c_size_t(c.sizeof(tone)))
         tone.tone_operator = OPERATORS.index(operator)
         for name, value in settings.items():
             setattr(tone, name, value)

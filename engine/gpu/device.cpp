@@ -6,6 +6,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <span>
+
+#include "gpu/requirements.h"
 
 namespace vesper {
 namespace {
@@ -30,14 +33,6 @@ std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
     return devices;
 }
 
-bool has_extension(VkPhysicalDevice device, const char* name) {
-    uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> all(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, all.data());
-    return std::any_of(all.begin(), all.end(), [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
-}
-
 bool has_instance_extension(const char* name) {
     uint32_t count = 0;
     vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
@@ -50,36 +45,15 @@ bool has_instance_extension(const char* name) {
 std::optional<uint32_t> graphics_queue_family(VkPhysicalDevice device, const std::function<bool(uint32_t)>& also = {}) {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     for (uint32_t i = 0; i < count; ++i)
-        if ((families[i].queueFlags & wanted) == wanted && (!also || also(i))) return i;
+        if (is_queue_family(device, i) && (!also || also(i))) return i;
     return std::nullopt;
 }
 
 /// Why the engine cannot run on a device; empty if it can.
 std::string missing(VkPhysicalDevice device) {
-    VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(device, &properties);
-    if (properties.apiVersion < VK_API_VERSION_1_3) return "no Vulkan 1.3";
-    VkPhysicalDeviceVulkan13Features f13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    VkPhysicalDeviceVulkan12Features f12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &f13};
-    VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &f12};
-    vkGetPhysicalDeviceFeatures2(device, &features);
-    if (!features.features.independentBlend) return "no independentBlend";
-    if (!f13.dynamicRendering) return "no dynamicRendering";
-    if (!f13.synchronization2) return "no synchronization2";
-    if (!f13.maintenance4) return "no maintenance4";
-    if (!f12.scalarBlockLayout) return "no scalarBlockLayout";
-    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
-    VkPhysicalDeviceProperties2 more{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
-    vkGetPhysicalDeviceProperties2(device, &more);
-    if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) || !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT))
-        return "no subgroup votes in compute shaders";
-    if (!has_extension(device, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME)) return "no VK_KHR_push_descriptor";
-    if (!graphics_queue_family(device)) return "no queue for graphics and compute";
-    return {};
+    const std::string names = missing_support(device);
+    return names.empty() ? "" : "no " + names;
 }
 
 int rank(VkPhysicalDeviceType type) {
@@ -145,7 +119,11 @@ std::string text_of(VkResult result) {
 }  // namespace
 
 void check(VkResult result, std::string_view what) {
-    if (result != VK_SUCCESS) throw Error(std::string(what) + ": " + text_of(result));
+    if (result == VK_SUCCESS) return;
+    const std::string message = std::string(what) + ": " + text_of(result);
+    if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(message);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) throw OutOfDeviceMemory(message);
+    throw Error(message);
 }
 
 std::vector<std::string> list_devices() {
@@ -174,9 +152,24 @@ Device::Device(const DeviceOptions& options) : on_message_(options.on_message), 
     }
 }
 
+Device::Device(const BorrowedDevice& given)
+    : borrowed_(true), instance_(given.instance), physical_(given.physical), device_(given.device), queue_(given.queue), queue_family_(given.queue_family),
+      lock_(given.lock), unlock_(given.unlock) {
+    vkGetPhysicalDeviceProperties(physical_, &properties_);
+    std::string reason = missing_support(physical_);
+    if (reason.empty()) reason = missing_of(*given.created_with, given.version);
+    if (!reason.empty()) throw Error(name() + ", as it was made, has no " + reason);
+    const std::span<const VkDeviceQueueCreateInfo> queues(given.created_with->pQueueCreateInfos, given.created_with->queueCreateInfoCount);
+    if (!is_queue_family(physical_, queue_family_) ||
+        std::none_of(queues.begin(), queues.end(), [&](const VkDeviceQueueCreateInfo& q) { return q.queueFamilyIndex == queue_family_; }))
+        throw Error(name() + ", as it was made, has no queue for graphics and compute of family " + std::to_string(queue_family_));
+    learn(filters_along(*given.created_with));
+}
+
 Device::~Device() { close(); }
 
 void Device::close() noexcept {
+    if (borrowed_) return;
     if (device_) vkDestroyDevice(device_, nullptr);
     if (messenger_)
         if (const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
@@ -247,36 +240,31 @@ void Device::choose(const std::string& select) {
     if (!physical_) throw Error("no usable Vulkan device: " + refused);
 }
 
-void Device::open_device() {
+void Device::learn(bool filters_along) {
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
     vkGetPhysicalDeviceProperties2(physical_, &properties);
     driver_ = std::string(driver.driverName) + " " + driver.driverInfo;
-    queue_family_ = *queue_family(physical_);
     has_timestamps_ = properties_.limits.timestampComputeAndGraphics;
-
-    VkPhysicalDeviceFeatures available;
-    vkGetPhysicalDeviceFeatures(physical_, &available);
     // Filtering along eight samples costs a CPU device 130 ms a frame; it goes without.
-    has_anisotropy_ = available.samplerAnisotropy && !is_cpu();
+    has_anisotropy_ = filters_along && !is_cpu();
+    push_descriptors =
+        reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(vkGetDeviceProcAddr(device_, "vkCmdPushDescriptorSetKHR"));
+}
 
+void Device::open_device() {
+    queue_family_ = *queue_family(physical_);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = queue_family_,
                                         .queueCount = 1,
                                         .pQueuePriorities = &priority};
-    VkPhysicalDeviceVulkan13Features f13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
-                                         .synchronization2 = VK_TRUE,
-                                         .dynamicRendering = VK_TRUE,
-                                         .maintenance4 = VK_TRUE};
-    VkPhysicalDeviceVulkan12Features f12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
-                                         .pNext = &f13,
-                                         .scalarBlockLayout = VK_TRUE};
-    const VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
-                                             .pNext = &f12,
-                                             .features = {.independentBlend = VK_TRUE, .samplerAnisotropy = has_anisotropy_}};
-    std::vector<const char*> extensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    VkPhysicalDeviceVulkan13Features f13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features f12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &f13};
+    VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &f12};
+    enable_features(physical_, features);
+    std::vector<const char*> extensions(kDeviceExtensions.begin(), kDeviceExtensions.end());
     if (presentation_) {
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
         has_hdr_metadata_ = has_extension(physical_, VK_EXT_HDR_METADATA_EXTENSION_NAME);
@@ -290,8 +278,7 @@ void Device::open_device() {
                                   .ppEnabledExtensionNames = extensions.data()};
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "opening " + name());
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
-    push_descriptors =
-        reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(vkGetDeviceProcAddr(device_, "vkCmdPushDescriptorSetKHR"));
+    learn(features.features.samplerAnisotropy);
 }
 
 uint32_t Device::memory_type(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const {
@@ -328,8 +315,30 @@ void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const 
     const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
                                .commandBufferInfoCount = 1,
                                .pCommandBufferInfos = &submitted};
-    check(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "submitting");
-    check(vkQueueWaitIdle(queue_), "waiting for the device");
+    const OwnedFence done = make_fence(*this);
+    this->submit(submit, done.get(), "submitting");
+    wait(done.get());
+}
+
+void Device::submit(const VkSubmitInfo2& work, VkFence fence, std::string_view what) const {
+    if (lock_) lock_();
+    const VkResult result = vkQueueSubmit2(queue_, 1, &work, fence);
+    if (unlock_) unlock_();
+    check(result, what);
+}
+
+void Device::wait(VkFence fence) const {
+    const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
+    // What was submitted uses what goes now. A lost device does nothing any more; a borrowed one has other queues, at which others may be.
+    if (waited != VK_SUCCESS && !borrowed_) vkDeviceWaitIdle(device_);
+    check(waited, "waiting for the device");
+}
+
+OwnedFence make_fence(const Device& device) {
+    const VkFenceCreateInfo info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkFence fence = VK_NULL_HANDLE;
+    check(vkCreateFence(device.handle(), &info, nullptr, &fence), "making a fence");
+    return {device.handle(), fence};
 }
 
 }  // namespace vesper

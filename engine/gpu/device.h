@@ -15,7 +15,16 @@
 
 namespace vesper {
 
-/// Throws Error("<what>: <result>") unless the result is VK_SUCCESS.
+/// The device is gone, and all that was made on it.
+struct DeviceLost : Error {
+    using Error::Error;
+};
+/// There is no more memory of the device; nothing else is wrong with it.
+struct OutOfDeviceMemory : Error {
+    using Error::Error;
+};
+
+/// Throws Error("<what>: <result>"), or one of the two above, unless the result is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 
 /// Sole owner of a Vulkan object that is destroyed through its device.
@@ -54,6 +63,18 @@ struct DeviceOptions {
     std::optional<Presentation> presentation;  ///< for windows (window/swapchain.h); a device that shows none needs none
 };
 
+/// A device that somebody else made, goes on using, and destroys.
+struct BorrowedDevice {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    uint32_t queue_family = 0;
+    uint32_t version = 0;                              ///< of the instance, VkApplicationInfo::apiVersion
+    const VkDeviceCreateInfo* created_with = nullptr;  ///< what vkCreateDevice was given; not kept
+    std::function<void()> lock, unlock;                ///< around every use of the queue; may be none
+};
+
 /// What a device has been asked for since it was opened.
 struct DeviceUse {
     uint64_t bytes = 0, peak_bytes = 0;  ///< of its memory: allocated now, and at most at any time
@@ -69,6 +90,8 @@ class Device {
 public:
     /// Throws Error with the reason for every device refused, or with what to install where there is none.
     explicit Device(const DeviceOptions& options = {});
+    /// Uses a device, and destroys nothing of it. Throws Error naming all that it was made without.
+    explicit Device(const BorrowedDevice& given);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -95,10 +118,14 @@ public:
 
     /// Records and runs commands, and waits for them.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
+    /// Hands work to the queue. Throws Error saying `what` failed.
+    void submit(const VkSubmitInfo2& work, VkFence fence, std::string_view what) const;
+    void wait(VkFence fence) const;
 
     PFN_vkCmdPushDescriptorSetKHR push_descriptors = nullptr;
 
 private:
+    bool borrowed_ = false;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
@@ -112,13 +139,18 @@ private:
     std::string driver_;
     std::function<void(const std::string&)> on_message_;
     std::optional<Presentation> presentation_;
+    std::function<void()> lock_, unlock_;
 
     std::string missing(VkPhysicalDevice device) const;
     std::optional<uint32_t> queue_family(VkPhysicalDevice device) const;
     void open_instance(bool validation);
     void choose(const std::string& select);
     void open_device();
+    void learn(bool filters_along);
     void close() noexcept;
 };
+
+using OwnedFence = Owned<VkFence, vkDestroyFence>;
+OwnedFence make_fence(const Device& device);
 
 }  // namespace vesper

@@ -59,13 +59,13 @@ VkImageAspectFlags aspect_of(VkFormat format) {
     return format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
-OwnedImageView make_view(const Device& device, VkImage image, VkFormat format) {
+OwnedImageView make_view(const Device& device, VkImage image, VkFormat format, uint32_t levels) {
     const VkImageViewCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
         .image = image,
         .viewType = VK_IMAGE_VIEW_TYPE_2D,
         .format = format,
-        .subresourceRange = {aspect_of(format), 0, VK_REMAINING_MIP_LEVELS, 0, 1}};
+        .subresourceRange = {aspect_of(format), 0, levels, 0, 1}};
     VkImageView view = VK_NULL_HANDLE;
     check(vkCreateImageView(device.handle(), &info, nullptr, &view), "viewing an image");
     return {device.handle(), view};

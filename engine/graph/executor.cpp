@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "graph/realized.h"
 
 namespace vesper {
 namespace {
@@ -34,19 +35,6 @@ OwnedBufferView view_texels(const Device& device, VkBuffer buffer, VkFormat form
 
 }  // namespace
 
-// A transient owns its objects; everything else borrows them from a history or a host buffer.
-struct Executor::Realized {
-    OwnedImage owned_image;
-    OwnedImageView owned_view;
-    OwnedBuffer owned_buffer;
-    OwnedBufferView texels;
-    VkImage image = VK_NULL_HANDLE;
-    VkImageView view = VK_NULL_HANDLE;
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
-    uint64_t offset = 0, bytes = 0;
-};
-
 struct Executor::Past {
     Shape shape;
     uint32_t usage;
@@ -54,7 +42,8 @@ struct Executor::Past {
     OwnedImage images[2];
     OwnedImageView views[2];
     OwnedBuffer buffers[2];
-    int current = 0;  // the half the next frame writes
+    int current = 0;        // the half the next frame writes
+    bool forgotten = true;  // zero before the next frame
 
     Past(const Device& device, const Shape& s, uint32_t u) : shape(s), usage(u), arena(device) {
         for (int half : {0, 1}) {
@@ -67,10 +56,9 @@ struct Executor::Past {
                 arena.bind(buffers[half].get());
             }
         }
-        zero(device);
     }
 
-    void zero(const Device& device) const {
+    void zero(const Device& device) {
         device.run_once([&](VkCommandBuffer commands) {
             for (int half : {0, 1}) {
                 if (!shape.is_image()) {
@@ -92,20 +80,8 @@ struct Executor::Past {
                 vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1, &all);
             }
         });
+        forgotten = false;
     }
-};
-
-class Executor::FrameRecording final : public Recording {
-public:
-    explicit FrameRecording(const Executor& executor) : executor_(executor) {}
-    VkCommandBuffer commands() const override { return executor_.commands_; }
-    VkImage image(Resource r) const override { return executor_.resources_[r.index].image; }
-    VkImageView view(Resource r) const override { return executor_.resources_[r.index].view; }
-    VkBuffer buffer(Resource r) const override { return executor_.resources_[r.index].buffer; }
-    uint64_t offset(Resource r) const override { return executor_.resources_[r.index].offset; }
-
-private:
-    const Executor& executor_;
 };
 
 Executor::Executor(Device& device) : device_(device) {
@@ -118,25 +94,15 @@ Executor::Executor(Device& device) : device_(device) {
     VkSampler raw_sampler = VK_NULL_HANDLE;
     check(vkCreateSampler(device.handle(), &sampler, nullptr, &raw_sampler), "making a sampler");
     sampler_ = {device.handle(), raw_sampler};
-
-    const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                       .queueFamilyIndex = device.queue_family()};
-    VkCommandPool raw_pool = VK_NULL_HANDLE;
-    check(vkCreateCommandPool(device.handle(), &pool, nullptr, &raw_pool), "making a command pool");
-    pool_ = {device.handle(), raw_pool};
-    const VkCommandBufferAllocateInfo allocate_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                    .commandPool = raw_pool,
-                                                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                    .commandBufferCount = 1};
-    check(vkAllocateCommandBuffers(device.handle(), &allocate_info, &commands_), "making a command buffer");
-
-    const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    VkFence raw_fence = VK_NULL_HANDLE;
-    check(vkCreateFence(device.handle(), &fence, nullptr, &raw_fence), "making a fence");
-    fence_ = {device.handle(), raw_fence};
 }
 
-Executor::~Executor() = default;
+Executor::~Executor() {
+    try {
+        finish();
+    } catch (const Error&) {
+        // A lost device has finished, too.
+    }
+}
 
 Measure Executor::measure() const {
     return [this](const Shape& shape, uint32_t usage) -> Footprint {
@@ -159,17 +125,49 @@ Measure Executor::measure() const {
 }
 
 void Executor::run(const FrameGraph& graph) {
+    finish();
+    submit(graph, {});
+    finish();
+}
+
+void Executor::submit(const FrameGraph& graph, const Handover& handover) {
     Stopwatch watch;
+    const bool foreign = std::ranges::any_of(graph.resources(), [](const auto& r) { return r.foreign.image != VK_NULL_HANDLE; });
+    const bool among_others = foreign || !handover.wait.empty() || !handover.signal.empty() || std::ranges::any_of(slots_, &FrameSlot::under_way);
     plan_ = graph.compile(measure());
+    enter_slot();
     place(graph);
     realize_histories(graph);
     realize_uploads(graph);
     realize_externals(graph);
+    realize_foreign_images(graph);
     realize_readbacks(graph);
     host_times_.plan = watch.lap();
-    record(graph);
+    record(graph, among_others);
     host_times_.record = watch.lap();
-    finish(graph);
+    slot_->submit(handover);
+    turn_histories(graph);
+    host_times_.submit = watch.lap();
+}
+
+void Executor::finish() {
+    Stopwatch watch;
+    const bool last = slot_ && slot_->under_way;
+    for (const auto& slot : slots_) slot->wait();
+    if (!last) return;
+    host_times_.wait = watch.lap();
+    read_timestamps();
+}
+
+// The next one in turn. With nothing under way the first, so that whoever waits for every frame has one.
+void Executor::enter_slot() {
+    const auto last = std::ranges::find(slots_, slot_, &std::unique_ptr<FrameSlot>::get);
+    const bool idle = std::ranges::none_of(slots_, &FrameSlot::under_way);
+    const size_t next = idle ? 0 : (size_t(last - slots_.begin()) + 1) % kFramesUnderWay;
+    if (next == slots_.size()) slots_.push_back(std::make_unique<FrameSlot>(device_));
+    slot_ = slots_[next].get();
+    slot_->wait();
+    slot_->texels.clear(), slot_->views.clear();
 }
 
 void Executor::place(const FrameGraph& graph) {
@@ -184,6 +182,7 @@ void Executor::place(const FrameGraph& graph) {
     }
     if (key == placed_key_) return;
 
+    finish();  // what is under way uses what goes now
     placed_key_.clear();
     resources_.clear();
     heaps_.clear();
@@ -202,11 +201,17 @@ void Executor::place(const FrameGraph& graph) {
         } else {
             r.owned_buffer = make_buffer(device_, shape.bytes, usage);
             check(vkBindBufferMemory(device_.handle(), r.owned_buffer.get(), heaps_[p.heap].get(), p.offset), "placing a buffer");
-            if (is_texel(usage)) r.texels = view_texels(device_, r.owned_buffer.get(), shape.format, 0, shape.bytes);
+            if (is_texel(usage)) r.owned_texels = view_texels(device_, r.owned_buffer.get(), shape.format, 0, shape.bytes);
+            r.texels = r.owned_texels.get();
             r.buffer = r.owned_buffer.get(), r.bytes = shape.bytes;
         }
     }
     placed_key_ = std::move(key);
+}
+
+// Texels of a buffer that is not the resource's own are viewed for one frame.
+void Executor::view_borrowed(Realized& r, VkFormat format, uint32_t usage) {
+    r.texels = r.buffer && is_texel(usage) ? slot_->texels.emplace_back(view_texels(device_, r.buffer, format, r.offset, r.bytes)).get() : VK_NULL_HANDLE;
 }
 
 void Executor::realize_histories(const FrameGraph& graph) {
@@ -216,44 +221,64 @@ void Executor::realize_histories(const FrameGraph& graph) {
         uint32_t usage = plan_.usage[i] | plan_.usage[info.partner];
         usage |= info.shape.is_image() ? uint32_t(VK_IMAGE_USAGE_TRANSFER_DST_BIT) : uint32_t(VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         auto& past = histories_[info.name];
-        if (!past || !(past->shape == info.shape) || past->usage != usage) past = std::make_unique<Past>(device_, info.shape, usage);
+        const bool fits = past && past->shape == info.shape && past->usage == usage;
+        if (!fits || past->forgotten) finish();  // what is under way uses it
+        if (!fits) past = std::make_unique<Past>(device_, info.shape, usage);
+        if (past->forgotten) past->zero(device_);
         for (const auto& [index, half] : {std::pair{i, past->current}, std::pair{info.partner, 1 - past->current}}) {
             Realized& r = resources_[index];
             r.image = past->images[half].get(), r.view = past->views[half].get();
             r.buffer = past->buffers[half].get(), r.offset = 0, r.bytes = info.shape.bytes;
-            r.texels = is_texel(usage) && r.buffer ? view_texels(device_, r.buffer, info.shape.format, 0, r.bytes) : OwnedBufferView();
+            view_borrowed(r, info.shape.format, usage);
         }
-        past->current = 1 - past->current;
     }
+}
+
+// Only a frame that was submitted is the past of the next.
+void Executor::turn_histories(const FrameGraph& graph) {
+    for (uint32_t i = 0; i < graph.resources().size(); ++i)
+        if (graph.resources()[i].origin == FrameGraph::Origin::HistoryCurrent && plan_.usage[i]) histories_.at(graph.resources()[i].name)->current ^= 1;
 }
 
 void Executor::realize_uploads(const FrameGraph& graph) {
     uint64_t total = 0;
     for (const auto& info : graph.resources())
         if (info.origin == FrameGraph::Origin::Upload) total = align_up(total, kSliceAlignment) + info.contents.size();
-    if (uploads_.bytes() < total)
-        uploads_ = HostBuffer(device_, align_up(total * 3 / 2, kSliceAlignment), kHostUsage, HostBuffer::Direction::ToDevice);
+    HostBuffer& uploads = slot_->uploads;
+    if (uploads.bytes() < total)
+        uploads = HostBuffer(device_, align_up(total * 3 / 2, kSliceAlignment), kHostUsage, HostBuffer::Direction::ToDevice);
     uint64_t offset = 0;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
         if (info.origin != FrameGraph::Origin::Upload) continue;
         offset = align_up(offset, kSliceAlignment);
-        std::memcpy(uploads_.data() + offset, info.contents.data(), info.contents.size());
+        std::memcpy(uploads.data() + offset, info.contents.data(), info.contents.size());
         Realized& r = resources_[i];
-        r.buffer = uploads_.buffer(), r.offset = offset, r.bytes = info.contents.size();
-        r.texels = is_texel(plan_.usage[i]) ? view_texels(device_, r.buffer, info.shape.format, offset, r.bytes) : OwnedBufferView();
+        r.buffer = uploads.buffer(), r.offset = offset, r.bytes = info.contents.size();
+        view_borrowed(r, info.shape.format, plan_.usage[i]);
         offset += r.bytes;
     }
-    if (total) uploads_.flush();
+    if (total) uploads.flush();
 }
 
 void Executor::realize_externals(const FrameGraph& graph) {
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
-        if (info.origin != FrameGraph::Origin::External) continue;
+        if (info.origin != FrameGraph::Origin::External || info.foreign.image) continue;
         Realized& r = resources_[i];
         r.buffer = info.buffer, r.offset = 0, r.bytes = info.shape.bytes;
-        r.texels = is_texel(plan_.usage[i]) ? view_texels(device_, r.buffer, info.shape.format, 0, r.bytes) : OwnedBufferView();
+        view_borrowed(r, info.shape.format, plan_.usage[i]);
+    }
+}
+
+void Executor::realize_foreign_images(const FrameGraph& graph) {
+    for (uint32_t i = 0; i < graph.resources().size(); ++i) {
+        const auto& info = graph.resources()[i];
+        if (!info.foreign.image) continue;
+        Realized& r = resources_[i];
+        r.image = info.foreign.image;
+        const bool copied_only = !(plan_.usage[i] & ~uint32_t(VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+        if (!copied_only) r.view = slot_->views.emplace_back(make_view(device_, r.image, info.shape.format, 1)).get();
     }
 }
 
@@ -261,184 +286,38 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
     uint64_t total = 0;
     for (const auto& info : graph.resources())
         if (info.origin == FrameGraph::Origin::Readback) total = align_up(total, kSliceAlignment) + info.shape.bytes;
-    if (readbacks_.bytes() < total)
-        readbacks_ = HostBuffer(device_, total, kHostUsage, HostBuffer::Direction::FromDevice);
+    HostBuffer& readbacks = slot_->readbacks;
+    if (readbacks.bytes() < total) readbacks = HostBuffer(device_, total, kHostUsage, HostBuffer::Direction::FromDevice);
     uint64_t offset = 0;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
         if (info.origin != FrameGraph::Origin::Readback) continue;
         offset = align_up(offset, kSliceAlignment);
         Realized& r = resources_[i];
-        r.buffer = readbacks_.buffer(), r.offset = offset, r.bytes = info.shape.bytes;
+        r.buffer = readbacks.buffer(), r.offset = offset, r.bytes = info.shape.bytes;
         offset += r.bytes;
     }
 }
 
-void Executor::record(const FrameGraph& graph) {
-    check(vkResetCommandPool(device_.handle(), pool_.get(), 0), "recording");
-    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands_, &begin), "recording");
-    const uint32_t query_count = uint32_t(plan_.steps.size()) * 2;
-    const bool timed = device_.has_timestamps() && query_count > 0;
-    if (timed && query_capacity_ < query_count) {
-        const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                         .queryCount = query_count};
-        VkQueryPool raw = VK_NULL_HANDLE;
-        check(vkCreateQueryPool(device_.handle(), &info, nullptr, &raw), "making timestamps");
-        queries_ = {device_.handle(), raw};
-        query_capacity_ = query_count;
-    }
-    if (timed) vkCmdResetQueryPool(commands_, queries_.get(), 0, query_count);
-
-    const FrameRecording recording(*this);
-    for (uint32_t i = 0; i < plan_.steps.size(); ++i) {
-        const Plan::Step& step = plan_.steps[i];
-        const FrameGraph::PassInfo& pass = graph.passes()[step.pass];
-        record_barriers(step.barriers);
-        if (timed) vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), 2 * i);
-        switch (pass.kind) {
-            case FrameGraph::PassKind::Dispatch: record_dispatch(pass); break;
-            case FrameGraph::PassKind::Raster: record_raster(graph, step); break;
-            case FrameGraph::PassKind::Transfer: pass.record(recording); break;
-        }
-        if (timed) vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), 2 * i + 1);
-    }
-    record_barriers(plan_.final_barriers);
-    check(vkEndCommandBuffer(commands_), "recording");
-}
-
-void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const {
-    VkMemoryBarrier2 memory{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    std::vector<VkImageMemoryBarrier2> images;
-    for (const Plan::Barrier& b : barriers) {
-        const Realized& r = resources_[b.resource];
-        if (r.image && b.old_layout != b.new_layout)
-            images.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                              .srcStageMask = b.from.stages(),
-                              .srcAccessMask = b.from.accesses(),
-                              .dstStageMask = b.to.stages(),
-                              .dstAccessMask = b.to.accesses(),
-                              .oldLayout = b.old_layout,
-                              .newLayout = b.new_layout,
-                              .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                              .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                              .image = r.image,
-                              .subresourceRange = {r.aspect, 0, 1, 0, 1}});
-        // The bytes of a new transient may have belonged to something else, which an image barrier does not speak of.
-        if (!b.from.empty() && (b.discard || b.old_layout == b.new_layout)) {
-            memory.srcStageMask |= b.from.stages(), memory.srcAccessMask |= b.from.accesses();
-            memory.dstStageMask |= b.to.stages(), memory.dstAccessMask |= b.to.accesses();
-        }
-    }
-    const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                      .memoryBarrierCount = memory.srcStageMask ? 1u : 0u,
-                                      .pMemoryBarriers = &memory,
-                                      .imageMemoryBarrierCount = uint32_t(images.size()),
-                                      .pImageMemoryBarriers = images.data()};
-    if (memory.srcStageMask || !images.empty()) vkCmdPipelineBarrier2(commands_, &dependency);
-}
-
-void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
-    const Kernel& kernel = static_cast<const Kernel&>(*pass.kernel);
-    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-    const size_t bound = kernel.bindings.size();
-    std::vector<VkDescriptorImageInfo> images(bound);
-    std::vector<VkDescriptorBufferInfo> buffers(bound);
-    std::vector<VkBufferView> texels(bound);
-    std::vector<VkWriteDescriptorSet> writes;
-    for (uint32_t i = 0; i < bound; ++i) {
-        const Realized& r = resources_[pass.uses[i].resource.index];
-        images[i] = {sampler_.get(), r.view, VK_IMAGE_LAYOUT_GENERAL};
-        buffers[i] = {r.buffer, r.offset, r.bytes};
-        texels[i] = r.texels.get();
-        writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                          .dstBinding = i,
-                          .descriptorCount = 1,
-                          .descriptorType = kernel.bindings[i],
-                          .pImageInfo = &images[i],
-                          .pBufferInfo = &buffers[i],
-                          .pTexelBufferView = &texels[i]});
-    }
-    device_.push_descriptors(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, uint32_t(writes.size()), writes.data());
-    if (!pass.push.empty())
-        vkCmdPushConstants(commands_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(pass.push.size()), pass.push.data());
-    if (!pass.is_indirect()) return vkCmdDispatch(commands_, pass.groups.x, pass.groups.y, pass.groups.z);
-    const Realized& arguments = resources_[pass.uses.back().resource.index];
-    vkCmdDispatchIndirect(commands_, arguments.buffer, arguments.offset + pass.arguments_offset);
-}
-
-void Executor::record_raster(const FrameGraph& graph, const Plan::Step& step) const {
-    const FrameGraph::PassInfo& pass = graph.passes()[step.pass];
-    std::vector<VkRenderingAttachmentInfo> colors;
-    VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    VkExtent2D extent{};
-    for (size_t i = 0; i < pass.uses.size(); ++i) {
-        const Use& use = pass.uses[i];
-        if (use.access != Access::ColorTarget && use.access != Access::DepthTarget) continue;
-        extent = graph.resources()[use.resource.index].shape.extent;
-        const VkRenderingAttachmentInfo attachment{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                                   .imageView = resources_[use.resource.index].view,
-                                                   .imageLayout = layout_of(use.access),
-                                                   .loadOp = step.first_use[i] ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
-                                                   .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                   .clearValue = use.clear};
-        if (use.access == Access::ColorTarget)
-            colors.push_back(attachment);
-        else
-            depth = attachment;
-    }
-    const VkRect2D area{{0, 0}, extent};
-    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
-                               .renderArea = area,
-                               .layerCount = 1,
-                               .colorAttachmentCount = uint32_t(colors.size()),
-                               .pColorAttachments = colors.data(),
-                               .pDepthAttachment = depth.imageView ? &depth : nullptr};
-    vkCmdBeginRendering(commands_, &info);
-    const VkViewport viewport{0, 0, float(extent.width), float(extent.height), 0, 1};
-    vkCmdSetViewport(commands_, 0, 1, &viewport);
-    vkCmdSetScissor(commands_, 0, 1, &area);
-    pass.record(FrameRecording(*this));
-    vkCmdEndRendering(commands_);
-}
-
-void Executor::finish(const FrameGraph& graph) {
-    const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = commands_};
-    const VkSubmitInfo2 submit{
-        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted};
-    const VkFence fence = fence_.get();
-    Stopwatch watch;
-    check(vkQueueSubmit2(device_.queue(), 1, &submit, fence), "submitting a frame");
-    host_times_.submit = watch.lap();
-    check(vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "waiting for a frame");
-    check(vkResetFences(device_.handle(), 1, &fence), "waiting for a frame");
-    host_times_.wait = watch.lap();
-    if (readbacks_.bytes()) readbacks_.invalidate();
-
-    timings_.clear();
-    if (!device_.has_timestamps() || plan_.steps.empty()) return;
-    std::vector<uint64_t> ticks(plan_.steps.size() * 2);
-    check(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, uint32_t(ticks.size()), ticks.size() * sizeof(uint64_t),
+void Executor::read_timestamps() {
+    if (timings_.empty()) return;
+    std::vector<uint64_t> ticks(timings_.size() * 2);
+    check(vkGetQueryPoolResults(device_.handle(), slot_->queries.get(), 0, uint32_t(ticks.size()), ticks.size() * sizeof(uint64_t),
                                 ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading timestamps");
-    for (size_t i = 0; i < plan_.steps.size(); ++i) {
-        const Plan::Step& step = plan_.steps[i];
-        timings_.push_back({graph.passes()[step.pass].name,
-                            double(ticks[2 * i + 1] - ticks[2 * i]) * double(device_.limits().timestampPeriod) * 1e-6,
-                            step.bytes_read, step.bytes_written});
-    }
+    for (size_t i = 0; i < timings_.size(); ++i)
+        timings_[i].milliseconds = double(ticks[2 * i + 1] - ticks[2 * i]) * double(device_.limits().timestampPeriod) * 1e-6;
 }
 
 std::span<const std::byte> Executor::read(Resource readback) const {
     const Realized& r = resources_.at(readback.index);
-    if (r.buffer != readbacks_.buffer()) throw Error("a resource that is not a readback cannot be read");
-    return {readbacks_.data() + r.offset, r.bytes};
+    if (r.buffer != slot_->readbacks.buffer()) throw Error("a resource that is not a readback cannot be read");
+    if (slot_->under_way) throw Error("a frame that is under way cannot be read");
+    return {slot_->readbacks.data() + r.offset, r.bytes};
 }
 
 void Executor::reset(const std::string& history) {
-    if (const auto found = histories_.find(history); found != histories_.end()) found->second->zero(device_);
+    if (const auto found = histories_.find(history); found != histories_.end() && found->second) found->second->forgotten = true;
 }
 
 uint64_t Executor::heap_bytes() const {

@@ -10,6 +10,7 @@
 #include "gpu/kernel.h"
 #include "gpu/memory.h"
 #include "graph/frame_graph.h"
+#include "graph/frame_slot.h"
 
 namespace vesper {
 
@@ -39,9 +40,16 @@ public:
 
     /// What the device's resources of a shape occupy.
     Measure measure() const;
-    /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error.
+    /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error; a frame that failed has left
+    /// histories as they were, and unless the device is lost the next can be run.
     void run(const FrameGraph& graph);
-    /// What the last frame left in one of its readback resources.
+    /// Hands the frame to the queue, behind all that is there already, and returns. Waits where it is declared unlike the frame before, or where
+    /// kFramesUnderWay are on their way.
+    void submit(const FrameGraph& graph, const Handover& handover);
+    static constexpr size_t kFramesUnderWay = 3;
+    /// Waits for every frame that was submitted.
+    void finish();
+    /// What the last frame left in one of its readback resources. It must be finished.
     std::span<const std::byte> read(Resource readback) const;
     template <class T>
     std::span<const T> read_as(Resource readback) const {
@@ -52,7 +60,7 @@ public:
     const Plan& plan() const { return plan_; }                     ///< of the last frame
     const std::vector<Timing>& timings() const { return timings_; } ///< of the last frame; empty without timestamps
     const HostTimes& host_times() const { return host_times_; }    ///< of the last frame
-    /// Makes a history zero again, as after a camera cut. Unknown names are ignored.
+    /// Makes a history zero again for the next frame, as after a camera cut. Unknown names are ignored.
     void reset(const std::string& history);
     uint64_t heap_bytes() const;  ///< device memory behind transients, bytes
 
@@ -61,16 +69,22 @@ private:
     class FrameRecording;
     struct Past;              // both halves of a history
 
+    void enter_slot();
     void place(const FrameGraph& graph);
+    void turn_histories(const FrameGraph& graph);
+    void view_borrowed(Realized& resource, VkFormat format, uint32_t usage);
     void realize_histories(const FrameGraph& graph);
     void realize_uploads(const FrameGraph& graph);
     void realize_externals(const FrameGraph& graph);
+    void realize_foreign_images(const FrameGraph& graph);
     void realize_readbacks(const FrameGraph& graph);
-    void record(const FrameGraph& graph);
+    void record(const FrameGraph& graph, bool among_others);
+    enum class Border { Enter, Leave };
+    void record_border(const FrameGraph& graph, Border border) const;
     void record_barriers(const std::vector<Plan::Barrier>& barriers) const;
     void record_dispatch(const FrameGraph::PassInfo& pass) const;
     void record_raster(const FrameGraph& graph, const Plan::Step& step) const;
-    void finish(const FrameGraph& graph);
+    void read_timestamps();
 
     Device& device_;
     Plan plan_;
@@ -80,13 +94,9 @@ private:
     std::map<std::string, std::unique_ptr<Past>> histories_;
     std::vector<OwnedMemory> heaps_;
     std::string placed_key_;  // what the transients were made for
-    HostBuffer uploads_, readbacks_;
     OwnedSampler sampler_;
-    Owned<VkCommandPool, vkDestroyCommandPool> pool_;
-    Owned<VkQueryPool, vkDestroyQueryPool> queries_;
-    uint32_t query_capacity_ = 0;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    Owned<VkFence, vkDestroyFence> fence_;
+    std::vector<std::unique_ptr<FrameSlot>> slots_;
+    FrameSlot* slot_ = nullptr;  // of the last frame
 };
 
 }  // namespace vesper

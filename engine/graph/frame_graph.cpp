@@ -28,7 +28,10 @@ constexpr TexelBytes kTexelBytes[] = {
     {VK_FORMAT_R8G8B8A8_SRGB, 4},      {VK_FORMAT_R16G16_SFLOAT, 4}, {VK_FORMAT_R32_SFLOAT, 4},
     {VK_FORMAT_R32_UINT, 4},           {VK_FORMAT_D32_SFLOAT, 4},    {VK_FORMAT_R16G16B16A16_SFLOAT, 8},
     {VK_FORMAT_R32G32_SFLOAT, 8},      {VK_FORMAT_R32G32_UINT, 8},   {VK_FORMAT_R32G32B32A32_SFLOAT, 16},
-    {VK_FORMAT_R32G32B32A32_UINT, 16},
+    {VK_FORMAT_R32G32B32A32_UINT, 16}, {VK_FORMAT_B8G8R8A8_UNORM, 4}, {VK_FORMAT_B8G8R8A8_SRGB, 4},
+    {VK_FORMAT_A8B8G8R8_UNORM_PACK32, 4},    {VK_FORMAT_A8B8G8R8_SRGB_PACK32, 4},
+    {VK_FORMAT_A2B10G10R10_UNORM_PACK32, 4}, {VK_FORMAT_A2R10G10B10_UNORM_PACK32, 4},
+    {VK_FORMAT_B10G11R11_UFLOAT_PACK32, 4},  {VK_FORMAT_E5B9G9R9_UFLOAT_PACK32, 4},
 };
 
 /// Bytes of one tightly packed texel; 0 for formats the engine does not copy.
@@ -215,6 +218,19 @@ Resource FrameGraph::external(std::string_view name, VkBuffer buffer, uint64_t b
     return resource;
 }
 
+Resource FrameGraph::external(std::string_view name, const ForeignImage& image) {
+    const Resource resource = add(name, image_shape(image.format, image.extent), Origin::External);
+    resources_.back().foreign = image;
+    return resource;
+}
+
+Resource FrameGraph::target(std::string_view name, const ForeignImage& image) {
+    const Resource resource = add(name, image_shape(image.format, image.extent), Origin::Target);
+    resources_.back().foreign = image;
+    keep(resource);
+    return resource;
+}
+
 Resource FrameGraph::readback(std::string_view name, uint64_t bytes) {
     const Resource resource = add(name, buffer_shape(bytes), Origin::Readback);
     keep(resource);
@@ -297,13 +313,20 @@ void FrameGraph::copy(std::string_view name, Resource from, Resource to) {
     if (from.index >= resources_.size()) fail(pass, "has no valid resource to copy from");
     if (to.index >= resources_.size()) fail(pass, "has no valid resource to copy to");
     const ResourceInfo &source = resources_[from.index], &target = resources_[to.index];
-    if (source.shape.is_image() && target.shape.is_image())
-        fail(pass, "copies the image " + quoted(source.name) + " to the image " + quoted(target.name));
+    const VkExtent2D area = source.shape.extent;
+    if (source.shape.is_image() && target.shape.is_image() && (area.width != target.shape.extent.width || area.height != target.shape.extent.height))
+        fail(pass, "copies the image " + quoted(source.name) + " to the image " + quoted(target.name) + " of another extent");
     const uint64_t have = packed_bytes(source.shape), room = packed_bytes(target.shape);
     if (have != 0 && room != 0 && have != room)
         fail(pass, "copies " + std::to_string(have) + " bytes of " + quoted(source.name) + " to " +
                        quoted(target.name) + ", which has " + std::to_string(room));
-    if (source.shape.is_image()) {
+    if (source.shape.is_image() && target.shape.is_image()) {
+        pass.record = [from, to, area](const Recording& frame) {
+            const VkImageSubresourceLayers layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+            const VkImageCopy region{layer, {}, layer, {}, {area.width, area.height, 1}};
+            vkCmdCopyImage(frame.commands(), frame.image(from), VK_IMAGE_LAYOUT_GENERAL, frame.image(to), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+        };
+    } else if (source.shape.is_image()) {
         pass.record = [from, to, shape = source.shape](const Recording& frame) {
             const VkBufferImageCopy region = whole_image(shape, frame.offset(to));
             vkCmdCopyImageToBuffer(frame.commands(), frame.image(from), VK_IMAGE_LAYOUT_GENERAL, frame.buffer(to), 1,

@@ -45,6 +45,15 @@ uint64_t packed_bytes(const Shape& shape);
 inline Shape image_shape(VkFormat format, VkExtent2D extent) { return {format, extent, 0}; }
 inline Shape buffer_shape(uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED) { return {texel, {0, 0}, bytes}; }
 
+/// An image of somebody else's, of which the first level of the first layer is used. A frame with such images waits for all that was handed to the
+/// queue before it, and what comes after it waits for the frame.
+struct ForeignImage {
+    VkImage image = VK_NULL_HANDLE;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkExtent2D extent{0, 0};  ///< px
+    VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED, after = VK_IMAGE_LAYOUT_UNDEFINED;  ///< the frame
+};
+
 /// One use of a resource by a pass. For a dispatch, use i is binding i of the kernel.
 struct Use {
     Resource resource;
@@ -88,7 +97,7 @@ using Record = std::function<void(const Recording&)>;
 /// Declares one frame. Throws Error, naming pass and resource, for every misuse that can be seen without a device.
 class FrameGraph {
 public:
-    enum class Origin : uint8_t { Transient, Upload, External, Readback, HistoryPrevious, HistoryCurrent };
+    enum class Origin : uint8_t { Transient, Upload, External, Target, Readback, HistoryPrevious, HistoryCurrent };
     enum class PassKind : uint8_t { Dispatch, Raster, Transfer };
 
     struct ResourceInfo {
@@ -97,7 +106,8 @@ public:
         Origin origin = Origin::Transient;
         uint32_t partner = ~0u;               ///< of a history: the other half
         std::vector<std::byte> contents;      ///< of an upload
-        VkBuffer buffer = VK_NULL_HANDLE;     ///< of an external
+        VkBuffer buffer = VK_NULL_HANDLE;     ///< of an external buffer
+        ForeignImage foreign;                 ///< of an external image or a target
         bool kept = false;
     };
     /// Whether a resource of this origin holds something before any pass of the frame has written it.
@@ -127,6 +137,10 @@ public:
     }
     /// A buffer that belongs to somebody else and was filled long before the frame; passes may only read it.
     Resource external(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED);
+    /// The same for an image, filled by what was handed to the queue earlier.
+    Resource external(std::string_view name, const ForeignImage& image);
+    /// An image of somebody else's that passes write; it is kept. What was in it is lost.
+    Resource target(std::string_view name, const ForeignImage& image);
     /// A buffer the host can read when the frame is done. It is kept.
     Resource readback(std::string_view name, uint64_t bytes);
     /// A resource kept from frame to frame under its name; zero before the first frame.
@@ -153,7 +167,8 @@ public:
     void raster(std::string_view name, std::vector<Use> uses, Record record);
     /// Fills a buffer with zeros.
     void clear(std::string_view name, Resource buffer);
-    /// Copies an image or buffer, tightly packed, into a buffer of the same size; or a buffer into an image.
+    /// Copies an image or buffer, tightly packed, into a buffer of the same size; or a buffer into an image; or the bits of an image into another
+    /// of the same extent and bytes.
     void copy(std::string_view name, Resource from, Resource to);
 
     /// The frame is made for this resource; passes that do not contribute to a kept one are not run.

@@ -13,7 +13,7 @@ struct Show {
 
 Show show(const Kernels& kernels, const CompositeInputs& in, uint32_t tone, const View& view, const Display& display, float ldr_glare_gain, bool light) {
     const bool primaries = !light && display.primaries != kRec709;
-    const Kernel& kernel = kernels.composite({tone, bool(in.luminance_glare), bool(in.ldr_glare), primaries, light});
+    const Kernel& kernel = kernels.composite({tone, bool(in.luminance_glare), bool(in.ldr_glare), primaries, light, !light && in.blue_first});
     const auto [width, height] = view.extent;
     const glm::mat3 rows(glm::transpose(glm::inverse(to_rec709(display.primaries))));
     return {kernel,

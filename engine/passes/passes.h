@@ -122,6 +122,9 @@ Resource add_daylight(FrameGraph&, const Kernels&, const GBuffer&, Resource scen
 /// over the image of luminance times solid angle is I / d^2. Without anything to see there is no pass.
 Resource add_sources(FrameGraph&, const Kernels&, Resource scene, Resource surface, const SourceList& list, const View&);
 
+/// A picture that somebody else rendered as scene luminance: its RGB times `scale`, rgba32f, cd/m^2 (alpha 1).
+Resource add_picture(FrameGraph&, const Kernels&, Resource picture, VkExtent2D extent, float scale);
+
 /// Luminance at halving resolutions, see shared::PyramidPush. Level 0 is the scene image itself and is not stored.
 struct Pyramid {
     std::vector<Resource> levels;     ///< levels[k - 1] is level k, rgba32f, up to 1x1 (one level for a 1x1 image)
@@ -243,6 +246,7 @@ struct CompositeInputs {
     Resource curve;
     Resource luminance_glare;  ///< optional: light scattered in the eye, rgba32f at full size, cd/m^2; added before the curve
     Resource ldr_glare;        ///< optional: what add_ldr_glare gave; added after the curve
+    bool blue_first = false;   ///< codes have blue in their lowest bits, and red in the highest
 };
 
 /// Maps scene luminance to display codes: tone curve, colour at the mapped luminance (less bright where the display cannot

@@ -109,12 +109,13 @@ std::vector<glm::vec4> ResidentScatter::far_veil(const std::vector<OutsideLamp>&
 }
 
 const ResidentScatter& ScatterCache::at(const ScatterSettings& settings, const View& view) {
-    const ImageAngles image = angles_of(view);
-    if (!fit_ || !(fit_->settings() == settings) || !(fit_->image() == image)) {
+    if (!has(settings, view)) {
         fit_.reset();  // before the next one takes its memory
-        fit_.emplace(*device_, settings, image);
+        fit_.emplace(*device_, settings, angles_of(view));
     }
     return *fit_;
 }
+
+bool ScatterCache::has(const ScatterSettings& settings, const View& view) const { return fit_ && fit_->settings() == settings && fit_->image() == angles_of(view); }
 
 }  // namespace vesper

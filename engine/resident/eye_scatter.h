@@ -78,6 +78,8 @@ class ScatterCache {
 public:
     explicit ScatterCache(const Device& device) : device_(&device) {}
     const ResidentScatter& at(const ScatterSettings&, const View&);
+    /// Whether at() would give what it gave last.
+    bool has(const ScatterSettings&, const View&) const;
 
 private:
     const Device* device_;

@@ -15,6 +15,7 @@
 #include "shaders/display_light.comp.inc"
 #include "shaders/gather.comp.inc"
 #include "shaders/histogram.comp.inc"
+#include "shaders/picture.comp.inc"
 #include "shaders/pyramid.comp.inc"
 #include "shaders/scatter_down.comp.inc"
 #include "shaders/scatter_top.comp.inc"
@@ -41,6 +42,7 @@ Kernels::Kernels(const Device& device)
     : cluster(device, "cluster.comp", cluster_comp),
       shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{32, 8}),
       shade_rows(device.is_cpu() ? 8 : 1),
+      picture(device, "picture.comp", picture_comp),
       sky(device, "sky.comp", sky_comp, {shade_group.width, shade_group.height, shade_rows}),
       daylight(device, "daylight.comp", daylight_comp, {shade_group.width, shade_group.height, shade_rows}),
       sources(device, "sources.comp", sources_comp),
@@ -100,7 +102,7 @@ const Kernel& Kernels::bands(const BandsVariant& variant) const {
 
 const Kernel& Kernels::composite(const CompositeVariant& variant) const {
     return once(composite_, variant, [&] {
-        const std::initializer_list<uint32_t> constants{variant.tone, variant.luminance_glare, variant.ldr_glare, composite_rows, variant.primaries};
+        const std::initializer_list<uint32_t> constants{variant.tone, variant.luminance_glare, variant.ldr_glare, composite_rows, variant.primaries, variant.blue_first};
         return variant.light ? Kernel(device_, "display_light.comp", display_light_comp, constants) : Kernel(device_, "composite.comp", composite_comp, constants);
     });
 }

@@ -23,6 +23,7 @@ struct Kernels {
     const Kernel& select(uint32_t variant) const;
     const Kernel& gather(uint32_t variant) const;
     const Kernel& shade(uint32_t variant) const;
+    Kernel picture;
     Kernel sky;
     Kernel daylight;
     Kernel sources;
@@ -53,6 +54,7 @@ struct Kernels {
         bool luminance_glare = false, ldr_glare = false;
         bool primaries = false;  ///< others than Rec. 709
         bool light = false;      ///< display_light.comp
+        bool blue_first = false; ///< of the composite
         auto operator<=>(const CompositeVariant&) const = default;
     };
     const Kernel& composite(const CompositeVariant&) const;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene/gltf_reader.h"
+#include "scene/mesh.h"
 
 namespace vesper {
 namespace {
@@ -43,33 +44,6 @@ std::vector<uint32_t> triangles(GltfReader& reader, const std::vector<uint32_t>&
         for (size_t i = 1; i + 1 < count; ++i) add(i, i + 1, 0);
     }
     return list;
-}
-
-/// Normal of a triangle; length is twice its area.
-glm::vec3 area_normal(const std::vector<Vertex>& vertices, const uint32_t* corner) {
-    const glm::vec3 a = vertices[corner[0]].position;
-    return glm::cross(vertices[corner[1]].position - a, vertices[corner[2]].position - a);
-}
-
-glm::vec3 unit_or_up(glm::vec3 v) {
-    // In double: squares of small and of large coordinates leave the range of float.
-    const glm::dvec3 d(v);
-    const double length = glm::length(d);
-    return length > 0 && std::isfinite(length) ? glm::vec3(d / length) : glm::vec3(0, 1, 0);
-}
-
-/// Without normals glTF means flat shading: every triangle gets corners of its own.
-void make_flat(Primitive& primitive) {
-    std::vector<Vertex> corners(primitive.indices.size());
-    for (size_t i = 0; i < primitive.indices.size(); i += 3) {
-        const glm::vec3 normal = unit_or_up(area_normal(primitive.vertices, &primitive.indices[i]));
-        for (size_t c = i; c < i + 3; ++c) {
-            corners[c] = primitive.vertices[primitive.indices[c]];
-            corners[c].normal = normal;
-            primitive.indices[c] = static_cast<uint32_t>(c);
-        }
-    }
-    primitive.vertices = std::move(corners);
 }
 
 /// Normals from the file; those of no direction are made from the triangles around.

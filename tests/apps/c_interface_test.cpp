@@ -2,10 +2,12 @@
 #include <vesper/vesper.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -63,7 +65,7 @@ TEST_F(CInterface, MapsAsTheEngineDoes) {
         const std::vector<float> rgb = night(width, height);
         const VesperPicture picture = picture_of(rgb, width, height);
         VesperToneSettings settings;
-        vesper_tone_settings_defaults(&settings);
+        vesper_tone_settings_defaults(&settings, sizeof settings);
         settings.tone_operator = VESPER_WARD, settings.display_peak = 150, settings.bins = 64;
         std::vector<uint8_t> codes(4 * width * height);
         std::vector<float> light(4 * width * height);
@@ -83,6 +85,118 @@ TEST_F(CInterface, MapsAsTheEngineDoes) {
         EXPECT_GT(report.milliseconds, 0);
     }
     vesper_tone_mapper_destroy(mapper);
+}
+
+// Each setting, changed alone, is the engine's: the same bits, and others than without it.
+TEST_F(CInterface, EverySettingArrives) {
+    VesperToneMapper* mapper = nullptr;
+    ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK) << error.message;
+    Device own;
+    ToneMapper engine(own);
+    constexpr uint32_t width = 40, height = 30;
+    std::vector<float> rgb = night(width, height);
+    for (size_t i = 0; i < 3; ++i) rgb[3 * (width * 9 + 11) + i] = 3e5f;  // a lamp
+    VesperPicture picture = picture_of(rgb, width, height);
+    picture.scale = 0.01f;
+    struct Case {
+        const char* name;
+        void (*set)(VesperToneSettings&);
+        void (*same)(ToneChainSettings&);
+        float fov = 0.05f;
+    };
+    const Case cases[] = {
+        {"ward", [](auto& s) { s.tone_operator = VESPER_WARD; }, [](auto& e) { e.tone_operator = Operator::Ward; }},
+        {"grave", [](auto& s) { s.tone_operator = VESPER_GRAVE; }, [](auto& e) { e.tone_operator = Operator::Grave; }},
+        {"bins", [](auto& s) { s.bins = 7; }, [](auto& e) { e.histogram.bins = 7; }},
+        {"low", [](auto& s) { s.histogram_low = 0.1f; }, [](auto& e) { e.histogram.log10_low = std::log10(0.1f); }},
+        {"high", [](auto& s) { s.histogram_high = 100; }, [](auto& e) { e.histogram.log10_high = std::log10(100.0f); }},
+        {"age", [](auto& s) { s.age = 80; }, [](auto& e) { e.tone.observer.age = 80, e.scatter.eye.age = 80; }},
+        {"low vision", [](auto& s) { s.low_vision = 10; }, [](auto& e) { e.tone.observer.low_vision = 10; }},
+        {"rods", [](auto& s) { s.rods = 1; }, [](auto& e) { e.tone.observer.use_rods = true; }},
+        {"gaze", [](auto& s) { s.gaze[0] = 0.1f, s.gaze[1] = 0.9f; }, [](auto& e) { e.tone.gaze = {0.1f, 0.9f}; }},
+        {"average", [](auto& s) { s.adapt_to = VESPER_ADAPT_AVERAGE; }, [](auto& e) { e.tone.adapt_to = shared::kAdaptAverage; }},
+        {"texel", [](auto& s) { s.adapt_to = VESPER_ADAPT_TEXEL; }, [](auto& e) { e.tone.adapt_to = shared::kAdaptTexel; }},
+        {"colour", [](auto& s) { s.colour_loss = 1; }, [](auto& e) { e.tone.colour_loss = true; }},
+        {"acuity", [](auto& s) { s.acuity_loss = 1; }, [](auto& e) { e.tone.acuity_loss = true; }, 0.02f},  // fine enough for what dim light loses
+        {"purkinje", [](auto& s) { s.purkinje = 1; }, [](auto& e) { e.tone.purkinje = true; }},
+        {"key", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.key = 0.5f; }, [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.key = 0.5f; }},
+        {"white", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.white = 50; }, [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.white = 50; }},
+        {"linear", [](auto& s) { s.tone_operator = VESPER_LINEAR, s.white = 50, s.black = 1; }, [](auto& e) { e.tone_operator = Operator::Linear, e.tone.linear_high = 50, e.tone.linear_low = 1; }},
+        {"gamma", [](auto& s) { s.display_gamma = 1.8f; }, [](auto& e) { e.display.gamma = 1.8f; }},
+        {"reflection", [](auto& s) { s.display_reflection = 0.1f; }, [](auto& e) { e.display.reflection = 0.1f; }},
+        {"ambient", [](auto& s) { s.display_ambient = 500; }, [](auto& e) { e.display.ambient = 500; }},
+        {"profile", [](auto& s) { s.display = "projector"; }, [](auto& e) { e.display = find_display("projector"); }},
+        {"cie", [](auto& s) { s.glare = VESPER_GLARE_CIE, s.pigmentation = 1.2f; }, [](auto& e) { e.glare = Glare::Scatter, e.scatter.eye.pigmentation = double(1.2f); }},
+        {"ward's veil", [](auto& s) { s.glare = VESPER_GLARE_WARD; }, [](auto& e) { e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Ward; }},
+        {"spencer", [](auto& s) { s.glare = VESPER_GLARE_SPENCER, s.pupil = VESPER_PUPIL_SCOTOPIC; },
+         [](auto& e) { e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Spencer, e.scatter.state = SpencerState::Scotopic; }},
+        {"temporal", [](auto& s) { s.glare = VESPER_GLARE_TEMPORAL, s.eye_seed = 5, s.lashes = 1; },
+         [](auto& e) { e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Temporal, e.scatter.aperture = {5, true}; }},
+        {"paper's glare", [](auto& s) { s.glare = VESPER_GLARE_LDR; }, [](auto& e) { e.glare = Glare::Ldr; }},
+    };
+    std::vector<uint8_t> codes(4 * width * height);
+    std::map<float, std::vector<uint8_t>> plain;
+    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+    outputs.codes = codes.data();
+    for (const Case& c : cases) {
+        picture.vertical_fov = c.fov;
+        if (!plain.contains(c.fov)) {
+            ASSERT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK);
+            ASSERT_EQ(vesper_tone_map(mapper, nullptr, &picture, 0, &outputs, &error), VESPER_OK) << error.message;
+            plain[c.fov] = codes;
+        }
+        VesperToneSettings settings;
+        vesper_tone_settings_defaults(&settings, sizeof settings);
+        c.set(settings);
+        ASSERT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK);
+        ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_OK) << c.name << ": " << error.message;
+        ToneChainSettings same;
+        same.tone.observer.age = same.scatter.eye.age = 23, same.display = known_displays().front().display;
+        c.same(same);
+        engine.reset_adaptation();
+        const HostPicture shown{.extent = {width, height}, .values = rgb, .scale = picture.scale, .vertical_fov = double(picture.vertical_fov)};
+        EXPECT_TRUE(codes == engine.map(same, shown, 0).display) << c.name;
+        EXPECT_TRUE(codes != plain.at(c.fov)) << c.name;
+    }
+    vesper_tone_mapper_destroy(mapper);
+}
+
+// What curves are smoothed over shows in the frame after.
+TEST_F(CInterface, SmoothingArrives) {
+    const std::vector<float> dark(3 * 64, 0.5f), bright(3 * 64, 5.0f);
+    const auto second = [&](float smoothing) {
+        VesperToneMapper* mapper = nullptr;
+        EXPECT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
+        VesperToneSettings settings;
+        vesper_tone_settings_defaults(&settings, sizeof settings);
+        settings.tone_operator = VESPER_WARD, settings.smoothing = smoothing;
+        std::vector<uint8_t> codes(4 * 64);
+        VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+        outputs.codes = codes.data();
+        for (const auto* rgb : {&dark, &bright}) {
+            const VesperPicture picture = picture_of(*rgb, 8, 8);
+            EXPECT_EQ(vesper_tone_map(mapper, &settings, &picture, 0.1f, &outputs, &error), VESPER_OK) << error.message;
+        }
+        vesper_tone_mapper_destroy(mapper);
+        return codes;
+    };
+    EXPECT_NE(second(0), second(5));
+}
+
+// An older caller's structure is filled as far as it goes.
+TEST_F(CInterface, DefaultsKeepToTheSizeTheyAreGiven) {
+    VesperToneSettings settings;
+    std::memset(&settings, 0x55, sizeof settings);
+    vesper_tone_settings_defaults(&settings, offsetof(VesperToneSettings, age));
+    EXPECT_EQ(settings.size, offsetof(VesperToneSettings, age));
+    EXPECT_EQ(settings.bins, 100u);
+    for (size_t i = offsetof(VesperToneSettings, age); i < sizeof settings; ++i) ASSERT_EQ(reinterpret_cast<unsigned char*>(&settings)[i], 0x55);
+    vesper_tone_settings_defaults(nullptr, 0);
+    uint32_t version[3]{9, 9, 9};
+    vesper_version(version);
+    EXPECT_EQ(version[1], uint32_t(VESPER_VERSION_MINOR));
+    EXPECT_EQ(version[0], uint32_t(VESPER_VERSION_MAJOR));
+    EXPECT_EQ(version[2], uint32_t(VESPER_VERSION_PATCH));
 }
 
 TEST_F(CInterface, WhatTheEyeRemembersCanBeKept) {
@@ -107,7 +221,7 @@ TEST_F(CInterface, WhatTheEyeRemembersCanBeKept) {
     EXPECT_EQ(show(bright, 0.05f), dazzled);
     EXPECT_NE(dazzled, settled);
     EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), 3, &error), VESPER_BAD_ARGUMENT);
-    vesper_tone_mapper_reset(mapper);
+    ASSERT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK);
     show(bright, 0);
     vesper_tone_mapper_destroy(mapper);
 }
@@ -120,7 +234,7 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     const auto refuses = [&](auto change) {
         VesperPicture picture = picture_of(rgb, 2, 2);
         VesperToneSettings settings;
-        vesper_tone_settings_defaults(&settings);
+        vesper_tone_settings_defaults(&settings, sizeof settings);
         VesperOutputs outputs = VESPER_INIT(VesperOutputs);
         outputs.codes = codes.data();
         float seconds = 0;
@@ -144,6 +258,14 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     refuses([](auto&, auto& s, auto&, auto&) { s.tone_operator = 99; });
     refuses([](auto&, auto& s, auto&, auto&) { s.glare = 9; });
     refuses([](auto&, auto& s, auto&, auto&) { s.bins = 257; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.adapt_to = 5; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.pupil = 3; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.smoothing = -1; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.low_vision = 0; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.histogram_high = s.histogram_low; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.key = kNan; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.white = 1, s.black = 2; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.display_gamma = 0; });
     refuses([](auto&, auto& s, auto&, auto&) { s.age = kNan; });
     refuses([](auto&, auto& s, auto&, auto&) { s.gaze[1] = kNan; });
     refuses([](auto&, auto& s, auto&, auto&) { s.display_peak = -1; });
@@ -169,7 +291,7 @@ TEST_F(CInterface, SizesAreOfTheFirstVersionAtLeast) {
     VesperPicture picture = picture_of(rgb, 9, 9);
     std::vector<uint8_t> codes(4 * 81, 77);
     VesperToneSettings settings;
-    vesper_tone_settings_defaults(&settings);
+    vesper_tone_settings_defaults(&settings, sizeof settings);
     VesperFrameReport report = VESPER_INIT(VesperFrameReport);
     VesperOutputs outputs = VESPER_INIT(VesperOutputs);
     outputs.codes = codes.data(), outputs.report = &report;
@@ -193,10 +315,18 @@ TEST_F(CInterface, SizesAreOfTheFirstVersionAtLeast) {
 TEST_F(CInterface, NoEyeRemembersAnything) {
     VesperToneMapper* mapper = nullptr;
     ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
-    for (const float poison : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()}) {
-        const std::vector<float> eye(vesper_eye_size() / sizeof(float), poison);
-        EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), vesper_eye_size(), &error), VESPER_BAD_ARGUMENT) << poison;
-    }
+    std::vector<unsigned char> eye(vesper_eye_size());
+    ASSERT_EQ(vesper_tone_mapper_eye(mapper, eye.data(), &error), VESPER_OK);
+    for (const float poison : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()})
+        for (const size_t place : {size_t(8), eye.size() - 4}) {
+            std::vector<unsigned char> bytes = eye;
+            std::memcpy(&bytes[place], &poison, sizeof poison);
+            EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, bytes.data(), bytes.size(), &error), VESPER_BAD_ARGUMENT) << poison << " at " << place;
+        }
+    EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size(), &error), VESPER_OK);
+    EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size() - 4, &error), VESPER_BAD_ARGUMENT);
+    eye[1] ^= 1;
+    EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size(), &error), VESPER_BAD_ARGUMENT) << "bytes of something else";
     vesper_tone_mapper_destroy(mapper);
 }
 

@@ -12,6 +12,15 @@ cd "$work"
 library=$(dirname "$(find installed -name 'libvesper-c.so')")
 export LD_LIBRARY_PATH=$work/$library PKG_CONFIG_PATH=$work/$library/pkgconfig
 
+echo "== headers: each alone, and without Vulkan where that is promised"
+for header in installed/include/vesper/*; do
+    printf '#include <vesper/%s>\n' "$(basename "$header")" >alone.cpp
+    "${CXX:-c++}" -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinstalled/include -fsyntax-only alone.cpp
+    [[ $header == *.hpp ]] || "${CC:-cc}" -std=c99 -Wall -Wextra -Wpedantic -Werror -Iinstalled/include -fsyntax-only -x c alone.cpp
+    [[ $header == */vulkan.h ]] || { ! "${CXX:-c++}" -std=c++17 -Iinstalled/include -M alone.cpp | grep -q vulkan_core; }
+done
+nm -D --defined-only "$library/libvesper-c.so" | grep -v " vesper_" && { echo "the library shows more than its interface"; exit 1; }
+
 echo "== whole engine: find_package"
 cat >ground.gltf <<'GLTF'
 {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -25,14 +34,49 @@ cmake -S examples/whole-engine -B built -DCMAKE_PREFIX_PATH="$work/installed" >/
 cmake --build built >/dev/null
 built/whole_engine ground.gltf "frame_%02d.ppm"
 for frame in 0 1 2; do [[ $(stat -c %s frame_0$frame.ppm) == 768015 ]]; done
-cmp -s frame_00.ppm frame_02.ppm && { echo "the lamp did not move"; exit 1; }
+cmp -s frame_00.ppm frame_02.ppm && { echo "the car did not move"; exit 1; }
+built/whole_engine - "nothing_%02d.ppm"  # without a file
 if built/whole_engine nothing.gltf x.ppm 2>message; then echo "a missing file is no error"; exit 1; fi
 grep -q "nothing.gltf" message
+
+echo "== own device: find_package"
+cmake -S examples/own-device -B built-own -DCMAKE_PREFIX_PATH="$work/installed" >/dev/null
+cmake --build built-own >/dev/null
+built-own/own_device own.ppm | tee own.txt
+[[ $(stat -c %s own.ppm) == 768015 ]]
+! grep -q "complaints" own.txt
 
 echo "== tone mapper: pkg-config"
 "${CXX:-c++}" -std=c++17 -O2 examples/tone-mapper/main.cpp -o tone_mapper $(pkg-config --cflags --libs vesper)
 ./tone_mapper | tee tone.txt
 [[ $(sed -n 's/^outside, 0.1 s: code //p' tone.txt) == $(sed -n 's/^outside once more.*code //p' tone.txt) ]]
+
+echo "== tone mapper: the static library, and the folder itself"
+mkdir stranger
+cat >stranger/CMakeLists.txt <<'CMAKE'
+cmake_minimum_required(VERSION 3.24)
+project(stranger LANGUAGES C CXX)
+if(VESPER_FOLDER)
+    add_subdirectory(${VESPER_FOLDER} vesper EXCLUDE_FROM_ALL)
+    get_property(here DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
+    if(TARGET docs OR NOT TARGET vesper::vesper-c OR here)
+        message(FATAL_ERROR "the folder brings what nobody asked for: ${here}")
+    endif()
+else()
+    find_package(vesper 0.1 CONFIG REQUIRED COMPONENTS static)
+endif()
+add_executable(stranger ../examples/tone-mapper/main.cpp)
+target_link_libraries(stranger PRIVATE vesper::vesper)
+CMAKE
+cmake -S stranger -B built-static -DCMAKE_PREFIX_PATH="$work/installed" -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake --build built-static >/dev/null
+built-static/stranger | diff - tone.txt
+ldd built-static/stranger | grep libvesper && { echo "that is not static"; exit 1; }
+cmake -S stranger -B built-folder -DVESPER_FOLDER="$source" -DCMAKE_BUILD_TYPE=Release >/dev/null
+if [[ -n ${VESPER_BUILD_FOLDER:-} ]]; then  # all of the engine once more: minutes
+    cmake --build built-folder -j "$(nproc)" >/dev/null
+    built-folder/stranger | diff - tone.txt
+fi
 
 echo "== python: ctypes"
 for python in python3 /usr/bin/python3; do

@@ -202,17 +202,18 @@ TEST(FrameGraphErrors, Targets) {
 
 TEST(FrameGraphErrors, CopiesAndClears) {
     DeclaredFrame f;
-    const Resource image = f.image("image"), other = f.image("other"), odd = f.buffer("odd", 10);
+    const Resource image = f.image("image"), other = f.image("other"), small = f.graph.transient("small", image_shape(VK_FORMAT_R8G8B8A8_UNORM, {8, 4})), odd = f.buffer("odd", 10);
     const Resource exact = f.graph.readback("exact", 64 * 32 * 4), short_ = f.graph.readback("short", 100);
     f.compute("write", {store(image), store(odd)});
     expect_error([&] { f.graph.copy("c", image, short_); },
                  "pass 'c' copies 8192 bytes of 'image' to 'short', which has 100");
     expect_error([&] { f.graph.copy("c", odd, exact); }, "copies 10 bytes of 'odd' to 'exact', which has 8192");
-    expect_error([&] { f.graph.copy("c", image, other); }, "copies the image 'image' to the image 'other'");
+    expect_error([&] { f.graph.copy("c", image, small); }, "copies the image 'image' to the image 'small' of another extent");
     expect_error([&] { f.graph.clear("c", image); }, "pass 'c' clears the image 'image'");
     expect_error([&] { f.graph.clear("c", odd); }, "not a multiple of 4 bytes");
     EXPECT_NO_THROW(f.graph.copy("c", image, exact));
     EXPECT_NO_THROW(f.graph.copy("back", exact, other));
+    EXPECT_NO_THROW(f.graph.copy("on", other, image));
 }
 
 TEST(FrameGraphErrors, MemoryThatDoesNotExist) {

@@ -3,27 +3,14 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <stdexcept>
+#include <exception>
 #include <vector>
 
-#include <vesper/vesper.h>
+#include <vesper/vesper.hpp>
+
+using namespace vesper::cpp;
 
 namespace {
-
-void check(VesperResult result, const VesperError& error) {
-    if (result != VESPER_OK) throw std::runtime_error(error.message);
-}
-
-template <auto Destroy>
-struct Destroyer {
-    template <class T>
-    void operator()(T* object) const {
-        Destroy(object);
-    }
-};
-using Device = std::unique_ptr<VesperDevice, Destroyer<vesper_device_close>>;
-using Mapper = std::unique_ptr<VesperToneMapper, Destroyer<vesper_tone_mapper_destroy>>;
 
 constexpr uint32_t kWidth = 320, kHeight = 200;
 
@@ -39,33 +26,26 @@ std::vector<float> frame(bool outside) {
 }
 
 void run() {
-    VesperError error;
-    VesperDevice* opened = nullptr;
-    check(vesper_device_open(nullptr, &opened, &error), error);
-    const Device device(opened);
-    VesperToneMapper* made = nullptr;
-    check(vesper_tone_mapper_create(device.get(), &made, &error), error);
-    const Mapper mapper(made);
-
-    VesperToneSettings settings;
-    vesper_tone_settings_defaults(&settings);
+    const auto device = make<Device>(vesper_device_open, nullptr);
+    const auto mapper = make<ToneMapper>(vesper_tone_mapper_create, device.get());
+    VesperToneSettings settings = default_tone_settings();
     std::vector<uint8_t> codes(size_t{kWidth} * kHeight * 4);
-    VesperFrameReport report = VESPER_INIT(VesperFrameReport);
-    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+    auto report = sized<VesperFrameReport>();
+    auto outputs = sized<VesperOutputs>();
     outputs.codes = codes.data(), outputs.report = &report;
     const auto show = [&](bool outside, float seconds) {
         const std::vector<float> rgb = frame(outside);
-        VesperPicture picture = VESPER_INIT(VesperPicture);
+        auto picture = sized<VesperPicture>();
         picture.width = kWidth, picture.height = kHeight, picture.channels = 3, picture.values = rgb.data();
         picture.scale = 1, picture.vertical_fov = 0.7f;
-        check(vesper_tone_map(mapper.get(), &settings, &picture, seconds, &outputs, &error), error);
+        call(vesper_tone_map, mapper.get(), &settings, &picture, seconds, &outputs);
         return codes[4 * (size_t{kWidth} * (kHeight / 2) + kWidth / 2)];
     };
     std::printf("in the tunnel: code %d in the middle\n", show(false, 0));
     std::vector<unsigned char> eye(vesper_eye_size());
-    check(vesper_tone_mapper_eye(mapper.get(), eye.data(), &error), error);
+    call(vesper_tone_mapper_eye, mapper.get(), eye.data());
     for (int i = 0; i < 5; ++i) std::printf("outside, %.1f s: code %d\n", 0.1 * (i + 1), show(true, 0.1f));
-    check(vesper_tone_mapper_set_eye(mapper.get(), eye.data(), eye.size(), &error), error);
+    call(vesper_tone_mapper_set_eye, mapper.get(), eye.data(), eye.size());
     std::printf("outside once more, as seen from the tunnel: code %d\n", show(true, 0.1f));
 }
 

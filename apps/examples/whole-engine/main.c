@@ -1,8 +1,9 @@
-/* Whole engine: a scene from a file, a lamp of one's own that moves, frames as pictures. SPDX-License-Identifier: MIT
- *     whole_engine SCENE.gltf OUT_%02d.ppm
+/* Whole engine: a scene from a file, or of nothing (-); a car made in memory, with a headlamp, that drives; frames as pictures. SPDX-License-Identifier: MIT
+ *     whole_engine SCENE.gltf|- OUT_%02d.ppm
  */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <vesper/vesper.h>
 
@@ -27,9 +28,27 @@ static void write_picture(const char *pattern, int frame, const uint8_t *codes) 
     if (fclose(file)) exit(1);
 }
 
+/* A box of 1 m about the middle of its bottom: 8 corners, 12 triangles seen from outside. */
+static uint32_t add_box(VesperScene *scene, float red, float green, float blue) {
+    static const float corners[] = {-.5f, 0, -.5f, .5f, 0, -.5f, .5f, 1, -.5f, -.5f, 1, -.5f, -.5f, 0, .5f, .5f, 0, .5f, .5f, 1, .5f, -.5f, 1, .5f};
+    static const uint32_t triangles[] = {0, 3, 2, 0, 2, 1, 4, 5, 6, 4, 6, 7, 0, 4, 7, 0, 7, 3, 1, 2, 6, 1, 6, 5, 3, 7, 6, 3, 6, 2, 0, 1, 5, 0, 5, 4};
+    VesperError error;
+    uint32_t index = 0;
+    VesperMaterial material = VESPER_INIT(VesperMaterial);
+    material.base_colour[0] = red, material.base_colour[1] = green, material.base_colour[2] = blue;
+    material.roughness = 0.6f;
+    stop_if(vesper_scene_add_material(scene, &material, &index, &error), &error);
+    VesperMesh box = VESPER_INIT(VesperMesh);
+    box.material = index;
+    box.vertex_count = 8, box.positions = corners;
+    box.index_count = 36, box.indices = triangles;
+    stop_if(vesper_scene_add_mesh(scene, &box, &index, &error), &error);
+    return index;
+}
+
 int main(int count, char **arguments) {
     if (count != 3) {
-        fprintf(stderr, "usage: whole_engine SCENE.gltf OUT_%%02d.ppm\n");
+        fprintf(stderr, "usage: whole_engine SCENE.gltf|- OUT_%%02d.ppm\n");
         return 2;
     }
     VesperError error;
@@ -37,21 +56,34 @@ int main(int count, char **arguments) {
     VesperScene *scene = NULL;
     VesperRenderer *renderer = NULL;
     stop_if(vesper_device_open(NULL, &device, &error), &error);
-    stop_if(vesper_scene_read(arguments[1], &scene, &error), &error);
+    const int from_nothing = strcmp(arguments[1], "-") == 0;
+    stop_if(from_nothing ? vesper_scene_create(&scene, &error) : vesper_scene_read(arguments[1], &scene, &error), &error);
 
-    /* A spot of 2,000 cd, aimed down. */
-    VesperLamp lamp = VESPER_INIT(VesperLamp);
-    lamp.position[1] = 4;
-    lamp.axis[1] = -1;
-    lamp.intensity = 2000;
-    lamp.colour[0] = lamp.colour[1] = lamp.colour[2] = 1;
-    lamp.inner_cone = 0.4f, lamp.outer_cone = 0.7f;
-    uint32_t node = 0;
-    stop_if(vesper_scene_add_lamp(scene, &lamp, &node, &error), &error);
+    /* A car that heads to the right, its frame on the road below its middle: a body, a cabin, and a headlamp of 20,000 cd that looks down a little. */
+    uint32_t car = 0, part = 0, ground = 0, lamp = 0;
+    const float body[16] = {4, 0, 0, 0, 0, 0.7f, 0, 0, 0, 0, 1.7f, 0, 0, 0.2f, 0, 1}, cabin[16] = {2, 0, 0, 0, 0, 0.6f, 0, 0, 0, 0, 1.5f, 0, -0.3f, 0.9f, 0, 1};
+    const float road[16] = {60, 0, 0, 0, 0, 0.1f, 0, 0, 0, 0, 30, 0, 0, -0.11f, 0, 1};
+    const uint32_t red = add_box(scene, 0.5f, 0.1f, 0.05f), grey = add_box(scene, 0.2f, 0.2f, 0.2f);
+    stop_if(vesper_scene_add_node(scene, "road", grey, road, &ground, &error), &error);
+    stop_if(vesper_scene_add_node(scene, "car", VESPER_NONE, NULL, &car, &error), &error);
+    stop_if(vesper_scene_add_node(scene, "body", red, body, &part, &error), &error);
+    stop_if(vesper_scene_attach(scene, part, car, &error), &error);
+    stop_if(vesper_scene_add_node(scene, "cabin", red, cabin, &part, &error), &error);
+    stop_if(vesper_scene_attach(scene, part, car, &error), &error);
+    VesperLamp headlamp = VESPER_INIT(VesperLamp);
+    headlamp.position[0] = 2.05f, headlamp.position[1] = 0.65f;
+    headlamp.axis[0] = 1, headlamp.axis[1] = -0.08f;
+    headlamp.intensity = 20000;
+    headlamp.colour[0] = headlamp.colour[1] = 1, headlamp.colour[2] = 0.9f;
+    headlamp.inner_cone = 0.1f, headlamp.outer_cone = 0.4f;
+    stop_if(vesper_scene_add_lamp(scene, &headlamp, &lamp, &error), &error);
+    stop_if(vesper_scene_attach(scene, lamp, car, &error), &error);
+    const float ambient[3] = {5, 5, 6}, sky[3] = {0.02f, 0.02f, 0.03f};
+    stop_if(vesper_scene_set_sky(scene, ambient, sky, &error), &error);
     stop_if(vesper_renderer_create(device, scene, &renderer, &error), &error);
 
     VesperToneSettings settings;
-    vesper_tone_settings_defaults(&settings);
+    vesper_tone_settings_defaults(&settings, sizeof settings);
     settings.glare = VESPER_GLARE_CIE;
     VesperView view = VESPER_INIT(VesperView);
     view.width = kWidth, view.height = kHeight;
@@ -64,9 +96,9 @@ int main(int count, char **arguments) {
     VesperOutputs outputs = VESPER_INIT(VesperOutputs);
     outputs.codes = codes, outputs.report = &report;
     for (int frame = 0; frame < kFrames; ++frame) {
-        /* Column by column: the lamp's frame, which shines along its -z, 4 m above the ground. */
-        const float place[16] = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, (float)(2 * frame - 2), 4, 0, 1};
-        stop_if(vesper_renderer_place(renderer, node, place, &error), &error);
+        /* Column by column. */
+        const float place[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, (float)(2 * frame - 5), 0, 0, 1};
+        stop_if(vesper_renderer_place(renderer, car, place, &error), &error);
         stop_if(vesper_render(renderer, &settings, &view, 1 / 30.0f, &outputs, &error), &error);
         write_picture(arguments[2], frame, codes);
         printf("frame %d: the eye is adapted to %.3g cd/m^2, %.0f ms\n", frame, report.adaptation, report.milliseconds);

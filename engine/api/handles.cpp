@@ -1,0 +1,150 @@
+#include "api/handles.h"
+
+#include <cstring>
+#include <new>
+
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace vesper::api {
+namespace {
+
+constexpr uint32_t kMostPixels = 16384;  // in width or height
+
+void say(VesperError* error, const char* message) {
+    if (!error) return;
+    std::strncpy(error->message, message, sizeof error->message - 1);
+    error->message[sizeof error->message - 1] = 0;
+}
+
+template <class T>
+void give(const std::vector<T>& values, T* to) {
+    if (to) std::copy(values.begin(), values.end(), to);
+}
+
+/// Goes before what an eye remembers: what kind of bytes these are.
+constexpr uint32_t kEyeBytes = 0x31455956;  // "VYE1"
+struct KeptEye {
+    uint32_t kind = kEyeBytes, bytes = sizeof(shared::EyeState);
+    shared::EyeState eye;
+};
+
+ForeignImage image_of(const VesperImage* given) {
+    const VesperImage i = known(given, "an image without its size");
+    require(i.image != VK_NULL_HANDLE, "no image");
+    require(i.layout_after != VK_IMAGE_LAYOUT_UNDEFINED && i.layout_after != VK_IMAGE_LAYOUT_PREINITIALIZED, "an image has a layout after the call");
+    return {i.image, i.format, extent_of(i.width, i.height), i.layout_before, i.layout_after};
+}
+
+}  // namespace
+
+VesperResult result_of(VesperError* error, void (*call)(const void*), const void* what) noexcept {
+    say(error, "");
+    try {
+        call(what);
+        return VESPER_OK;
+    } catch (const BadArgument& bad) {
+        say(error, bad.what);
+        return VESPER_BAD_ARGUMENT;
+    } catch (const std::bad_alloc&) {
+        say(error, "out of memory");
+        return VESPER_OUT_OF_MEMORY;
+    } catch (const DeviceLost& lost) {
+        say(error, lost.what());
+        return VESPER_DEVICE_LOST;
+    } catch (const OutOfDeviceMemory& out) {
+        say(error, out.what());
+        return VESPER_OUT_OF_DEVICE_MEMORY;
+    } catch (const std::exception& failure) {
+        say(error, failure.what());
+        return VESPER_FAILED;
+    } catch (...) {
+        say(error, "an unknown error");
+        return VESPER_FAILED;
+    }
+}
+
+glm::mat4 place_of(const float* node_to_world) {
+    const glm::mat4 place = glm::make_mat4(node_to_world);
+    const float size = std::abs(glm::determinant(place));
+    require(std::isnormal(size) && glm::row(place, 3) == glm::vec4(0, 0, 0, 1), "a place is an affine matrix that can be inverted, column by column");
+    return place;
+}
+
+VkExtent2D extent_of(uint32_t width, uint32_t height) {
+    require(width > 0 && height > 0 && width <= kMostPixels && height <= kMostPixels, "an image is 1 to 16384 pixels wide and high");
+    return {width, height};
+}
+
+float seconds_of(float seconds) {
+    require(seconds >= 0 && seconds <= 1e6f, "time passes by 0 to 1e6 s");
+    return seconds;
+}
+
+VesperOutputs outputs_of(const VesperOutputs* given) {
+    const VesperOutputs to = known(given, "outputs without their size");
+    check_report(to.report);
+    return to;
+}
+
+Outputs wanted(const VesperOutputs& to) { return {.display = to.codes != nullptr, .scene = to.luminance != nullptr, .light = to.display_light != nullptr}; }
+
+void give(const ToneMapped& frame, const VesperOutputs& to) {
+    give(frame.display, to.codes), give(frame.scene, to.luminance), give(frame.light, to.display_light);
+    give(&frame, to.report);
+}
+
+void check_report(const VesperFrameReport* report) { require(!report || report->size >= sizeof(VesperFrameReport), "a report without its size"); }
+
+void give(const ToneMapped* frame, VesperFrameReport* report) {
+    if (!report) return;
+    *report = {sizeof *report};
+    if (!frame) return;
+    report->adaptation = frame->curve.adaptation, report->log_average = frame->curve.log_average;
+    report->not_finite = frame->histogram.non_finite;
+    report->milliseconds = frame->milliseconds;
+}
+
+void give_eye(const shared::EyeState& eye, void* bytes) {
+    KeptEye kept;
+    kept.eye = eye;
+    std::memcpy(bytes, &kept, sizeof kept);
+}
+
+shared::EyeState eye_of(const void* bytes, size_t size) {
+    KeptEye kept;
+    require(size == sizeof kept, "what an eye of another version remembers");
+    std::memcpy(&kept, bytes, sizeof kept);
+    require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye, "what an eye of another version remembers");
+    float values[sizeof kept.eye / sizeof(float)];
+    std::memcpy(values, &kept.eye, sizeof values);
+    require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }), "no eye remembers that");
+    require(kept.eye.steps >= 0 && kept.eye.steps <= float(shared::kMaxBins), "no eye remembers that");
+    return kept.eye;
+}
+
+ForeignImage picture_image(const VesperImage* given) {
+    const ForeignImage image = image_of(given);
+    constexpr VkFormat formats[] = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32, VK_FORMAT_E5B9G9R9_UFLOAT_PACK32};
+    require(std::ranges::find(formats, image.format) != std::end(formats), "a picture is of rgba32f, rgba16f, b10g11r11 or e5b9g9r9");
+    require(image.before != VK_IMAGE_LAYOUT_UNDEFINED, "a picture has a layout before the call");
+    return image;
+}
+
+ForeignImage shown_image(const VesperImage* given, VkExtent2D extent) {
+    const ForeignImage image = image_of(given);
+    require(image.extent.width == extent.width && image.extent.height == extent.height, "what is shown has the extent of the image it is shown in");
+    require(shown_format(image.format).has_value(), "pictures are shown in images of RGBA or BGRA, of 8 bits (UNORM or SRGB) or 10 bits");
+    return image;
+}
+
+Handover handover_of(const VesperHandover* given) {
+    if (!given) return {};
+    const VesperHandover h = known(given, "a handover without its size");
+    require((h.wait_count == 0 || h.waits) && (h.signal_count == 0 || h.signals), "a list of semaphores is missing");
+    return {{h.waits, h.wait_count}, {h.signals, h.signal_count}};
+}
+
+}  // namespace vesper::api
+
+size_t vesper_eye_size() { return sizeof(vesper::api::KeptEye); }

@@ -1,0 +1,98 @@
+// Behind the handles of vesper.h, and what every call does: arguments checked, exceptions turned into results. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vesper/vulkan.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "renderer.h"
+#include "tone_mapper.h"
+
+struct VesperDevice {
+    explicit VesperDevice(const vesper::DeviceOptions& options) : device(options), name(device.name()) {}
+    explicit VesperDevice(const vesper::BorrowedDevice& given) : device(given), name(device.name()) {}
+    vesper::Device device;
+    std::string name;
+};
+
+struct VesperToneMapper {
+    explicit VesperToneMapper(vesper::Device& device) : mapper(device) {}
+    vesper::ToneMapper mapper;
+    vesper::shared::EyeState eye{};  // what the last picture left
+};
+
+struct VesperScene {
+    vesper::Scene scene;
+    uint64_t version = 0;                           // of what a renderer takes to the device
+    std::map<std::string, uint32_t> distributions;  // of the scene, by their files
+};
+
+struct VesperRenderer {
+    VesperRenderer(vesper::Device& device, const VesperScene& drawn) : scene(drawn), version(drawn.version), renderer(device, drawn.scene) {}
+    const VesperScene& scene;
+    uint64_t version;  // of the scene on the device
+    vesper::Renderer renderer;
+    std::map<uint32_t, glm::mat4> places;  // of nodes that were put somewhere: node frame to world
+    std::map<uint32_t, float> dimming;     // of lamps at nodes
+    vesper::shared::EyeState eye{};        // what the last frame left
+};
+
+namespace vesper::api {
+
+/// Thrown for what only a caller can get wrong.
+struct BadArgument {
+    const char* what;
+};
+
+inline void require(bool holds, const char* otherwise) {
+    if (!holds) throw BadArgument{otherwise};
+}
+
+/// Runs a call that makes its outputs last, and turns what it throws into its result.
+VesperResult result_of(VesperError* error, void (*call)(const void*), const void* what) noexcept;
+template <class Call>
+VesperResult guarded(VesperError* error, const Call& call) noexcept {
+    return result_of(error, [](const void* it) { (*static_cast<const Call*>(it))(); }, &call);
+}
+
+/// A structure as this library has it. All of them are as in the first version, so none may be smaller; a newer caller's may be larger.
+template <class T>
+T known(const T* given, const char* otherwise) {
+    require(given && given->size >= sizeof(T) && given->size <= 65536, otherwise);
+    return *given;
+}
+
+template <size_t n>
+bool finite(const float (&values)[n]) {
+    return std::all_of(values, values + n, [](float v) { return std::isfinite(v); });
+}
+inline glm::vec3 vector(const float v[3]) { return {v[0], v[1], v[2]}; }
+/// 16 values, column by column. Throws BadArgument unless they are affine and can be inverted.
+glm::mat4 place_of(const float* node_to_world);
+
+VkExtent2D extent_of(uint32_t width, uint32_t height);
+float seconds_of(float seconds);
+RenderSettings settings_of(const VesperToneSettings* given);  ///< null: the defaults
+
+/// Where a frame goes, in arrays.
+VesperOutputs outputs_of(const VesperOutputs* given);
+Outputs wanted(const VesperOutputs& to);
+void give(const ToneMapped& frame, const VesperOutputs& to);
+/// A report that may be asked for, checked; what a frame brought is written to it, or zero.
+void check_report(const VesperFrameReport* report);
+void give(const ToneMapped* frame, VesperFrameReport* report);
+
+/// What the eye remembers, as bytes.
+void give_eye(const shared::EyeState& eye, void* bytes);
+shared::EyeState eye_of(const void* bytes, size_t size);
+
+/// Images of the host's.
+ForeignImage picture_image(const VesperImage* given);
+ForeignImage shown_image(const VesperImage* given, VkExtent2D extent);
+Handover handover_of(const VesperHandover* given);
+
+}  // namespace vesper::api

@@ -1,0 +1,149 @@
+// Rendering a scene into arrays and into images of the host's. SPDX-License-Identifier: MIT
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "api/handles.h"
+
+using namespace vesper;
+using namespace vesper::api;
+
+namespace {
+
+// Everything where it stands at a time, but for what was put elsewhere, and what hangs on that.
+SceneFrame frame_of(const VesperRenderer& renderer, double seconds) {
+    const Scene& scene = renderer.scene.scene;
+    SceneFrame frame{world_transforms(scene, seconds)};
+    std::vector<glm::mat4> moved(renderer.places.empty() ? 0 : scene.nodes.size(), glm::mat4(1));
+    for (uint32_t i = 0; i < moved.size(); ++i) {
+        if (scene.nodes[i].parent != kNone) moved[i] = moved[scene.nodes[i].parent];
+        if (const auto place = renderer.places.find(i); place != renderer.places.end()) moved[i] = place->second * glm::inverse(frame.world[i]);
+        frame.world[i] = moved[i] * frame.world[i];
+    }
+    if (renderer.dimming.empty()) return frame;
+    frame.dimming.assign(scene.nodes.size(), 1);
+    for (const auto& [node, factor] : renderer.dimming) frame.dimming[node] = factor;
+    return frame;
+}
+
+View view_of(const VesperView& v, const Scene& scene, const SceneFrame& frame) {
+    const VkExtent2D extent = extent_of(v.width, v.height);
+    if (v.camera) return camera_view(scene, frame, v.camera, extent);
+    require(finite(v.eye) && finite(v.forward) && finite(v.up) && v.vertical_fov > 0 && v.vertical_fov < 3.1f && v.near_plane > 0 && v.near_plane < 1e6f,
+            "a view has an eye, a vertical angle of 0 to 3.1 rad and a near plane beyond 0 m");
+    const glm::vec3 forward = vector(v.forward), side = glm::cross(forward, vector(v.up));
+    require(glm::length(side) > 1e-6f * glm::length(forward) * glm::length(vector(v.up)), "a view's forward and up are two directions");
+    return View::symmetric(extent, v.vertical_fov, glm::lookAt(vector(v.eye), vector(v.eye) + glm::normalize(forward), glm::normalize(vector(v.up))), v.near_plane);
+}
+
+/// What is drawn and from where, with all that changed in the scene.
+struct Seen {
+    SceneFrame frame;
+    View view;
+};
+Seen see(VesperRenderer& renderer, const VesperView* view) {
+    const VesperView v = known(view, "a view without its size");
+    require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
+    Seen seen{frame_of(renderer, v.scene_seconds), {}};
+    seen.view = view_of(v, renderer.scene.scene, seen.frame);
+    if (renderer.version != renderer.scene.version) {
+        renderer.renderer.set_scene(renderer.scene.scene);
+        renderer.version = renderer.scene.version;
+    }
+    return seen;
+}
+
+/// What the last frame left; nothing where it is known already.
+std::optional<Frame> finish(VesperRenderer& renderer) {
+    std::optional<Frame> frame = renderer.renderer.finish();
+    if (frame) renderer.eye = frame->eye;
+    return frame;
+}
+
+void require_node(const VesperRenderer& renderer, uint32_t node) { require(node < renderer.scene.scene.nodes.size(), "the scene has no such node"); }
+
+}  // namespace
+
+VesperResult vesper_renderer_create(VesperDevice* device, const VesperScene* scene, VesperRenderer** renderer, VesperError* error) {
+    return guarded(error, [&] {
+        require(device && scene && renderer, "no device, no scene, or no place for the renderer");
+        *renderer = new VesperRenderer(device->device, *scene);
+    });
+}
+void vesper_renderer_destroy(VesperRenderer* renderer) { delete renderer; }
+
+VesperResult vesper_renderer_place(VesperRenderer* renderer, uint32_t node, const float node_to_world[16], VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer && node_to_world, "no renderer, or no place");
+        require_node(*renderer, node);
+        renderer->places[node] = place_of(node_to_world);
+    });
+}
+
+VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float factor, VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer, "no renderer");
+        require_node(*renderer, node);
+        require(factor >= 0 && factor <= 1e6f, "a lamp is dimmed by a factor of 0 to 1e6");
+        renderer->dimming[node] = factor;
+    });
+}
+
+VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view, float seconds, const VesperOutputs* outputs, VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer, "no renderer");
+        const VesperOutputs to = outputs_of(outputs);
+        const RenderSettings how = settings_of(settings);
+        const float passed = seconds_of(seconds);
+        const Seen seen = see(*renderer, view);
+        const Frame frame = renderer->renderer.render(how, seen.view, seen.frame, passed, wanted(to));
+        renderer->eye = frame.eye;
+        give(frame, to);
+    });
+}
+
+VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view, float seconds, const VesperImage* shown,
+                                 const VesperHandover* handover, VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer, "no renderer");
+        const RenderSettings how = settings_of(settings);
+        const float passed = seconds_of(seconds);
+        const Handover semaphores = handover_of(handover);
+        const Seen seen = see(*renderer, view);
+        renderer->renderer.submit(how, seen.view, seen.frame, passed, {.display = false, .shown = shown_image(shown, seen.view.extent)}, semaphores);
+    });
+}
+
+VesperResult vesper_renderer_finish(VesperRenderer* renderer, VesperFrameReport* report, VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer, "no renderer");
+        check_report(report);
+        const std::optional<Frame> frame = finish(*renderer);
+        give(frame ? &*frame : nullptr, report);
+    });
+}
+
+VesperResult vesper_renderer_reset(VesperRenderer* renderer, VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer, "no renderer");
+        renderer->renderer.finish();
+        renderer->renderer.reset_adaptation();
+        renderer->eye = {};
+    });
+}
+
+VesperResult vesper_renderer_eye(VesperRenderer* renderer, void* bytes, VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer && bytes, "no renderer, or no place for what its eye remembers");
+        finish(*renderer);
+        give_eye(renderer->eye, bytes);
+    });
+}
+
+VesperResult vesper_renderer_set_eye(VesperRenderer* renderer, const void* bytes, size_t size, VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer && bytes, "no renderer, or nothing to remember");
+        const shared::EyeState eye = eye_of(bytes, size);
+        renderer->renderer.finish();
+        renderer->eye = eye;
+        renderer->renderer.set_eye(eye);
+    });
+}

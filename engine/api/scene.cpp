@@ -1,0 +1,210 @@
+// Scenes from files and from arrays. SPDX-License-Identifier: MIT
+#include <set>
+#include <tuple>
+
+#include "api/handles.h"
+#include "base/luminance.h"
+#include "scene/gltf.h"
+#include "scene/mesh.h"
+
+using namespace vesper;
+using namespace vesper::api;
+
+namespace {
+
+constexpr uint32_t kMostTexels = 16384;  // of a texture, in width or height
+
+uint32_t added(size_t count) { return uint32_t(count - 1); }
+
+bool fractions(const float (&values)[3]) {
+    return std::all_of(values, values + 3, [](float v) { return v >= 0 && v <= 1; });
+}
+
+/// A colour that may be none, as a luminance and a colour of luminance 1.
+std::pair<float, glm::vec3> split(const float rgb[3], const char* otherwise) {
+    const glm::vec3 colour = vector(rgb);
+    for (int c = 0; c < 3; ++c) require(colour[c] >= 0 && colour[c] <= 1e9f, otherwise);
+    const float y = float(luminance(colour));
+    return {y, y > 0 ? colour / y : glm::vec3(1)};
+}
+
+Primitive primitive_of(const Scene& scene, const VesperMesh& m) {
+    require(m.material < scene.materials.size(), "the scene has no such material");
+    require(m.vertex_count >= 3 && m.positions && m.index_count >= 3 && m.index_count % 3 == 0 && m.indices, "a mesh has positions, and three indices per triangle");
+    const auto all_finite = [&](const float* values, size_t each) { return !values || std::all_of(values, values + each * m.vertex_count, [](float v) { return std::isfinite(v); }); };
+    require(all_finite(m.positions, 3) && all_finite(m.normals, 3) && all_finite(m.uvs, 2), "positions, normals and uvs are finite");
+    require(std::all_of(m.indices, m.indices + m.index_count, [&](uint32_t i) { return i < m.vertex_count; }), "an index is less than the number of vertices");
+    Primitive made;
+    made.material = m.material;
+    made.vertices.resize(m.vertex_count);
+    for (size_t i = 0; i < m.vertex_count; ++i) {
+        Vertex& vertex = made.vertices[i];
+        vertex.position = vector(m.positions + 3 * i);
+        if (m.normals) vertex.normal = unit_or_up(vector(m.normals + 3 * i));
+        if (m.uvs) vertex.uv = {m.uvs[2 * i], m.uvs[2 * i + 1]};
+        made.bounds.add(vertex.position);
+    }
+    made.indices.assign(m.indices, m.indices + m.index_count);
+    if (!m.normals) make_flat(made);
+    return made;
+}
+
+/// The lamp's frame: -z along its axis, +y as near to `up` as can be.
+glm::quat turned(const VesperLamp& lamp) {
+    const glm::vec3 axis = vector(lamp.axis), up = vector(lamp.up);
+    require(glm::length(axis) > 1e-6f, "a lamp's axis has a direction");
+    if (up == glm::vec3(0)) return glm::quat(glm::vec3(0, 0, -1), glm::normalize(axis));
+    const glm::vec3 z = -glm::normalize(axis), x = glm::cross(up, z);
+    require(glm::length(x) > 1e-6f * glm::length(up), "a lamp's axis and up are two directions");
+    return glm::quat_cast(glm::mat3(glm::normalize(x), glm::cross(z, glm::normalize(x)), z));
+}
+
+/// The number of the distribution of a file, which is read once.
+uint32_t distribution_of(VesperScene& scene, const std::string& file) {
+    if (const auto known = scene.distributions.find(file); known != scene.distributions.end()) return known->second;
+    scene.scene.distributions.push_back(read_distribution(file));
+    return scene.distributions[file] = added(scene.scene.distributions.size());
+}
+
+Light light_of(VesperScene& scene, const VesperLamp& l) {
+    require(finite(l.position) && finite(l.axis) && finite(l.up) && finite(l.colour) && l.intensity >= 0 && std::isfinite(l.intensity), "a lamp has a place, an axis, at least 0 cd and a colour");
+    const auto [y, colour] = split(l.colour, "a lamp's colour has no negative part");
+    require(y > 0, "a lamp's colour has luminance");
+    require(l.inner_cone >= 0 && l.outer_cone >= l.inner_cone && l.outer_cone <= 1.5707964f, "a lamp's cones are 0 <= inner <= outer <= pi / 2");
+    require(l.opening_length >= 0 && l.opening_length <= 1000 && l.opening_width >= 0 && l.opening_width <= 1000, "a lamp's opening is 0 to 1000 m long and wide");
+    Light light;
+    light.intensity = l.intensity, light.colour = colour;
+    light.inner_cone = l.inner_cone, light.outer_cone = l.outer_cone;
+    light.kind = l.distribution ? Light::Kind::Measured : l.outer_cone > 0 ? Light::Kind::Spot : Light::Kind::Point;
+    if (l.distribution) {
+        light.distribution = distribution_of(scene, l.distribution);
+        light.opening = scene.scene.distributions[light.distribution].opening;
+    }
+    if (l.opening_length > 0 && l.opening_width > 0) light.opening = {l.opening_length, l.opening_width, 0, false};
+    return light;
+}
+
+void add(Scene& scene, Node node, uint32_t* number) {
+    scene.nodes.push_back(std::move(node));
+    if (number) *number = added(scene.nodes.size());
+}
+
+}  // namespace
+
+VesperResult vesper_scene_create(VesperScene** scene, VesperError* error) {
+    return guarded(error, [&] {
+        require(scene, "no place for the scene");
+        *scene = new VesperScene;
+    });
+}
+
+VesperResult vesper_scene_read(const char* file, VesperScene** scene, VesperError* error) {
+    return guarded(error, [&] {
+        require(file && scene, "no file, or no place for the scene");
+        *scene = new VesperScene{read_gltf(file).scene, 0, {}};
+    });
+}
+void vesper_scene_destroy(VesperScene* scene) { delete scene; }
+uint32_t vesper_scene_node_count(const VesperScene* scene) { return scene ? uint32_t(scene->scene.nodes.size()) : 0; }
+const char* vesper_scene_node_name(const VesperScene* scene, uint32_t node) {
+    return scene && node < scene->scene.nodes.size() ? scene->scene.nodes[node].name.c_str() : nullptr;
+}
+
+VesperResult vesper_scene_add_material(VesperScene* scene, const VesperMaterial* material, uint32_t* index, VesperError* error) {
+    return guarded(error, [&] {
+        require(scene && index, "no scene, or no place for the number of the material");
+        const VesperMaterial m = known(material, "a material without its size");
+        require(fractions(m.base_colour) && m.metallic >= 0 && m.metallic <= 1 && m.roughness >= 0 && m.roughness <= 1, "reflectance, metallic and roughness are 0 to 1");
+        const auto [emitted, emission] = split(m.emission, "a material emits 0 to 1e9 cd/m^2");
+        Material made;
+        made.base_colour = glm::vec4(vector(m.base_colour), 1);
+        made.metallic = m.metallic, made.roughness = m.roughness;
+        made.emission = emitted * emission;
+        made.double_sided = m.double_sided;
+        if (m.texture) {
+            require(m.texture_width > 0 && m.texture_height > 0 && m.texture_width <= kMostTexels && m.texture_height <= kMostTexels, "a texture is 1 to 16384 pixels wide and high");
+            Image image{"", m.texture_width, m.texture_height, {}};
+            image.rgba.assign(m.texture, m.texture + size_t{4} * m.texture_width * m.texture_height);
+            scene->scene.images.push_back(std::move(image));
+            made.base_colour_texture.image = added(scene->scene.images.size());
+        }
+        scene->scene.materials.push_back(made);
+        *index = added(scene->scene.materials.size());
+    });
+}
+
+VesperResult vesper_scene_add_mesh(VesperScene* scene, const VesperMesh* mesh, uint32_t* index, VesperError* error) {
+    return guarded(error, [&] {
+        require(scene && index, "no scene, or no place for the number of the mesh");
+        scene->scene.meshes.push_back({"", {primitive_of(scene->scene, known(mesh, "a mesh without its size"))}});
+        *index = added(scene->scene.meshes.size());
+    });
+}
+
+VesperResult vesper_scene_add_node(VesperScene* scene, const char* name, uint32_t mesh, const float* node_to_world, uint32_t* node, VesperError* error) {
+    return guarded(error, [&] {
+        require(scene && node, "no scene, or no place for the number of the node");
+        require(mesh == VESPER_NONE || (mesh < scene->scene.meshes.size() && !scene->scene.meshes[mesh].primitives.empty()), "the scene has no such mesh");
+        Node made;
+        made.name = name ? name : "";
+        made.mesh = mesh;
+        if (node_to_world) made.matrix = place_of(node_to_world);
+        add(scene->scene, std::move(made), node);
+        if (mesh != VESPER_NONE) ++scene->version;
+    });
+}
+
+VesperResult vesper_scene_add_lamp(VesperScene* scene, const VesperLamp* lamp, uint32_t* node, VesperError* error) {
+    return guarded(error, [&] {
+        require(scene, "no scene");
+        const VesperLamp l = known(lamp, "a lamp without its size");
+        Light light = light_of(*scene, l);
+        Node placed;
+        placed.name = "lamp", placed.light = uint32_t(scene->scene.lights.size());
+        placed.translation = vector(l.position);
+        if (light.kind != Light::Kind::Point) placed.rotation = turned(l);
+        scene->scene.nodes.reserve(scene->scene.nodes.size() + 1);
+        scene->scene.lights.push_back(std::move(light));
+        add(scene->scene, std::move(placed), node);
+        ++scene->version;
+    });
+}
+
+VesperResult vesper_scene_attach(VesperScene* scene, uint32_t node, uint32_t to, VesperError* error) {
+    return guarded(error, [&] {
+        require(scene, "no scene");
+        require(node < scene->scene.nodes.size() && to < node, "a node hangs on an earlier one");
+        scene->scene.nodes[node].parent = to;
+    });
+}
+
+VesperResult vesper_scene_remove(VesperScene* scene, uint32_t node, VesperError* error) {
+    return guarded(error, [&] {
+        require(scene, "no scene");
+        std::vector<Node>& nodes = scene->scene.nodes;
+        require(node < nodes.size(), "the scene has no such node");
+        std::vector<bool> gone(nodes.size());
+        std::set<uint32_t> unused;  // meshes
+        for (size_t i = node; i < nodes.size(); ++i) {
+            gone[i] = i == node || (nodes[i].parent != kNone && gone[nodes[i].parent]);
+            if (!gone[i]) continue;
+            unused.insert(nodes[i].mesh);
+            nodes[i].mesh = nodes[i].light = nodes[i].camera = kNone;
+        }
+        for (const Node& left : nodes) unused.erase(left.mesh);  // kNone, too: that of the node itself
+        for (const uint32_t mesh : unused) scene->scene.meshes[mesh].primitives = {};
+        ++scene->version;
+    });
+}
+
+VesperResult vesper_scene_set_sky(VesperScene* scene, const float illuminance[3], const float luminance[3], VesperError* error) {
+    return guarded(error, [&] {
+        require(scene && illuminance && luminance, "no scene, or no light");
+        const auto ambient = split(illuminance, "ambient light is 0 to 1e9 lx"), sky = split(luminance, "a sky has 0 to 1e9 cd/m^2");
+        Scene& lit = scene->scene;
+        std::tie(lit.ambient_illuminance, lit.ambient_colour) = ambient;
+        std::tie(lit.sky_luminance, lit.sky_colour) = sky;
+        lit.environment.reset();
+        ++scene->version;
+    });
+}

@@ -1,0 +1,56 @@
+#include "graph/frame_slot.h"
+
+namespace vesper {
+
+FrameSlot::FrameSlot(const Device& d) : device(d), fence(make_fence(d)) {
+    const VkCommandPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = d.queue_family()};
+    VkCommandPool raw = VK_NULL_HANDLE;
+    check(vkCreateCommandPool(d.handle(), &info, nullptr, &raw), "making a command pool");
+    pool = {d.handle(), raw};
+    const VkCommandBufferAllocateInfo allocate_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                                    .commandPool = raw,
+                                                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                                    .commandBufferCount = 1};
+    check(vkAllocateCommandBuffers(d.handle(), &allocate_info, &commands), "making a command buffer");
+}
+
+void FrameSlot::begin(uint32_t timestamps) {
+    check(vkResetCommandPool(device.handle(), pool.get(), 0), "recording");
+    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    check(vkBeginCommandBuffer(commands, &begin), "recording");
+    if (query_capacity < timestamps) {
+        const VkQueryPoolCreateInfo info{
+            .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = VK_QUERY_TYPE_TIMESTAMP, .queryCount = timestamps};
+        VkQueryPool raw = VK_NULL_HANDLE;
+        check(vkCreateQueryPool(device.handle(), &info, nullptr, &raw), "making timestamps");
+        queries = {device.handle(), raw};
+        query_capacity = timestamps;
+    }
+    if (timestamps) vkCmdResetQueryPool(commands, queries.get(), 0, timestamps);
+}
+
+void FrameSlot::submit(const Handover& handover) {
+    check(vkEndCommandBuffer(commands), "recording");
+    const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = commands};
+    const VkSubmitInfo2 work{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                             .waitSemaphoreInfoCount = uint32_t(handover.wait.size()),
+                             .pWaitSemaphoreInfos = handover.wait.data(),
+                             .commandBufferInfoCount = 1,
+                             .pCommandBufferInfos = &submitted,
+                             .signalSemaphoreInfoCount = uint32_t(handover.signal.size()),
+                             .pSignalSemaphoreInfos = handover.signal.data()};
+    const VkFence done = fence.get();
+    check(vkResetFences(device.handle(), 1, &done), "submitting a frame");
+    device.submit(work, done, "submitting a frame");
+    under_way = true;
+}
+
+void FrameSlot::wait() {
+    if (!under_way) return;
+    under_way = false;  // whatever comes of it
+    device.wait(fence.get());
+    if (readbacks.bytes()) readbacks.invalidate();
+}
+
+}  // namespace vesper

@@ -1,0 +1,22 @@
+// What stands for the resources of a frame on the device, for the executor alone. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "graph/executor.h"
+
+namespace vesper {
+
+// A transient owns its objects; everything else borrows them from a history, the frame's slot or somebody else.
+struct Executor::Realized {
+    OwnedImage owned_image;
+    OwnedImageView owned_view;
+    OwnedBuffer owned_buffer;
+    OwnedBufferView owned_texels;
+    VkBufferView texels = VK_NULL_HANDLE;
+    VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+    uint64_t offset = 0, bytes = 0;
+};
+
+}  // namespace vesper

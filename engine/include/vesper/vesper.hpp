@@ -1,0 +1,74 @@
+/** @file
+ * vesper.h from C++: owners of its handles, and exceptions for its results. SPDX-License-Identifier: MIT
+ */
+#ifndef VESPER_VESPER_HPP
+#define VESPER_VESPER_HPP
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <vesper/vesper.h>
+
+/** The C interface with owners and exceptions. */
+namespace vesper::cpp {
+
+/** What a call failed with. */
+class Failure : public std::runtime_error {
+public:
+    /** Of a result that is not VESPER_OK, with its message. */
+    Failure(VesperResult result, const std::string& message) : std::runtime_error(message), result(result) {}
+    VesperResult result; /**< which kind it is */
+};
+
+/** Destroys what a handle stands for. */
+template <auto Destroy>
+struct Destroyer {
+    /** Called by the owner. */
+    template <class T>
+    void operator()(T* object) const {
+        Destroy(object);
+    }
+};
+using Device = std::unique_ptr<VesperDevice, Destroyer<vesper_device_close>>;                  /**< owner of a device */
+using ToneMapper = std::unique_ptr<VesperToneMapper, Destroyer<vesper_tone_mapper_destroy>>;   /**< owner of a tone mapper */
+using Scene = std::unique_ptr<VesperScene, Destroyer<vesper_scene_destroy>>;                   /**< owner of a scene */
+using Renderer = std::unique_ptr<VesperRenderer, Destroyer<vesper_renderer_destroy>>;          /**< owner of a renderer */
+
+/** Calls a function of vesper.h, without its last argument. Throws Failure:
+ *     call(vesper_render, renderer.get(), &settings, &view, seconds, &outputs); */
+template <class... Parameters, class... Arguments>
+void call(VesperResult (*function)(Parameters...), Arguments&&... arguments) {
+    VesperError error;
+    const VesperResult result = function(std::forward<Arguments>(arguments)..., &error);
+    if (result != VESPER_OK) throw Failure(result, error.message);
+}
+
+/** Makes something by a function of vesper.h, without its last two arguments. Throws Failure:
+ *     const auto device = make<Device>(vesper_device_open, nullptr); */
+template <class Owner, class... Parameters, class... Arguments>
+Owner make(VesperResult (*function)(Parameters...), Arguments&&... arguments) {
+    typename Owner::pointer made = nullptr;
+    call(function, std::forward<Arguments>(arguments)..., &made);
+    return Owner(made);
+}
+
+/** A structure of vesper.h with its size set and everything else zero. */
+template <class T>
+T sized() {
+    T made{};
+    made.size = sizeof made;
+    return made;
+}
+
+/** The settings of vesper_tone_settings_defaults. */
+inline VesperToneSettings default_tone_settings() {
+    VesperToneSettings made{};
+    vesper_tone_settings_defaults(&made, sizeof made);
+    return made;
+}
+
+}  // namespace vesper::cpp
+
+#endif

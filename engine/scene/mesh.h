@@ -1,0 +1,15 @@
+// Making normals of triangles. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/scene.h"
+
+namespace vesper {
+
+/// Normal of a triangle times twice its area.
+glm::vec3 area_normal(const std::vector<Vertex>& vertices, const uint32_t* corners);
+/// A vector of unit length; up where it has no direction.
+glm::vec3 unit_or_up(glm::vec3 v);
+/// Flat shading: every triangle gets corners of its own, with its normal.
+void make_flat(Primitive& primitive);
+
+}  // namespace vesper

@@ -1,0 +1,395 @@
+// Scenes made in memory through the C interface: light by the laws it follows, and what is added, hung on something, dimmed and removed.
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "photometry/distribution.h"
+#include "places.h"
+#include "support/host_device.h"
+
+namespace vesper::test {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr uint32_t kSide = 9, kMiddle = 40;
+
+const std::vector<float> kSquare{-20, 0, -20, 20, 0, -20, 20, 0, 20, -20, 0, 20};
+const std::vector<uint32_t> kTriangles{0, 2, 1, 0, 3, 2};
+
+VesperMaterial white() {
+    VesperMaterial m = VESPER_INIT(VesperMaterial);
+    m.base_colour[0] = m.base_colour[1] = m.base_colour[2] = m.roughness = 1;
+    return m;
+}
+
+VesperMesh square(uint32_t material) {
+    VesperMesh mesh = VESPER_INIT(VesperMesh);
+    mesh.material = material, mesh.vertex_count = 4, mesh.positions = kSquare.data(), mesh.index_count = 6, mesh.indices = kTriangles.data();
+    return mesh;
+}
+
+// 1 cd, 1 m above the ground.
+VesperLamp candle() {
+    VesperLamp lamp = VESPER_INIT(VesperLamp);
+    lamp.position[1] = lamp.intensity = lamp.colour[0] = lamp.colour[1] = lamp.colour[2] = 1;
+    return lamp;
+}
+
+// Straight down on the ground at (x, 0, 0).
+VesperView down(float x = 0) {
+    VesperView view = VESPER_INIT(VesperView);
+    view.width = view.height = kSide, view.eye[0] = x, view.eye[1] = 0.5f, view.forward[1] = -1, view.up[2] = -1, view.vertical_fov = 0.02f, view.near_plane = 0.1f;
+    return view;
+}
+
+std::vector<float> at(float x, float y, float z) { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1}; }
+
+class CScene : public ::testing::Test {
+protected:
+    void SetUp() override {
+        VesperDeviceOptions options = VESPER_INIT(VesperDeviceOptions);
+        options.validation = 1, options.user = &complaints;
+        options.on_message = [](const char* message, void* user) { *static_cast<std::string*>(user) += message; };
+        expect(vesper_device_open(&options, &device, &error));
+        expect(vesper_scene_create(&scene, &error));
+        const VesperMaterial material = white();
+        expect(vesper_scene_add_material(scene, &material, &ground_material, &error));
+        const VesperMesh mesh = square(ground_material);
+        expect(vesper_scene_add_mesh(scene, &mesh, &ground_mesh, &error));
+        expect(vesper_scene_add_node(scene, "ground", ground_mesh, nullptr, &ground, &error));
+    }
+    void TearDown() override {
+        vesper_renderer_destroy(renderer), vesper_scene_destroy(scene), vesper_device_close(device);
+        EXPECT_EQ(complaints, "");
+    }
+    void expect(VesperResult result) { ASSERT_EQ(result, VESPER_OK) << error.message; }
+    uint32_t add(const VesperLamp& lamp) {
+        uint32_t node = VESPER_NONE;
+        expect(vesper_scene_add_lamp(scene, &lamp, &node, &error));
+        return node;
+    }
+    std::vector<float> render(const VesperView& view) {
+        if (!renderer) expect(vesper_renderer_create(device, scene, &renderer, &error));
+        std::vector<float> luminance(4 * kSide * kSide);
+        VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+        outputs.luminance = luminance.data();
+        expect(vesper_render(renderer, nullptr, &view, 0, &outputs, &error));
+        return luminance;
+    }
+    // Illuminance on the white, matt ground below, lx.
+    float lux(float x = 0) { return render(down(x))[4 * kMiddle] * kPi; }
+
+    std::string complaints;
+    VesperDevice* device = nullptr;
+    VesperScene* scene = nullptr;
+    VesperRenderer* renderer = nullptr;
+    uint32_t ground_material = 0, ground_mesh = 0, ground = 0;
+    VesperError error;
+};
+
+// I / d^2, and sums of it; 0.2 % is what half floats of reflectance and the size of a pixel cost.
+TEST_F(CScene, LampsComeAndGo) {
+    EXPECT_EQ(lux(), 0);
+    const uint32_t one = add(candle());
+    EXPECT_NEAR(lux(), 1, 2e-3);
+    VesperLamp higher = candle();
+    higher.position[1] = 2, higher.intensity = 8;
+    const uint32_t two = add(higher);
+    EXPECT_NEAR(lux(), 3, 6e-3);
+    expect(vesper_renderer_dim(renderer, two, 0.5f, &error));
+    EXPECT_NEAR(lux(), 2, 4e-3);
+    expect(vesper_scene_remove(scene, one, &error));
+    EXPECT_NEAR(lux(), 1, 2e-3);
+    expect(vesper_renderer_dim(renderer, two, 0, &error));
+    EXPECT_EQ(lux(), 0);
+    EXPECT_EQ(vesper_scene_node_count(scene), 3u) << "numbers stay";
+}
+
+// A car: a node with a body and a lamp on it, driven 3 m to the right; the lamp is where its own place in the car's frame says.
+TEST_F(CScene, WhatHangsOnANodeMovesWithIt) {
+    uint32_t car = 0, body = 0;
+    expect(vesper_scene_add_node(scene, "car", VESPER_NONE, nullptr, &car, &error));
+    expect(vesper_scene_add_node(scene, "body", ground_mesh, at(0, 5, 0).data(), &body, &error));
+    const uint32_t lamp = add(candle());
+    expect(vesper_scene_attach(scene, body, car, &error));
+    expect(vesper_scene_attach(scene, lamp, car, &error));
+    EXPECT_NEAR(lux(0), 1, 2e-3);
+    expect(vesper_renderer_place(renderer, car, at(3, 0, 0).data(), &error));
+    EXPECT_NEAR(lux(3), 1, 2e-3);
+    EXPECT_NEAR(lux(0), 1 / std::pow(10.0f, 1.5f), 2e-4) << "cos / d^2, d^2 = 10";
+    expect(vesper_scene_remove(scene, car, &error));
+    EXPECT_EQ(lux(3), 0) << "with all that hangs on it";
+    EXPECT_STREQ(vesper_scene_node_name(scene, body), "body");
+    EXPECT_EQ(vesper_scene_attach(scene, car, body, &error), VESPER_BAD_ARGUMENT) << "the later on the earlier";
+    EXPECT_EQ(vesper_scene_attach(scene, car, car, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_scene_attach(scene, 99, car, &error), VESPER_BAD_ARGUMENT);
+}
+
+// A measured lamp gives what its file says towards the ground, along its axis and off it, as it is turned.
+TEST_F(CScene, MeasuredLampsShineAsTheirFile) {
+    const std::string file = VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies";
+    const Distribution distribution = read_distribution(file);
+    VesperLamp lamp = candle();
+    lamp.position[1] = 4, lamp.axis[1] = -1, lamp.up[2] = 1, lamp.distribution = file.c_str(), lamp.intensity = 0.5f;
+    const uint32_t first = add(lamp);
+    // Its frame: +y is the world's +z and -z is down, so +x is -x of the world.
+    const double below = 0.5 * intensity(distribution, {0, 0, -1}), aside = 0.5 * intensity(distribution, {-3, 0, -4});
+    EXPECT_NEAR(lux(0), below / 16, 3e-3 * below / 16);
+    EXPECT_NEAR(lux(3), aside * 0.8 / 25, 1e-2 * aside * 0.8 / 25);
+    expect(vesper_scene_remove(scene, first, &error));
+    lamp.up[2] = 0, lamp.up[0] = 1;
+    add(lamp);
+    const double turned = 0.5 * intensity(distribution, {0, 3, -4});
+    EXPECT_NEAR(lux(3), turned * 0.8 / 25, 1e-2 * turned * 0.8 / 25);
+    lamp.distribution = "/nothing.ies";
+    uint32_t node = 0;
+    EXPECT_EQ(vesper_scene_add_lamp(scene, &lamp, &node, &error), VESPER_FAILED);
+    EXPECT_NE(std::string(error.message).find("/nothing.ies"), std::string::npos);
+    EXPECT_NEAR(lux(3), turned * 0.8 / 25, 1e-2 * turned * 0.8 / 25) << "and nothing has changed";
+}
+
+// Emission, texture codes through sRGB, sky and ambient light.
+TEST_F(CScene, MaterialsAndSky) {
+    VesperMaterial shining = white();
+    shining.base_colour[0] = shining.base_colour[1] = shining.base_colour[2] = 0, shining.emission[1] = 7;
+    VesperMaterial painted = white();
+    const uint8_t code[4] = {188, 188, 188, 255};
+    painted.texture = code, painted.texture_width = painted.texture_height = 1;
+    uint32_t material = 0, mesh = 0, node = 0;
+    expect(vesper_scene_add_material(scene, &shining, &material, &error));
+    VesperMesh shape = square(material);
+    expect(vesper_scene_add_mesh(scene, &shape, &mesh, &error));
+    expect(vesper_scene_add_node(scene, nullptr, mesh, at(0, 0.1f, 0).data(), &node, &error));
+    EXPECT_EQ(render(down())[4 * kMiddle + 1], 7);
+    expect(vesper_scene_remove(scene, node, &error));
+    EXPECT_EQ(vesper_scene_add_node(scene, nullptr, mesh, nullptr, &node, &error), VESPER_BAD_ARGUMENT) << "no node had it any more";
+    expect(vesper_scene_add_material(scene, &painted, &material, &error));
+    shape.material = material;
+    expect(vesper_scene_add_mesh(scene, &shape, &mesh, &error));
+    expect(vesper_scene_add_node(scene, nullptr, mesh, at(0, 0.1f, 0).data(), &node, &error));
+    const float ambient[3] = {kPi, 2 * kPi, 0}, sky[3] = {3, 4, 5};
+    expect(vesper_scene_set_sky(scene, ambient, sky, &error));
+    const std::vector<float> seen = render(down());
+    EXPECT_NEAR(seen[4 * kMiddle], 0.5029, 2e-3) << "sRGB code 188";
+    EXPECT_NEAR(seen[4 * kMiddle + 1], 2 * 0.5029, 4e-3);
+    VesperView up = down();
+    up.forward[1] = 1;
+    const std::vector<float> above = render(up);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(above[size_t(4 * kMiddle + c)], sky[c], 1e-5f);
+}
+
+TEST_F(CScene, NormalsAreOfTheTrianglesOrGiven) {
+    add(candle());
+    const float flat = lux();
+    const std::vector<float> tilted{3, 4, 0, 3, 4, 0, 3, 4, 0, 3, 4, 0};  // cosine 0.8 to the lamp
+    VesperMesh mesh = square(ground_material);
+    mesh.normals = tilted.data();
+    uint32_t index = 0, node = 0;
+    expect(vesper_scene_add_mesh(scene, &mesh, &index, &error));
+    expect(vesper_scene_remove(scene, ground, &error));
+    expect(vesper_scene_add_node(scene, "tilted", index, nullptr, &node, &error));
+    EXPECT_NEAR(flat, 1, 2e-3);
+    EXPECT_NEAR(lux(), 0.8, 3e-3);
+}
+
+TEST_F(CScene, RefusesWhatCannotBe) {
+    uint32_t made = 0;
+    const auto mesh = [&](const auto& change) {
+        VesperMesh m = square(ground_material);
+        change(m);
+        EXPECT_EQ(vesper_scene_add_mesh(scene, &m, &made, &error), VESPER_BAD_ARGUMENT);
+        EXPECT_GT(std::string(error.message).size(), 10u);
+    };
+    const std::vector<uint32_t> beyond{0, 1, 4, 0, 1, 2};
+    const std::vector<float> poison(12, NAN);
+    mesh([](VesperMesh& m) { m.size = 4; });
+    mesh([](VesperMesh& m) { m.material = 9; });
+    mesh([](VesperMesh& m) { m.vertex_count = 2; });
+    mesh([](VesperMesh& m) { m.positions = nullptr; });
+    mesh([](VesperMesh& m) { m.index_count = 4; });
+    mesh([](VesperMesh& m) { m.indices = nullptr; });
+    mesh([&](VesperMesh& m) { m.indices = beyond.data(); });
+    mesh([&](VesperMesh& m) { m.positions = poison.data(); });
+    mesh([&](VesperMesh& m) { m.normals = poison.data(); });
+    mesh([&](VesperMesh& m) { m.uvs = poison.data(); });
+    const auto material = [&](const auto& change) {
+        VesperMaterial m = white();
+        change(m);
+        EXPECT_EQ(vesper_scene_add_material(scene, &m, &made, &error), VESPER_BAD_ARGUMENT);
+    };
+    const uint8_t code[4]{};
+    material([](VesperMaterial& m) { m.size = 0; });
+    material([](VesperMaterial& m) { m.base_colour[1] = 1.01f; });
+    material([](VesperMaterial& m) { m.roughness = NAN; });
+    material([](VesperMaterial& m) { m.metallic = -1; });
+    material([](VesperMaterial& m) { m.emission[2] = -1; });
+    material([](VesperMaterial& m) { m.emission[2] = INFINITY; });
+    material([&](VesperMaterial& m) { m.texture = code; });
+    material([&](VesperMaterial& m) { m.texture = code, m.texture_width = 1, m.texture_height = 20000; });
+    const auto lamp = [&](const auto& change) {
+        VesperLamp l = candle();
+        change(l);
+        EXPECT_EQ(vesper_scene_add_lamp(scene, &l, &made, &error), VESPER_BAD_ARGUMENT);
+    };
+    lamp([](VesperLamp& l) { l.size = 0; });
+    lamp([](VesperLamp& l) { l.intensity = -1; });
+    lamp([](VesperLamp& l) { l.colour[0] = l.colour[1] = l.colour[2] = 0; });
+    lamp([](VesperLamp& l) { l.position[0] = NAN; });
+    lamp([](VesperLamp& l) { l.outer_cone = 1; });  // a spot without an axis
+    lamp([](VesperLamp& l) { l.outer_cone = 0.5f, l.inner_cone = 0.6f, l.axis[1] = -1; });
+    lamp([](VesperLamp& l) { l.outer_cone = 0.5f, l.axis[1] = -1, l.up[1] = 1; });
+    lamp([](VesperLamp& l) { l.opening_width = -1; });
+    const float flat[16]{}, light[3]{}, negative[3]{-1, 0, 0};
+    EXPECT_EQ(vesper_scene_add_node(scene, "", 99, nullptr, &made, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_scene_add_node(scene, "", VESPER_NONE, flat, &made, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_scene_remove(scene, 99, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_scene_set_sky(scene, negative, light, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_scene_set_sky(scene, nullptr, light, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_scene_create(nullptr, &error), VESPER_BAD_ARGUMENT);
+    for (const VesperResult result : {vesper_scene_add_mesh(nullptr, nullptr, &made, &error), vesper_scene_add_material(nullptr, nullptr, &made, &error),
+                                      vesper_scene_add_node(nullptr, "", VESPER_NONE, nullptr, &made, &error), vesper_scene_add_lamp(nullptr, nullptr, nullptr, &error),
+                                      vesper_scene_attach(nullptr, 1, 0, &error), vesper_scene_remove(nullptr, 0, &error), vesper_renderer_dim(nullptr, 0, 1, &error),
+                                      vesper_renderer_finish(nullptr, nullptr, &error), vesper_renderer_reset(nullptr, &error), vesper_renderer_eye(nullptr, nullptr, &error)})
+        EXPECT_EQ(result, VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(lux(), 0) << "none of that is in the scene";
+    EXPECT_EQ(vesper_renderer_dim(renderer, 99, 1, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_renderer_dim(renderer, ground, -1, &error), VESPER_BAD_ARGUMENT);
+}
+
+// The eye of one renderer goes on in another.
+TEST_F(CScene, EyesAreKept) {
+    VesperLamp lamp = candle();
+    lamp.intensity = 1000;
+    const uint32_t node = add(lamp);
+    std::vector<uint8_t> codes(4 * kSide * kSide);
+    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+    outputs.codes = codes.data();
+    const VesperView view = down();
+    const auto show = [&](VesperRenderer* by, float seconds) {
+        expect(vesper_render(by, nullptr, &view, seconds, &outputs, &error));
+        return codes;
+    };
+    expect(vesper_renderer_create(device, scene, &renderer, &error));
+    show(renderer, 0);
+    std::vector<uint8_t> eye(vesper_eye_size());
+    expect(vesper_renderer_eye(renderer, eye.data(), &error));
+    expect(vesper_renderer_dim(renderer, node, 0.001f, &error));
+    const std::vector<uint8_t> blinded = show(renderer, 0.1f);
+    VesperRenderer* other = nullptr;
+    expect(vesper_renderer_create(device, scene, &other, &error));
+    expect(vesper_renderer_dim(other, node, 0.001f, &error));
+    const std::vector<uint8_t> rested = show(other, 0.1f);
+    expect(vesper_renderer_set_eye(other, eye.data(), eye.size(), &error));
+    EXPECT_EQ(show(other, 0.1f), blinded);
+    EXPECT_NE(rested, blinded);
+    expect(vesper_renderer_reset(other, &error));
+    EXPECT_EQ(show(other, 0.1f), rested);
+    eye[0] ^= 1;
+    EXPECT_EQ(vesper_renderer_set_eye(other, eye.data(), eye.size(), &error), VESPER_BAD_ARGUMENT);
+    vesper_renderer_destroy(other);
+}
+
+// Frames into images of the host's, all handed over at once, while the scene changes: the last as through arrays.
+TEST(CSceneOnAHost, RendersIntoImages) {
+    HostDevice host;
+    VesperError error;
+    const VesperHostDevice lent = host.lent();
+    VesperDevice* device = nullptr;
+    ASSERT_EQ(vesper_device_borrow(&lent, &device, &error), VESPER_OK) << error.message;
+    VesperScene* scene = nullptr;
+    uint32_t material = 0, mesh = 0, node = 0;
+    ASSERT_EQ(vesper_scene_create(&scene, &error), VESPER_OK);
+    const VesperMaterial surface = white();
+    ASSERT_EQ(vesper_scene_add_material(scene, &surface, &material, &error), VESPER_OK);
+    const VesperMesh shape = square(material);
+    ASSERT_EQ(vesper_scene_add_mesh(scene, &shape, &mesh, &error), VESPER_OK);
+    ASSERT_EQ(vesper_scene_add_node(scene, "ground", mesh, nullptr, &node, &error), VESPER_OK);
+    VesperRenderer *images = nullptr, *arrays = nullptr;
+    ASSERT_EQ(vesper_renderer_create(device, scene, &images, &error), VESPER_OK);
+    VesperView view = down();
+    view.width = 33, view.height = 21, view.vertical_fov = 1.5f;
+    const VkExtent2D extent{view.width, view.height};
+    ::Image shown = host->make_image(VK_FORMAT_B8G8R8A8_SRGB, extent, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    const VesperImage to = described(shown, VK_FORMAT_B8G8R8A8_SRGB, extent, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    std::vector<uint8_t> codes(4 * 33 * 21);
+    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+    outputs.codes = codes.data();
+    for (int frame = 0; frame < 6; ++frame) {
+        VesperLamp lamp = candle();
+        lamp.position[0] = 0.3f * float(frame) - 1, lamp.colour[0] = 2;
+        if (frame % 2) {
+            ASSERT_EQ(vesper_scene_add_lamp(scene, &lamp, nullptr, &error), VESPER_OK);
+        }
+        ASSERT_EQ(vesper_render_image(images, nullptr, &view, 0.1f, &to, nullptr, &error), VESPER_OK) << error.message;
+    }
+    const std::vector<uint8_t> got = host->read(shown, extent, 1);
+    VesperFrameReport report = VESPER_INIT(VesperFrameReport);
+    ASSERT_EQ(vesper_renderer_finish(images, &report, &error), VESPER_OK);
+    EXPECT_GT(report.adaptation, 0);
+    // The same eye, over the same frames: lamps are there from the frame on in which they were added.
+    for (const uint32_t removed : {1u, 2u, 3u}) ASSERT_EQ(vesper_scene_remove(scene, removed, &error), VESPER_OK);
+    ASSERT_EQ(vesper_renderer_create(device, scene, &arrays, &error), VESPER_OK);
+    for (int frame = 0; frame < 6; ++frame) {
+        VesperLamp lamp = candle();
+        lamp.position[0] = 0.3f * float(frame) - 1, lamp.colour[0] = 2;
+        if (frame % 2) {
+            ASSERT_EQ(vesper_scene_add_lamp(scene, &lamp, nullptr, &error), VESPER_OK);
+        }
+        ASSERT_EQ(vesper_render(arrays, nullptr, &view, 0.1f, &outputs, &error), VESPER_OK) << error.message;
+    }
+    for (size_t i = 0; i < codes.size(); i += 4) std::swap(codes[i], codes[i + 2]);
+    EXPECT_EQ(got, codes);
+    view.width = 34;
+    EXPECT_EQ(vesper_render_image(images, nullptr, &view, 0, &to, nullptr, &error), VESPER_BAD_ARGUMENT) << "another extent";
+    vesper_renderer_destroy(images), vesper_renderer_destroy(arrays);
+    vesper_scene_destroy(scene);
+    vesper_device_close(device);
+    host->destroy(shown);
+}
+
+// Several engines in one process, each in a thread of its own: each gives what it gives alone.
+TEST(CSceneInThreads, EnginesDoNotKnowOfOneAnother) {
+    const auto frames = [](float intensity) {
+        VesperError error;
+        VesperDevice* device = nullptr;
+        VesperScene* scene = nullptr;
+        VesperRenderer* renderer = nullptr;
+        uint32_t material = 0, mesh = 0, node = 0;
+        const VesperMaterial surface = white();
+        VesperLamp lamp = candle();
+        lamp.intensity = intensity;
+        std::vector<uint8_t> codes(4 * kSide * kSide), all;
+        VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+        outputs.codes = codes.data();
+        const VesperView view = down();
+        EXPECT_EQ(vesper_device_open(nullptr, &device, &error), VESPER_OK) << error.message;
+        EXPECT_EQ(vesper_scene_create(&scene, &error), VESPER_OK);
+        EXPECT_EQ(vesper_scene_add_material(scene, &surface, &material, &error), VESPER_OK);
+        const VesperMesh shape = square(material);
+        EXPECT_EQ(vesper_scene_add_mesh(scene, &shape, &mesh, &error), VESPER_OK);
+        EXPECT_EQ(vesper_scene_add_node(scene, "", mesh, nullptr, &node, &error), VESPER_OK);
+        EXPECT_EQ(vesper_scene_add_lamp(scene, &lamp, nullptr, &error), VESPER_OK);
+        EXPECT_EQ(vesper_renderer_create(device, scene, &renderer, &error), VESPER_OK);
+        for (int frame = 0; frame < 4; ++frame) {
+            EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0.1f, &outputs, &error), VESPER_OK) << error.message;
+            all.insert(all.end(), codes.begin(), codes.end());
+        }
+        vesper_renderer_destroy(renderer), vesper_scene_destroy(scene), vesper_device_close(device);
+        return all;
+    };
+    const float intensities[] = {0.1f, 30, 1000};
+    std::vector<std::vector<uint8_t>> together(3);
+    std::vector<std::thread> threads;
+    for (size_t i = 0; i < 3; ++i) threads.emplace_back([&, i] { together[i] = frames(intensities[i]); });
+    for (std::thread& thread : threads) thread.join();
+    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(together[i], frames(intensities[i]));
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <optional>
 
+#include "gpu/device_lost.h"
+
 namespace vesper {
 namespace {
 
@@ -145,7 +147,10 @@ std::string text_of(VkResult result) {
 }  // namespace
 
 void check(VkResult result, std::string_view what) {
-    if (result != VK_SUCCESS) throw Error(std::string(what) + ": " + text_of(result));
+    if (result == VK_SUCCESS) return;
+    const std::string message = std::string(what) + ": " + text_of(result);
+    if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(message);
+    throw Error(message);
 }
 
 std::vector<std::string> list_devices() {

@@ -5,6 +5,7 @@
 
 #include "io/image_file.h"
 #include "io/atomic_file.h"
+#include "places.h"
 #include "result.h"
 #include "support/program.h"
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "places.h"
 #include "road_world.h"
 #include "support/complaints.h"
 #include "roads/opendrive.h"

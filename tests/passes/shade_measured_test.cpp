@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "places.h"
 #include "support/lights.h"
 #include "support/noise.h"
 #include "support/shading.h"

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "places.h"
 #include "shared/maps.h"
 
 namespace vesper {

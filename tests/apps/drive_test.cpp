@@ -300,9 +300,10 @@ TEST_F(DriveProgram, RefusesIdleOptions) {
     expect_refused(replay + "--record r.json", {"--record", "replay"});
     expect_refused(replay + "x.xodr", {"scene", "--replay"});
     expect_refused(replay + "--scenario x.csv", {"--scenario", "--replay"});
-    for (const char* option : {"--video x.mp4", "--fps 30", "--seconds 3"}) expect_refused(option, {std::string(option).substr(0, 5), "--headless"});
-    for (const char* option : {"--window 64x64", "--fullscreen", "--vsync off", "--limit 9", "--scaling fit", "--controllers c.json"}) expect_refused(drive + option, {std::string(option).substr(0, 8), "--headless"});
-    for (const char* option : {"--size 64x64", "--fov 30"}) expect_refused(drive + "--channels c.json " + option, {std::string(option).substr(0, 5), "--channels"});
+    const auto name = [](const std::string& option) { return option.substr(0, option.find(' ')) + ": "; };
+    for (const char* option : {"--video x.mp4", "--fps 30", "--seconds 3"}) expect_refused(option, {name(option), "--headless"});
+    for (const char* option : {"--window 64x64", "--fullscreen", "--vsync off", "--limit 9", "--scaling fit", "--controllers c.json"}) expect_refused(drive + option, {name(option), "--headless"});
+    for (const char* option : {"--size 64x64", "--fov 30"}) expect_refused(drive + "--channels c.json " + option, {name(option), "--channels"});
     expect_refused("--headless --record r.json --fps 30", {"--fps", "--video"});
     expect_refused("--headless --record r.json --probe 0.5,0.5", {"--probe", "--log"});
     expect_refused(drive + "--free 1,2,3,0,0", {"--free", "--camera free"});
@@ -312,18 +313,26 @@ TEST_F(DriveProgram, RefusesIdleOptions) {
 
 // No output replaces what is read, also where only another file names it; nor does what there is of a log replace a good one.
 TEST_F(DriveProgram, SparesWhatItReadsAndWhatIsGood) {
-    std::filesystem::copy(std::filesystem::path(kWorld).parent_path(), folder / "street", std::filesystem::copy_options::recursive);
-    std::filesystem::copy(std::filesystem::path(kWorld).parent_path().parent_path() / "photometry", folder / "photometry");
-    const std::string common = "street/rivoli.world.json --headless --size 16x10 --seconds 0.1 ";
+    GltfFile scene;
+    scene.show({{"attributes", {{"POSITION", scene.vec3(kTriangle)}}}});
+    scene.root["nodes"].push_back({{"name", "lamp"}});
+    scene.text();
+    scene.root["buffers"][0]["uri"] = "s.bin";
+    std::ofstream(folder / "s.bin", std::ios::binary).write(reinterpret_cast<const char*>(scene.bytes.data()), std::streamsize(scene.bytes.size()));
+    folder.write("s.gltf", scene.root.dump());
+    folder.write("s.photometry.json", R"({"version": 1, "lamps": [{"name": "lamp", "nodes": "lamp", "type": "distribution", "file": "l.csv"}]})");
+    std::filesystem::copy(std::string(VESPER_SOURCE_DIR) + "/data/photometry/low-beam.csv", folder / "l.csv");
+    folder.write("w.json", R"({"version": 1, "scene": "s.gltf", "photometry": "s.photometry.json", "driver": {"lane": "a"}, "lanes": [{"name": "a", "points": [[0, 0, 9], [0, 0, -9]]}]})");
+    const std::string common = "w.json --headless --size 16x10 --seconds 0.1 ";
     const auto whole = [&](const std::string& name) { return read_text(folder / name); };
-    for (const char* input : {"street/rivoli.world.json", "street/rivoli-drive.gltf", "street/rivoli-drive.bin", "street/rivoli-drive.photometry.json", "street/signs.exr", "photometry/low-beam.csv"}) {
+    for (const char* input : {"w.json", "s.gltf", "s.bin", "s.photometry.json", "l.csv"}) {
         const std::string before = whole(input);
         ASSERT_FALSE(before.empty()) << input;
         expect_refused(common + "--log " + input, {"--log", input, "replace"});
         expect_refused(common + "--record " + input, {"--record", input, "replace"});
         EXPECT_EQ(whole(input), before) << input;
     }
-    std::filesystem::create_symlink("street/signs.exr", folder / "00002.exr");
+    std::filesystem::create_symlink("s.bin", folder / "00002.exr");
     expect_refused(common + "--video %05d.exr", {"00002.exr", "replace"});
     EXPECT_EQ(run(common + "--log good.csv"), 0) << said;
     EXPECT_FALSE(exists("good.csv.part"));
@@ -333,7 +342,8 @@ TEST_F(DriveProgram, SparesWhatItReadsAndWhatIsGood) {
     std::filesystem::create_directory(folder / "00002.exr");
     expect_refused(common + "--log good.csv --record good.json --video %05d.exr", {"00002.exr"});
     EXPECT_EQ(whole("good.csv"), good);
-    EXPECT_EQ(std::count(whole("good.csv.part").begin(), whole("good.csv.part").end(), '\n'), 3);
+    const std::string part = whole("good.csv.part");
+    EXPECT_EQ(std::count(part.begin(), part.end(), '\n'), 3);  // a heading and two frames
     EXPECT_FALSE(exists("good.json"));
     ASSERT_EQ(run("--headless --replay good.json.part --log replayed.csv --size 16x10"), 0) << said;
     EXPECT_NE(said.find("breaks off"), said.npos);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr size_t kMost = 32;
+constexpr uint64_t kMostPixels = 1ull << 27;  // of all: sixteen times 3840 x 2160
 
 ScreenChannel channel_of(const JsonValue& value) {
     value.allow_only({"name", "size_px", "yaw_deg", "pitch_deg", "roll_deg", "left_deg", "right_deg", "bottom_deg", "top_deg"});
@@ -43,6 +44,9 @@ Channels read_channels(const std::filesystem::path& file) {
     Channels channels;
     for (const JsonValue& value : root.at("channels").elements()) channels.screens.push_back(channel_of(value));
     if (channels.screens.empty() || channels.screens.size() > kMost) root.at("channels").fail("1 to " + std::to_string(kMost) + " are expected");
+    uint64_t pixels = 0;
+    for (const ScreenChannel& c : channels.screens) pixels += uint64_t(c.extent.width) * c.extent.height;
+    if (pixels > kMostPixels) root.at("channels").fail("have more than " + std::to_string(kMostPixels) + " px in all");
     if (const auto gaze = root.find("gaze")) {
         const auto named = std::find_if(channels.screens.begin(), channels.screens.end(), [&](const ScreenChannel& c) { return c.name == gaze->text(); });
         if (named == channels.screens.end()) gaze->fail("there is no channel " + one_line(gaze->text()));

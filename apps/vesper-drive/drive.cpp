@@ -4,30 +4,58 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "io/atomic_file.h"
 #include "picture_arguments.h"
 #include "windowed.h"
 
 namespace vesper {
 namespace {
 
-void check(DriveArguments& a) {
+// Options that say nothing where the others are as they are, and why.
+void refuse_idle(const CLI::App& program, const DriveArguments& a) {
+    const bool logs = !a.log.empty(), films = !a.video.empty(), replays = !a.replay.empty();
+    const auto camera = a.settings.find("camera");
+    struct Rule {
+        bool here;
+        std::vector<const char*> options;
+        const char* why;
+    };
+    const Rule rules[]{
+        {replays, {"scene"}, "the recording names its scene (--replay)"},
+        {replays, {"--scenario", "--storyboard"}, "the recording names its run (--replay)"},
+        {replays, {"--autopilot", "--seconds", "--seed"}, "a recording is driven as it was (--replay)"},
+        {replays, {"--record"}, "a replay is not recorded"},
+        {a.run.empty(), {"--storyboard"}, "of which run? give --scenario"},
+        {!a.headless, {"--seconds", "--video", "--fps"}, "has a meaning only without a window (--headless)"},
+        {a.headless, {"--window", "--fullscreen", "--vsync", "--limit", "--scaling", "--controllers"}, "has a meaning only in a window, not with --headless"},
+        {!a.channels.empty(), {"--size", "--fov"}, "channels have sizes and angles of their own (--channels)"},
+        {!films && !logs, {"--fps"}, "of what? give --video or --log"},
+        {!logs, {"--probe"}, "is a column of the log: give --log"},
+        {a.headless && !replays && (camera == a.settings.end() || camera->second != "free"), {"--free"}, "only that camera stands there: give --camera free"},
+    };
+    for (const Rule& rule : rules)
+        for (const char* option : rule.options)
+            if (rule.here && program.count(option)) throw Error(std::string(option) + ": " + rule.why);
+}
+
+void check(const CLI::App& program, DriveArguments& a) {
+    refuse_idle(program, a);
     if (a.scene.empty() && a.replay.empty()) a.scene = VESPER_DATA_DIR "/rivoli/rivoli.world.json";
-    if (!a.scene.empty() && !a.replay.empty()) throw Error("--replay " + a.replay + ": the recording names its scene; none can be given beside it");
-    if (!a.replay.empty() && (a.autopilot || !a.record.empty())) throw Error("--replay " + a.replay + ": --autopilot and --record have no meaning beside it");
-    if (!a.scenario.empty() && a.run.empty()) throw Error("--storyboard " + a.scenario + ": of which run? give --scenario");
-    if (!a.run.empty() && !a.replay.empty()) throw Error("--scenario " + a.run + ": the recording names its run");
     Files files;
-    files.reads(a.run);
-    files.reads(a.scenario);
-    files.reads(a.scene);
-    files.reads(a.replay);
-    files.reads(a.channels);
-    files.reads(a.controllers);
-    files.writes("--record", a.record);
-    files.writes("--log", a.log);
+    for (const std::string& file : {a.run, a.scenario, a.scene, a.replay, a.channels, a.controllers}) files.reads(file);
+    for (const auto& [option, file] : growing_outputs(a)) files.writes(option, file);
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArguments& a) {
+    return {{"--record", a.record}, {"--record", GrowingFile::part_of(a.record)}, {"--log", a.log}, {"--log", GrowingFile::part_of(a.log)}};
+}
+
+void check_outputs(const DriveArguments& a, const FilesRead& read) {
+    for (const auto& [option, file] : growing_outputs(a))
+        if (!file.empty() && read.contains(file)) throw Error(option + " " + one_line(file) + ": would replace what is read");
+}
 
 DriveStart start_of(const DriveArguments& a, const std::optional<Drive>& replayed) {
     if (!replayed) return {.scene = a.scene, .run = a.run, .scenario = a.scenario, .seed = a.seed, .settings = a.settings};
@@ -49,7 +77,7 @@ void add_drive(CLI::App& program) {
     program.add_option("--video", a->video, "Headless: FILM.mp4 (by ffmpeg), or one file a frame: NAME.%05d.png, NAME.%05d.exr (cd/m^2)");
     program.add_option("--fps", a->fps, "Headless: frames a second (default: those that were recorded, or 30)")->check(between(1.0, 1000.0));
     program.add_option("--log", a->log, "Write one row per frame to a CSV file: pose, eye, luminances, glare, times");
-    program.add_option("--probe", a->probes, "Headless: X,Y, parts of the picture from its top left: a column of luminance in the log; may be given several times");
+    program.add_option("--probe", a->probes, "X,Y, parts of the picture from its top left: a column of luminance in the log; may be given several times");
     program.add_option("--size,-s", a->size, "WIDTHxHEIGHT of pictures, px")->capture_default_str();
     program.add_option("--channels", a->channels, "A file of views of the driver's eye, on screens side by side (docs/simulator.md)");
     program.add_option("--seed", a->seed, "Of everything that is drawn by lot")->capture_default_str();
@@ -63,7 +91,7 @@ void add_drive(CLI::App& program) {
     DriveSettings::add_options(program);
     program.callback([a, &program] {
         a->settings = DriveSettings::given(program);
-        check(*a);
+        check(program, *a);
         a->size_given = program.count("--size") > 0;
         if (a->headless)
             run_headless(*a);

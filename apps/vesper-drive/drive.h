@@ -3,11 +3,13 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "drive_file.h"
+#include "io/files_read.h"
 #include "settings.h"
 
 namespace vesper {
@@ -34,6 +36,11 @@ void add_drive(CLI::App& program);
 
 /// How the drive begins that the command line asks for, or, of a recording, that one, with the settings given beside it.
 DriveStart start_of(const DriveArguments&, const std::optional<Drive>& replayed);
+
+/// What is written while a drive goes on, by the option that names it.
+std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArguments&);
+/// Throws Error if one of them is among what the drive reads, whatever named that.
+void check_outputs(const DriveArguments&, const FilesRead&);
 
 /// Drives or replays without a window.
 void run_headless(const DriveArguments&);

@@ -1,11 +1,5 @@
 #include "drive_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-
 #include <nlohmann/json.hpp>
 
 #include "arguments.h"
@@ -19,7 +13,6 @@ namespace {
 using nlohmann::json;
 
 constexpr uint64_t kMostBytes = 2ull << 30;
-constexpr unsigned kSafeEvery = 60;  // events
 constexpr const char* kBeams[]{"off", "low", "high"};
 constexpr const char* kIndicators[]{"none", "left", "right", "both"};
 
@@ -54,6 +47,11 @@ std::string input_text(const DriverInput& input, const DriverInput& before) {
     if (input.beam != before.beam) made["beam"] = kBeams[size_t(input.beam)];
     if (input.indicator != before.indicator) made["indicator"] = kIndicators[size_t(input.indicator)];
     return made.dump();
+}
+
+std::string step_text(const DriveEvent& event, const DriverInput& before) {
+    const glm::dvec4 pose = event.pose.value_or(glm::dvec4(0));
+    return "{\"step\":" + input_text(event.input, before) + format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]}", pose.x, pose.y, pose.z, pose.w);
 }
 
 // A path as seen from a folder.
@@ -108,7 +106,23 @@ Drive read_drive(const std::filesystem::path& file) {
     drive.start.run = found(root.text_or("run", "")), drive.start.scenario = found(root.text_or("scenario", ""));
     drive.start.seed = root.integer_or("seed", 1);
     drive.start.time_step = root.number_or("time_step_s", 1.0 / 60, 1e-4, 0.1);
-    if (const auto settings = root.find("settings")) drive.start.settings = read_values(*settings);
+    // Settings are tried here, so that a wrong one is named with its place, not met in the middle of a film.
+    DriveSettings settings;
+    const auto change = [&](const JsonValue& object, const std::string& name, const std::string& value) {
+        try {
+            settings.set(name, value);
+        } catch (const Error& error) {
+            object.fail(error.what());
+        }
+    };
+    if (const auto object = root.find("settings")) {
+        drive.start.settings = read_values(*object);
+        try {
+            settings = DriveSettings(drive.start.settings);
+        } catch (const Error& error) {
+            object->fail(error.what());
+        }
+    }
     DriverInput input;
     for (const JsonValue& event : root.at("events").elements()) {
         event.allow_only({"step", "pose", "frame", "set", "restart"});
@@ -121,9 +135,12 @@ Drive read_drive(const std::filesystem::path& file) {
         if (const auto step = event.find("step")) {
             input = read_input(*step, input);
             const auto pose = event.at("pose").elements(4);
-            drive.events.push_back({.kind = DriveEvent::Kind::Step, .input = input, .pose = {pose[0].number(), pose[1].number(), pose[2].number(), pose[3].number()}, .name = {}, .value = {}});
+            drive.events.push_back({.kind = DriveEvent::Kind::Step, .input = input, .pose = glm::dvec4(pose[0].number(), pose[1].number(), pose[2].number(), pose[3].number()), .name = {}, .value = {}});
         } else if (const auto set = event.find("set")) {
-            for (const auto& [name, value] : read_values(*set)) drive.events.push_back({.kind = DriveEvent::Kind::Set, .name = name, .value = value});
+            for (const auto& [name, value] : read_values(*set)) {
+                change(*set, name, value);
+                drive.events.push_back({.kind = DriveEvent::Kind::Set, .name = name, .value = value});
+            }
         } else if (happens("frame")) {
             drive.events.push_back({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
         } else if (happens("restart")) {
@@ -137,19 +154,11 @@ Drive read_drive(const std::filesystem::path& file) {
 
 DriveRecorder::DriveRecorder(DriveStart start) : start_(std::move(start)) {}
 
-DriveRecorder::~DriveRecorder() {
-    try {
-        close();
-    } catch (const Error&) {
-        // What was written before stays readable.
-    }
-}
-
 void DriveRecorder::add(const DriveEvent& event) {
     std::string line = first_ ? "" : ",";
     switch (event.kind) {
         case DriveEvent::Kind::Step:
-            line += "{\"step\":" + input_text(event.input, last_) + format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]}", event.pose.x, event.pose.y, event.pose.z, event.pose.w);
+            line += step_text(event, last_);
             last_ = event.input;
             break;
         case DriveEvent::Kind::Frame: line += "{\"frame\":true}"; break;
@@ -159,43 +168,31 @@ void DriveRecorder::add(const DriveEvent& event) {
     line += "\n";
     first_ = false;
     lines_ += line;
-    if (descriptor_ < 0) return;
-    write(line);
-    if (++unsafe_ < kSafeEvery) return;
-    ::fdatasync(descriptor_);
-    unsafe_ = 0;
+    if (file_) write(line);
 }
 
 void DriveRecorder::open(const std::filesystem::path& file) {
     close();
-    file_ = file;
-    descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) throw Error(one_line(file.string()) + ": cannot be written: " + std::strerror(errno));
+    file_ = std::make_unique<GrowingFile>(file);
     std::error_code failed;
     const std::filesystem::path folder = std::filesystem::absolute(file, failed).parent_path();
     write(heading(start_, folder) + lines_);
 }
 
 void DriveRecorder::write(const std::string& text) {
-    for (size_t done = 0; done < text.size();) {
-        const ssize_t written = ::write(descriptor_, text.data() + done, text.size() - done);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) {
-            const std::string reason = std::strerror(errno);
-            ::close(descriptor_);
-            descriptor_ = -1;
-            throw Error(one_line(file_.string()) + ": the recording ends: " + reason);
-        }
-        done += size_t(written);
+    try {
+        file_->append(text);
+    } catch (const Error& error) {
+        file_.reset();
+        throw Error("the recording ends: " + std::string(error.what()));
     }
 }
 
 void DriveRecorder::close() {
-    if (descriptor_ < 0) return;
+    if (!file_) return;
     write("]}\n");
-    ::fdatasync(descriptor_);
-    ::close(descriptor_);
-    descriptor_ = -1;
+    const auto file = std::move(file_);
+    file->complete();
 }
 
 }  // namespace vesper

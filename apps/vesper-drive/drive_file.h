@@ -2,11 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "io/growing_file.h"
 #include "settings.h"
 #include "simulation/driver.h"
 
@@ -17,7 +20,7 @@ struct DriveEvent {
     enum class Kind : uint8_t { Step, Frame, Set, Restart };
     Kind kind = Kind::Step;
     DriverInput input;              ///< Step
-    glm::dvec4 pose{0};             ///< Step: X, Z (m), yaw (rad) and speed (m/s) of the driver's car after it
+    std::optional<glm::dvec4> pose; ///< Step: X, Z (m), yaw (rad) and speed (m/s) of the driver's car after it, where that is known
     std::string name, value;        ///< Set
 };
 
@@ -39,20 +42,18 @@ struct Drive {
 /// Reads a drive, also one that breaks off. Throws Error, naming file, place and reason.
 Drive read_drive(const std::filesystem::path&);
 
-/// Remembers a drive as the lines of its file, and keeps that file up to date once there is one.
+/// Remembers a drive as the lines of its file, and keeps that file up to date once there is one (GrowingFile: read_drive also takes
+/// the part of it that a broken drive leaves).
 class DriveRecorder {
 public:
     explicit DriveRecorder(DriveStart);
-    ~DriveRecorder();
-    DriveRecorder(const DriveRecorder&) = delete;
-    DriveRecorder& operator=(const DriveRecorder&) = delete;
 
     void add(const DriveEvent&);
     /// Writes all there is; from now on every event follows at once. Throws Error.
     void open(const std::filesystem::path&);
     /// Completes the file. Throws Error.
     void close();
-    bool is_open() const { return descriptor_ >= 0; }
+    bool is_open() const { return file_ != nullptr; }
 
 private:
     void write(const std::string&);
@@ -61,9 +62,7 @@ private:
     std::string lines_;  // of the events so far
     bool first_ = true;
     DriverInput last_;
-    int descriptor_ = -1;
-    std::filesystem::path file_;
-    unsigned unsafe_ = 0;  // events since the disk was told to keep them
+    std::unique_ptr<GrowingFile> file_;
 };
 
 }  // namespace vesper

@@ -2,15 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "arguments.h"
+#include "base/error.h"
 #include "base/luminance.h"
 #include "glare_arguments.h"
+#include "io/atomic_file.h"
 #include "statistics.h"
 #include "tone_arguments.h"
 
 namespace vesper {
 namespace {
+
+// A name as part of a field: what parts fields is left out.
+std::string csv_name(std::string name) {
+    for (char& c : name)
+        if (c == ',' || c == ';' || c == '"' || static_cast<unsigned char>(c) < 0x20) c = '_';
+    return name;
+}
 
 constexpr double kPercents[]{1, 5, 25, 50, 75, 95, 99, 99.9};  // as luminance_statistics has them
 
@@ -20,40 +30,70 @@ double luminance_at(const Frame& frame, glm::dvec2 place) {
     return luminance(glm::dvec3(p[0], p[1], p[2]));
 }
 
-}  // namespace
-
-std::string drive_log_heading(const std::vector<LogProbe>& probes) {
-    std::string line = "frame,step,seconds,eye_step,operator,x,y,z,yaw,pitch,speed,acceleration,wheel_angle,lane,throttle,brake,steering,touched,adaptation,cone_sigma,cone_pigment,cone_fast,cone_slow,log_average,minimum,maximum,mean";
+std::string heading(const std::vector<LogProbe>& probes) {
+    std::string line = "frame,step,seconds,eye_step,operator,x,y,z,yaw,pitch,speed,acceleration,wheel_angle,lane,throttle,brake,steering,touched,contacts,adaptation,cone_sigma,cone_pigment,cone_fast,cone_slow,log_average,minimum,maximum,mean";
     for (const double percent : kPercents) line += format(",p%g", percent);
     line += glare_columns();
     for (size_t i = 0; i < probes.size(); ++i) line += format(",probe%zu", i);
     return line + ",lamps,openings,lost_lights,scrubbed_pixels,device_ms,frame_ms\n";
 }
 
-std::string drive_log_row(unsigned index, const Session& session, const View& view, const Frame& frame, const std::vector<LogProbe>& probes) {
+}  // namespace
+
+std::vector<LogProbe> probes_of(const std::vector<std::string>& texts) {
+    std::vector<LogProbe> probes;
+    for (const std::string& text : texts) {
+        // One number up to what ends it; NaN where there is none.
+        const char* at = text.c_str();
+        const auto number = [&](char end) {
+            char* stop = nullptr;
+            const double value = std::strtod(at, &stop);
+            const bool whole = stop != at && *stop == end;
+            at = whole ? stop + 1 : at;
+            return whole ? value : NAN;
+        };
+        const double x = number(','), y = number('\0');
+        if (!(x >= 0 && x <= 1 && y >= 0 && y <= 1)) throw Error("--probe " + one_line(text) + ": X,Y from 0 to 1 are expected");
+        probes.push_back({{x, y}});
+    }
+    return probes;
+}
+
+DriveLog::DriveLog(const std::string& file, std::vector<LogProbe> probes) : file_(file), probes_(std::move(probes)) { file_.append(heading(probes_)); }
+
+// NODE@SPEED of each, the speed (m/s) at which they met; several are parted by semicolons.
+std::string DriveLog::contacts_since(const World& world) {
+    std::string text;
+    const std::vector<Contact>& contacts = world.contacts();
+    if (contacts_ > contacts.size()) contacts_ = 0;  // another start
+    for (; contacts_ < contacts.size(); ++contacts_) text += (text.empty() ? "" : ";") + csv_name(contacts[contacts_].node) + format("@%.3g", contacts[contacts_].speed);
+    return text;
+}
+
+void DriveLog::add(const Session& session, const View& view, const Frame& frame) {
     const World& world = session.world();
     const Actor& me = session.actors().front();
     const VehicleState& car = world.driver();
     const DriverInput& input = session.input();
     const RenderSettings& settings = session.settings().render();
-    std::string line = format("%u,%llu,%.6f,%.9g,%s", index, static_cast<unsigned long long>(world.steps()), world.seconds(), session.eye_step(), name_of(settings.tone_operator).c_str());
+    std::string line = format("%u,%llu,%.6f,%.9g,%s", rows_++, static_cast<unsigned long long>(world.steps()), world.seconds(), session.eye_step(), name_of(settings.tone_operator).c_str());
     for (const double value : {me.position.x, me.position.y, me.position.z, me.yaw, me.pitch, me.speed, car.acceleration, car.angle}) line += format(",%.9g", value);
-    line += format(",%zu,%.4g,%.4g,%.4g,%d", world.driver_lane(), input.throttle, input.brake, input.steering, int(world.touched()));
+    line += format(",%zu,%.4g,%.4g,%.4g,%d", world.driver_lane(), input.throttle, input.brake, input.steering, int(world.touched())) + "," + contacts_since(world);
     for (const float value : {frame.curve.adaptation, frame.curve.cone_sigma, frame.eye.cones.pigment, frame.eye.cones.fast, frame.eye.cones.slow, frame.curve.log_average}) line += format(",%.9g", double(value));
     if (frame.scene.empty()) {
-        const std::string columns = drive_log_heading(probes).substr(drive_log_heading({}).find(",minimum"));
+        const std::string columns = heading(probes_).substr(heading({}).find(",minimum"));
         line += std::string(size_t(std::count(columns.begin(), columns.end(), ',')) - 6, ',');
     } else {
         const LuminanceStatistics s = luminance_statistics(frame.scene);
         for (const double value : {s.minimum, s.maximum, s.mean}) line += format(",%.6g", value);
         for (size_t i = 0; i < std::size(kPercents); ++i) line += i < s.percentiles.size() ? format(",%.6g", s.percentiles[i].second) : ",";
         line += glare_values(glare_of({}, settings, frame, angles_of(view), frame.outside));
-        for (const LogProbe& probe : probes) line += format(",%.6g", luminance_at(frame, probe.place));
+        for (const LogProbe& probe : probes_) line += format(",%.6g", luminance_at(frame, probe.place));
     }
     double device = 0;
     for (const Timing& timing : frame.timings) device += timing.milliseconds;
     // Every lamp counts: froxels whose lists overflow look at all of them.
-    return line + format(",%u,%u,0,%u,%.3f,%.3f\n", frame.lights, frame.sources, frame.histogram.non_finite, device, frame.milliseconds);
+    file_.append(line + format(",%u,%u,0,%u,%.3f,%.3f\n", frame.lights, frame.sources, frame.histogram.non_finite, device, frame.milliseconds));
 }
 
 }  // namespace vesper

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/growing_file.h"
 #include "session.h"
 
 namespace vesper {
@@ -13,8 +14,25 @@ struct LogProbe {
     glm::dvec2 place{0.5, 0.5};
 };
 
-std::string drive_log_heading(const std::vector<LogProbe>&);
-/// `frame` must have its luminances; without them (the ldr operator) the columns that need them are empty.
-std::string drive_log_row(unsigned index, const Session&, const View&, const Frame& frame, const std::vector<LogProbe>&);
+/// X,Y of every --probe. Throws Error.
+std::vector<LogProbe> probes_of(const std::vector<std::string>& texts);
+
+/// The log, on disk row by row (GrowingFile). Throws Error.
+class DriveLog {
+public:
+    DriveLog(const std::string& file, std::vector<LogProbe> probes);
+
+    /// `frame` must have its luminances; without them (the ldr operator) the columns that need them are empty.
+    void add(const Session&, const View&, const Frame& frame);
+    void complete() { file_.complete(); }
+
+private:
+    std::string contacts_since(const World&);
+
+    GrowingFile file_;
+    std::vector<LogProbe> probes_;
+    unsigned rows_ = 0;
+    size_t contacts_ = 0;  // of the world that were there at the last row
+};
 
 }  // namespace vesper

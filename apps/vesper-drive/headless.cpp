@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <set>
-#include <filesystem>
 
 #include "arguments.h"
 #include "base/error.h"
@@ -16,6 +14,7 @@
 #include "io/image_file.h"
 #include "numbered_files.h"
 #include "picture_arguments.h"
+#include "playback.h"
 #include "progress.h"
 #include "session.h"
 #include "tone_arguments.h"
@@ -24,21 +23,9 @@
 namespace vesper {
 namespace {
 
-std::vector<LogProbe> probes_of(const std::vector<std::string>& texts) {
-    std::vector<LogProbe> probes;
-    for (const std::string& text : texts) {
-        char* end = nullptr;
-        const double x = std::strtod(text.c_str(), &end);
-        const double y = *end == ',' ? std::strtod(end + 1, &end) : -1;
-        if (*end || !(x >= 0 && x <= 1 && y >= 0 && y <= 1)) throw Error("--probe " + one_line(text) + ": X,Y from 0 to 1 are expected");
-        probes.push_back({{x, y}});
-    }
-    return probes;
-}
-
 // Steps of time with frames at an even rate among them.
 std::vector<DriveEvent> evenly(const std::vector<DriveEvent>& events, double time_step, double fps) {
-    const DriveEvent frame{.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}};
+    const DriveEvent frame{.kind = DriveEvent::Kind::Frame, .pose = {}, .name = {}, .value = {}};
     std::vector<DriveEvent> made{frame};
     uint64_t steps = 0, frames = 1;
     for (const DriveEvent& event : events) {
@@ -50,10 +37,6 @@ std::vector<DriveEvent> evenly(const std::vector<DriveEvent>& events, double tim
         frames = std::max(frames + 1, uint64_t(double(steps) * time_step * fps + 1e-6) + 1);
     }
     return made;
-}
-
-size_t frames_in(const std::vector<DriveEvent>& events) {
-    return size_t(std::count_if(events.begin(), events.end(), [](const DriveEvent& e) { return e.kind == DriveEvent::Kind::Frame; }));
 }
 
 // Frames a second that a film of recorded frames plays with.
@@ -79,19 +62,22 @@ public:
             if (!film_ && !exr_ && !a.video.ends_with(".png")) throw Error("--video " + one_line(a.video) + ": .mp4, .png or .exr is expected");
             if (!film_) names_ = numbered_name("--video", a.video);
             if (!film_ && !names_) throw Error("--video " + one_line(a.video) + ": one file a frame needs a number in the name, such as %05d");
-            for (const std::string& file : {a.scene, a.replay, a.run, a.scenario, a.channels, a.record, a.log})
-                if (!file.empty()) others_.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(file)));
-            if (film_) check_free(a.video);
             Files files;
             files.writes("--video", film_ ? a.video : names_->at(0));
         }
-        if (!a.log.empty()) log_ = drive_log_heading(probes_);
     }
-    bool wanted() const { return film_ || names_ || !log_.empty(); }
+    bool wanted() const { return film_ || names_ || !arguments_.log.empty(); }
+    /// Once everything is read, and before anything is written.
+    void open(const FilesRead& read) {
+        check_outputs(arguments_, read);
+        read_ = &read;
+        if (film_) check_free(arguments_.video);
+        if (!arguments_.log.empty()) log_.emplace(arguments_.log, probes_);
+    }
     Outputs outputs(const Session& session) const {
         const bool ldr = session.settings().render().tone_operator == Operator::Ldr;
         if (ldr && exr_) throw Error("--video " + arguments_.video + ": the ldr operator has no luminances to write");
-        return {.display = film_ || (names_ && !exr_), .scene = exr_ || (!log_.empty() && !ldr)};
+        return {.display = film_ || (names_ && !exr_), .scene = exr_ || (log_ && !ldr)};
     }
     /// `shown`: the picture; `logged`: what the log says of it, seen by `view`.
     void take(unsigned index, const Session& session, const View& view, const ToneMapped& shown, const Frame& logged, double fps) {
@@ -101,16 +87,19 @@ public:
         if (names_) check_free(names_->at(index));
         if (names_ && !exr_) write_codes(names_->at(index), shown, display);
         if (names_ && exr_) write_exr(names_->at(index), extent_.width, extent_.height, shown.scene, header(session, shown, logged.lights));
-        if (!log_.empty()) log_ += drive_log_row(index, session, view, logged, probes_);
+        if (log_) log_->add(session, view, logged);
     }
     void finish() {
         if (video_) video_->finish();
-        if (!log_.empty()) write_text(arguments_.log, log_);
+        if (log_) log_->complete();
     }
 
 private:
     void check_free(const std::string& file) const {
-        if (others_.contains(std::filesystem::weakly_canonical(std::filesystem::absolute(file)))) throw Error("--video " + one_line(file) + ": is read or written for something else");
+        Files others;
+        for (const auto& [option, other] : growing_outputs(arguments_)) others.reads(other);
+        others.writes("--video", file);
+        if (read_->contains(file)) throw Error("--video " + one_line(file) + ": would replace what is read");
     }
     Header header(const Session& session, const ToneMapped& frame, uint32_t lights) const {
         Header made{{"vesper:version", VESPER_VERSION},
@@ -128,9 +117,9 @@ private:
     std::vector<LogProbe> probes_;
     bool film_ = false, exr_ = false;
     std::optional<NumberedName> names_;
-    std::set<std::filesystem::path> others_;  // files that no frame may replace
+    const FilesRead* read_ = nullptr;  // what no frame may replace
     std::unique_ptr<Video> video_;
-    std::string log_;
+    std::optional<DriveLog> log_;
 };
 
 // One picture of all channels; the log is of the one that is looked at.
@@ -153,58 +142,45 @@ void run_headless(const DriveArguments& a) {
     if (!a.channels.empty()) channels = read_channels(a.channels);
     const VkExtent2D extent = channels ? extent_of(*channels) : parse_size(a.size);
     Outlet outlet(a, extent);
+    const FilesRead read;
     std::optional<Drive> replayed;
     if (!a.replay.empty()) replayed = read_drive(a.replay);
     const DriveStart options = start_of(a, replayed);
     std::vector<DriveEvent> events;
     if (replayed) {
-        if (!replayed->complete) std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", a.replay.c_str());
+        if (!replayed->complete) std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", one_line(a.replay).c_str());
         events = std::move(replayed->events);
     } else {
         DriverInput input{.autopilot = a.autopilot};
-        events.assign(size_t(std::lround(a.seconds / options.time_step)), {.kind = DriveEvent::Kind::Step, .input = input, .name = {}, .value = {}});
+        events.assign(size_t(std::lround(a.seconds / options.time_step)), {.kind = DriveEvent::Kind::Step, .input = input, .pose = {}, .name = {}, .value = {}});
     }
-    const bool own_frames = frames_in(events) > 0 && a.fps == 0;
+    const bool own_frames = Playback(events).has_frames() && a.fps == 0;
     if (outlet.wanted() && !own_frames) events = evenly(events, options.time_step, a.fps > 0 ? a.fps : 30);
     const double fps = own_frames ? rate_of(events, options.time_step) : std::min(a.fps > 0 ? a.fps : 30, 1 / options.time_step);
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
 
     Device device({.select = a.device});
     Session session(device, options);
+    outlet.open(read);
     for (const std::string& note : session.scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
     if (!a.record.empty()) session.record(a.record);
-    Progress progress(a.replay.empty() ? "driving" : "replaying", unsigned(std::max<size_t>(1, frames_in(events))));
+    Playback playback(std::move(events), a.settings);
+    Progress progress(a.replay.empty() ? "driving" : "replaying", unsigned(std::max<size_t>(1, playback.count(DriveEvent::Kind::Frame))));
     unsigned index = 0;
-    bool strayed = false;
-    for (const DriveEvent& event : events) {
-        switch (event.kind) {
-            case DriveEvent::Kind::Set:
-                if (!a.settings.contains(event.name)) session.set(event.name, event.value);
-                break;
-            case DriveEvent::Kind::Restart: session.restart(); break;
-            case DriveEvent::Kind::Step: {
-                session.step(event.input);
-                const VehicleState& me = session.world().driver();
-                strayed |= !a.replay.empty() && glm::dvec4(me.position, me.yaw, me.speed) != event.pose;
-                break;
-            }
-            case DriveEvent::Kind::Frame: {
-                if (!outlet.wanted()) break;
-                if (channels) {
-                    take_wall(outlet, index++, session, *channels, fps);
-                } else {
-                    const View view = session.view(extent);
-                    const Frame frame = session.render(view, outlet.outputs(session));
-                    outlet.take(index++, session, view, frame, frame, fps);
-                }
-                progress.step();
-                break;
-            }
+    while (const DriveEvent* event = playback.next(session)) {
+        if (event->kind != DriveEvent::Kind::Frame || !outlet.wanted()) continue;
+        if (channels) {
+            take_wall(outlet, index++, session, *channels, fps);
+        } else {
+            const View view = session.view(extent);
+            const Frame frame = session.render(view, outlet.outputs(session));
+            outlet.take(index++, session, view, frame, frame, fps);
         }
+        progress.step();
     }
     outlet.finish();
     session.stop_recording();
-    if (strayed) std::fprintf(stderr, "note: %s: the car goes another way than it did when this was recorded, with another version or compiler\n", a.replay.c_str());
+    if (playback.strayed()) std::fprintf(stderr, "note: %s: the car goes another way than it did when this was recorded, with another version or compiler\n", one_line(a.replay).c_str());
 }
 
 }  // namespace vesper

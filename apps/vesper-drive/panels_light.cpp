@@ -99,7 +99,7 @@ void Instruments::draw_probe(const Moment& now) {
             ImGui::Text("red, green, blue %.3g, %.3g, %.3g cd/m²", double(rgb[0]), double(rgb[1]), double(rgb[2]));
             ImGui::Text("shown as about %.4g cd/m²", shown_luminance(frame.curve, operator_info(settings.tone_operator).form, here, settings.display));
             const Scene& scene = now.session.scenery().scene();
-            const SceneFrame moment = now.session.scenery().frame(now.session.actors(), now.session.settings());
+            const SceneFrame moment = now.session.moment();
             if (const auto point = now.view_pixel ? surface_at(scene, moment, now.view, *now.view_pixel) : std::nullopt) {
                 const double lamps = lamp_illuminance(scene, moment, *point);
                 const double ambient = moment.ambient ? luminance(moment.ambient->illuminance) : double(scene.ambient_illuminance);

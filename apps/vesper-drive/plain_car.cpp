@@ -63,7 +63,8 @@ LampRoles plain_lamps() {
     return {{"low beam"}, {"high beam"}, {"tail lamp"}, {"brake lamp"}, {"left front indicator", "left rear indicator"}, {"right front indicator", "right rear indicator"}};
 }
 
-void add_plain_body(Scene& scene, const std::string& name, const PlainBody& body) {
+void add_plain_body(Scene& scene, uint32_t root, const PlainBody& body) {
+    const std::string name = scene.nodes[root].name;
     const glm::vec3 half = glm::vec3(body.size.y, body.size.z, body.size.x) / 2.0f;  // right, up, back
     const glm::vec3 middle(-body.centre.y, body.centre.z, -body.centre.x);
     Primitive p;
@@ -78,8 +79,7 @@ void add_plain_body(Scene& scene, const std::string& name, const PlainBody& body
         add_box(p, middle - half, middle + half);
     }
     scene.meshes.push_back({name, {std::move(p)}});
-    const auto root = uint32_t(scene.nodes.size());
-    scene.nodes.push_back({.name = name, .mesh = uint32_t(scene.meshes.size() - 1)});
+    scene.nodes[root].mesh = uint32_t(scene.meshes.size() - 1);
     if (!body.lamps) return;
     const glm::quat back = glm::angleAxis(std::numbers::pi_v<float>, glm::vec3(0, 1, 0));
     const auto hang = [&](uint32_t light, float side, float height, bool front) {
@@ -94,8 +94,8 @@ void add_plain_body(Scene& scene, const std::string& name, const PlainBody& body
         const std::string hand = side < 0 ? "left" : "right";
         hang(beam(scene, "low beam", "low-beam"), side, lamp_height, true);
         hang(beam(scene, "high beam", "high-beam"), side, lamp_height, true);
-        hang(signal(scene, "tail lamp", 5, 55, kRed, 0.2, 0.2), side, tail_height, false);
-        hang(signal(scene, "brake lamp", 80, 55, kRed, 0.2, 0.2), side, tail_height, false);
+        hang(signal(scene, "tail lamp", 5, 55, kRed, 0.2, 0.26), side, tail_height, false);
+        hang(signal(scene, "brake lamp", 80, 55, kRed, 0.2, 0.26), side, tail_height, false);
         hang(signal(scene, hand + " front indicator", 200, 60, kAmber, 0.14, 0.08), side * 1.15f, lamp_height - 0.12f, true);
         hang(signal(scene, hand + " rear indicator", 100, 60, kAmber, 0.14, 0.08), side * 1.1f, tail_height - 0.16f, false);
     }

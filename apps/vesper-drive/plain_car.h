@@ -19,8 +19,8 @@ struct PlainBody {
 /// Names of the lamps that plain bodies have.
 LampRoles plain_lamps();
 
-/// Adds a node of that name with the body and, at its corners, low and high beams (standard_lamp), tail and brake lamps and
-/// indicators. The candela are those of UN Regulations 6 and 7, as data/rivoli has them.
-void add_plain_body(Scene&, const std::string& name, const PlainBody&);
+/// Gives a node the body and, at its corners, low and high beams (standard_lamp), tail and brake lamps and indicators. The candela
+/// are those of UN Regulations 6 and 7, as data/rivoli has them.
+void add_plain_body(Scene&, uint32_t node, const PlainBody&);
 
 }  // namespace vesper

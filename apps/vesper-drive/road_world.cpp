@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <optional>
 
@@ -18,6 +19,9 @@ namespace {
 constexpr double kUsualSpeed = 50 / 3.6;  // m/s, where a road states none
 constexpr size_t kMostCourses = 64, kTraffic = 8;
 constexpr double kTrafficGap = 60;        // m
+constexpr double kOffRoad = 3;            // m beyond the edge of the nearest lane
+// Parts of a run that may lie there: some leave the road on purpose; where most do, it is another road.
+constexpr double kMostOffNoted = 0.05, kMostOff = 0.5;
 
 // A way over lanes as one line.
 std::optional<Course> course_of(const LaneGraph& graph, const std::vector<uint32_t>& way) {
@@ -60,13 +64,6 @@ VehicleLamps lamps_at(const RunEntity& e, double time) {
     return {.low = low, .high = high, .tail = low || high || lit(RunLamp::FogRear), .brake = lit(RunLamp::Brake), .left = lit(RunLamp::IndicatorLeft), .right = lit(RunLamp::IndicatorRight)};
 }
 
-RecordedMover recording_of(const RunEntity& e, const std::string& node, const RoadNetwork& network) {
-    RecordedMover r{.node = node, .length = e.length > 0 ? e.length : 4.4, .middle = e.centre.x, .poses = {}};
-    for (const RunPose& p : e.poses)
-        r.poses.push_back({p.time, network.to_world(p.position), p.heading - std::numbers::pi / 2, -p.pitch, p.roll, p.speed, lamps_at(e, p.time)});
-    return r;
-}
-
 PlainBody body_of(const RunEntity& e) {
     using Kind = RunEntity::Kind;
     const bool vehicle = e.kind == Kind::Car || e.kind == Kind::Truck || e.kind == Kind::Bus || e.kind == Kind::Motorcycle;
@@ -76,12 +73,64 @@ PlainBody body_of(const RunEntity& e) {
     return body;
 }
 
-void add_run(RoadWorld& made, const std::filesystem::path& file, const std::filesystem::path& scenario, const RoadNetwork& network) {
-    const EsminiRun run = read_esmini_run(file, scenario.empty() ? std::nullopt : std::optional(scenario), &network);
+RecordedMover recording_of(const RunEntity& e, const std::string& node, const RoadNetwork& network) {
+    using Kind = RunEntity::Kind;
+    const PlainBody body = body_of(e);
+    RecordedMover r{.node = node, .length = body.size.x, .width = body.size.y, .middle = body.centre.x, .person = e.kind == Kind::Pedestrian || e.kind == Kind::Animal, .poses = {}};
+    for (const RunPose& p : e.poses)
+        r.poses.push_back({p.time, network.to_world(p.position), p.heading - std::numbers::pi / 2, -p.pitch, p.roll, p.speed, lamps_at(e, p.time)});
+    return r;
+}
+
+std::string add_body(Scene& scene, const std::string& name, const PlainBody& body) {
+    scene.nodes.push_back({.name = name});
+    add_plain_body(scene, uint32_t(scene.nodes.size() - 1), body);
+    return name;
+}
+
+// The driver's car of the road's scene stands on the middle of its front axle, that of a world on its own middle.
+void add_drivers_car(RoadWorld& made, const VehicleParameters& vehicle) {
+    Scene& scene = made.scene;
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
+        if (scene.nodes[i].name != "car_ego") continue;
+        made.world.world.driver_node = scene.nodes[i].name;
+        for (Node& node : scene.nodes) {
+            if (node.parent != i) continue;
+            node.translation.z -= float((vehicle.front_axle + vehicle.rear_axle) / 2);
+            if (node.camera != kNone && scene.cameras[node.camera].name == "driver") made.world.camera = "driver";
+        }
+        return add_plain_body(scene, i, {.size = {vehicle.length, vehicle.width, 1.5}, .reflectance = glm::vec3(0.04f)});  // a dark bonnet; from within, faces look away
+    }
+}
+
+// Whether the run was made on these roads: part of the places of its vehicles that lie off all lanes.
+double share_off(const EsminiRun& run, const RoadNetwork& network, const LaneGraph& graph) {
+    constexpr size_t kLooks = 500;  // of an entity
+    size_t all = 0, off = 0;
+    for (const RunEntity& e : run.entities) {
+        if (e.kind == RunEntity::Kind::Pedestrian || e.kind == RunEntity::Kind::Animal || e.kind == RunEntity::Kind::Object) continue;
+        for (size_t i = 0; i < e.poses.size(); i += 1 + e.poses.size() / kLooks, ++all) {
+            const auto lane = graph.nearest(network.to_world(e.poses[i].position), 20, [](const Lane&) { return true; });
+            off += !lane || lane->distance - graph.pose(*lane).width / 2 > kOffRoad;
+        }
+    }
+    return all > 0 ? double(off) / double(all) : 0;
+}
+
+void check_place(RoadWorld& made, const EsminiRun& run, const std::filesystem::path& file, const RoadNetwork& network, const LaneGraph& graph) {
+    const double share = share_off(run, network, graph);
+    if (share <= kMostOffNoted) return;
+    char text[160];
+    std::snprintf(text, sizeof text, ": %.0f %% of the places of its vehicles lie more than %.0f m off the roads of ", 100 * share, kOffRoad);
+    const std::string complaint = one_line(file.string()) + text + one_line(made.world.scene.string()) + (run.road_file.empty() ? "" : "; its scenario names " + one_line(run.road_file));
+    if (share > kMostOff) throw Error(complaint);
+    made.notes.push_back(complaint);
+}
+
+void add_run(RoadWorld& made, const EsminiRun& run, const RoadNetwork& network) {
     made.notes.insert(made.notes.end(), run.notes.begin(), run.notes.end());
     for (size_t i = 0; i < run.entities.size(); ++i) {
-        const std::string node = "entity_" + std::to_string(i);
-        add_plain_body(made.scene, node, body_of(run.entities[i]));
+        const std::string node = add_body(made.scene, "entity_" + std::to_string(i), body_of(run.entities[i]));
         made.world.world.recordings.push_back(recording_of(run.entities[i], node, network));
     }
 }
@@ -91,8 +140,7 @@ void add_traffic(RoadWorld& made) {
     for (size_t i = 0, lane = 0; i < kTraffic && lane < lanes.size(); ++lane) {
         const double first = lane == made.world.world.driver_lane ? kTrafficGap : 5;
         for (double s = first; s < lanes[lane].length() - 5 && i < kTraffic; s += 2.5 * kTrafficGap, ++i) {
-            const std::string node = "car_traffic_" + std::to_string(i);
-            add_plain_body(made.scene, node, {});
+            const std::string node = add_body(made.scene, "car_traffic_" + std::to_string(i), {});
             made.world.world.cars.push_back({.node = node, .lane = lane, .s = s, .speed = 0.7 * lanes[lane].speed_at(s)});
         }
     }
@@ -103,8 +151,11 @@ void add_traffic(RoadWorld& made) {
 RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::path& run, const std::filesystem::path& scenario) {
     const RoadNetwork network = read_opendrive(roads);
     const LaneGraph graph(network);
-    LitRoads lit = lit_roads(network);
-    RoadWorld made{std::move(lit.scene), {}, std::move(lit.notes)};
+    std::optional<EsminiRun> recorded;
+    if (!run.empty()) recorded = read_esmini_run(run, scenario.empty() ? std::nullopt : std::optional(scenario), &network);
+    const bool switched = recorded && !recorded->signals.empty();
+    LitRoads lit = lit_roads(network, {.headlamps = false, .every_lens = switched});
+    RoadWorld made{.scene = std::move(lit.scene), .world = {}, .lenses = {}, .notes = std::move(lit.notes)};
     made.world.scene = roads;
     made.world.roles = plain_lamps();
     WorldDescription& world = made.world.world;
@@ -112,20 +163,21 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
     if (world.lanes.empty()) throw Error(one_line(roads.string()) + ": there is no lane to drive on");
     for (const Kerb& kerb : graph.kerbs()) world.barriers.push_back({{kerb.from.x, kerb.from.z}, {kerb.to.x, kerb.to.z}});
     world.driver_s = 3;
+    if (recorded) check_place(made, *recorded, run, network, graph);
+    if (switched) made.lenses = lenses_of(made.scene, network, *recorded, made.notes);
     for (Node& node : made.scene.nodes) {
         // Lamps go by what they are; by day those of the road are off, and signals are not.
         if (node.light != kNone) {
             node.name = made.scene.lights[node.light].name;
             if (node.name != "street lamp" && std::find(made.world.by_day.begin(), made.world.by_day.end(), node.name) == made.world.by_day.end()) made.world.by_day.push_back(node.name);
         }
-        if (node.name == "car_ego") world.driver_node = node.name;
-        if (node.camera != kNone && made.scene.cameras[node.camera].name == "driver") made.world.camera = "driver";
     }
+    add_drivers_car(made, world.vehicle);
     if (made.world.by_day.empty()) made.world.by_day = {"none"};
-    if (run.empty())
-        add_traffic(made);
+    if (recorded)
+        add_run(made, *recorded, network);
     else
-        add_run(made, run, scenario, network);
+        add_traffic(made);
     return made;
 }
 

@@ -91,7 +91,7 @@ Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scen
     if (!run.empty() && extension != ".xodr") throw Error(one_line(run.string()) + ": a run needs the roads (.xodr) that it was recorded on");
     if (extension == ".xodr") {
         RoadWorld roads = road_world(file, run, scenario);
-        scene_ = std::move(roads.scene), notes_ = std::move(roads.notes);
+        scene_ = std::move(roads.scene), notes_ = std::move(roads.notes), lenses_ = std::move(roads.lenses);
         scene_.name = file.string();
         adopt(std::move(roads.world));
     } else if (extension == ".json") {
@@ -144,10 +144,12 @@ void Scenery::adopt(WorldFile file) {
 void Scenery::find_lamps(const LampRoles& roles, const std::vector<std::string>& by_day) {
     std::vector<uint32_t> rider(scene_.nodes.size(), kNone);
     for (const Rider& r : riders_) rider[r.node] = r.actor;
+    std::vector<uint32_t> lens(scene_.nodes.size(), kNone);
+    for (uint32_t i = 0; i < lenses_.size(); ++i) lens[lenses_[i].node] = i;
     const std::pair<const std::vector<std::string>*, Role> lists[]{{&roles.low, kLow}, {&roles.high, kHigh}, {&roles.tail, kTail}, {&roles.brake, kBrake}, {&roles.left, kLeft}, {&roles.right, kRight}};
     for (uint32_t i = 0; i < scene_.nodes.size(); ++i) {
         if (scene_.nodes[i].light == kNone) continue;
-        Lamp lamp{i, rider[i], kFixed, true, lamp_name(scene_, i)};
+        Lamp lamp{i, rider[i], kFixed, true, lens[i], lamp_name(scene_, i)};
         if (lamp.actor != kNone)
             for (const auto& [names, role] : lists)
                 if (contains(*names, lamp.name)) lamp.role = role;
@@ -172,6 +174,16 @@ std::vector<LampGroup> Scenery::lamp_groups() const {
     return sorted;
 }
 
+const DriveSettings& Scenery::check(const DriveSettings& settings) const {
+    for (const auto& [name, factor] : settings.lamps()) {
+        if (std::any_of(lamps_.begin(), lamps_.end(), [&](const Lamp& lamp) { return lamp.name == name; })) continue;
+        std::string names;
+        for (const LampGroup& group : lamp_groups()) names += (names.empty() ? "" : ", ") + group.name;
+        throw Error("--lamp " + one_line(name) + ": the scene has no lamp of that name; it has " + (names.empty() ? "none" : one_line(names, 1000)));
+    }
+    return settings;
+}
+
 bool Scenery::shines(const Lamp& lamp, const std::vector<Actor>& actors, bool bright) const {
     if (lamp.role == kFixed) return lamp.by_day || !bright;
     const VehicleLamps& lit = actors[lamp.actor].lamps;
@@ -185,7 +197,7 @@ bool Scenery::shines(const Lamp& lamp, const std::vector<Actor>& actors, bool br
     }
 }
 
-SceneFrame Scenery::frame(const std::vector<Actor>& actors, const DriveSettings& settings) const {
+SceneFrame Scenery::frame(const std::vector<Actor>& actors, double seconds, const DriveSettings& settings) const {
     SceneFrame made{.world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
     std::vector<glm::dmat4> poses;
     for (const Actor& actor : actors) poses.push_back(pose_of(actor));
@@ -202,7 +214,8 @@ SceneFrame Scenery::frame(const std::vector<Actor>& actors, const DriveSettings&
     for (const Lamp& lamp : lamps_) {
         const auto factor = settings.lamps().find(lamp.name);
         const double wanted = factor == settings.lamps().end() ? 1 : factor->second;
-        made.dimming[lamp.node] = shines(lamp, actors, outside > kPhotocell) ? float(wanted) : 0;
+        const bool on = shines(lamp, actors, outside > kPhotocell) && (lamp.lens == kNone || lenses_[lamp.lens].shines(seconds));
+        made.dimming[lamp.node] = on ? float(wanted) : 0;
     }
     return made;
 }

@@ -7,6 +7,7 @@
 
 #include "renderer.h"
 #include "settings.h"
+#include "signal_lens.h"
 #include "simulation/world_file.h"
 
 namespace vesper {
@@ -32,8 +33,11 @@ public:
     /// The lamps there are by name, as "lamp:NAME" settings have them, sorted.
     std::vector<LampGroup> lamp_groups() const;
 
-    /// Where everything stands and how it is lit, with the actors of a World of `world()`.
-    SceneFrame frame(const std::vector<Actor>&, const DriveSettings&) const;
+    /// Gives settings back if all lamps that they name are here. Throws Error.
+    const DriveSettings& check(const DriveSettings&) const;
+
+    /// Where everything stands and how it is lit, with the actors of a World of `world()` after so many seconds.
+    SceneFrame frame(const std::vector<Actor>&, double seconds, const DriveSettings&) const;
     /// What the camera of the settings sees of that frame.
     View view(const SceneFrame&, const std::vector<Actor>&, const DriveSettings&, VkExtent2D) const;
 
@@ -44,6 +48,7 @@ private:
         uint32_t actor;  // index, kNone: fixed
         Role role;
         bool by_day;
+        uint32_t lens;   // index, kNone: nobody switches it
         std::string name;
     };
     void adopt(WorldFile);
@@ -60,6 +65,7 @@ private:
     };
     std::vector<Rider> riders_;       // nodes that move
     std::vector<Lamp> lamps_;
+    std::vector<SignalLens> lenses_;
     std::string camera_;              // of the driver's eye; empty: none
     AmbientLight night_;
     std::vector<Tunnel> tunnels_;

@@ -5,7 +5,7 @@ namespace vesper {
 Session::Session(Device& device, DriveStart options)
     : options_(std::move(options)),
       scenery_(options_.scene, options_.run, options_.scenario),
-      settings_(options_.settings),
+      settings_(scenery_.check(DriveSettings(options_.settings))),
       world_(std::make_unique<World>(scenery_.world(), options_.seed)),
       actors_(world_->actors()),
       device_(&device),
@@ -25,7 +25,7 @@ void Session::step(const DriverInput& input) {
     world_->step(input, options_.time_step);
     actors_ = world_->actors();
     const VehicleState& me = world_->driver();
-    recorder_->add({.kind = DriveEvent::Kind::Step, .input = input, .pose = {me.position.x, me.position.y, me.yaw, me.speed}, .name = {}, .value = {}});
+    recorder_->add({.kind = DriveEvent::Kind::Step, .input = input, .pose = glm::dvec4(me.position, me.yaw, me.speed), .name = {}, .value = {}});
 }
 
 void Session::restart() {
@@ -41,12 +41,22 @@ void Session::restart() {
         recorder_ = std::make_unique<DriveRecorder>(start());
 }
 
+void Session::rewind() {
+    settings_ = DriveSettings(options_.settings);
+    restart();
+}
+
 void Session::set(const std::string& name, const std::string& value) {
-    settings_.set(name, value);
+    DriveSettings wanted = settings_;
+    wanted.set(name, value);
+    scenery_.check(wanted);
+    settings_ = std::move(wanted);
     recorder_->add({.kind = DriveEvent::Kind::Set, .name = name, .value = value});
 }
 
-View Session::view(VkExtent2D extent) const { return scenery_.view(scenery_.frame(actors_, settings_), actors_, settings_, extent); }
+SceneFrame Session::moment() const { return scenery_.frame(actors_, world_->seconds(), settings_); }
+
+View Session::view(VkExtent2D extent) const { return scenery_.view(moment(), actors_, settings_, extent); }
 
 Frame Session::render(VkExtent2D extent, Outputs outputs) { return render(view(extent), outputs); }
 
@@ -60,7 +70,7 @@ void Session::end_frame(const shared::EyeState& eye) {
 
 Frame Session::render(const View& view, Outputs outputs) {
     begin_frame();
-    Frame frame = renderer_->render(settings_.render(), view, scenery_.frame(actors_, settings_), float(eye_step_), outputs);
+    Frame frame = renderer_->render(settings_.render(), view, moment(), float(eye_step_), outputs);
     end_frame(frame.eye);
     return frame;
 }
@@ -68,7 +78,7 @@ Frame Session::render(const View& view, Outputs outputs) {
 Wall Session::render(const Channels& channels, Outputs outputs) {
     if (!wall_) wall_ = std::make_unique<ChannelRenderer>(*device_);
     begin_frame();
-    Wall wall = wall_->render(*renderer_, channels, settings_.render(), view({1, 1}), scenery_.frame(actors_, settings_), float(eye_step_), outputs);
+    Wall wall = wall_->render(*renderer_, channels, settings_.render(), view({1, 1}), moment(), float(eye_step_), outputs);
     end_frame(wall.shown.eye);
     return wall;
 }

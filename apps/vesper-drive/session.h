@@ -44,6 +44,8 @@ public:
     void step(const DriverInput&);
     /// Back to the start, with the eye adapted anew. A recording goes on; what was not recorded is forgotten.
     void restart();
+    /// The same, with the settings of the start.
+    void rewind();
     const World& world() const { return *world_; }
     /// What moves, as it stands now; the driver's car first.
     const std::vector<Actor>& actors() const { return actors_; }
@@ -51,11 +53,14 @@ public:
 
     // Settings.
     const DriveSettings& settings() const { return settings_; }
+    /// Throws Error, also for lamps that the scene has not got; then nothing has changed.
     void set(const std::string& name, const std::string& value);
 
     // Pictures.
     /// What the camera of the settings sees in a picture of that size.
     View view(VkExtent2D) const;
+    /// Where everything stands now and how it is lit.
+    SceneFrame moment() const;
     /// The picture of this moment. The first one, and one after a restart, is seen by an eye that is adapted.
     Frame render(VkExtent2D, Outputs);
     /// The same of another view.
@@ -69,8 +74,9 @@ public:
     void use(Device&);
 
     // Recording (docs/simulator.md).
-    /// Records the drive from its start, whenever that was, and goes on with it: the file has every event as soon as it happened.
-    void record(const std::filesystem::path&);
+    /// Records the drive from its start, whenever that was, and goes on with it: FILE.part has every event as soon as it happened.
+    void record(const std::filesystem::path& file);
+    /// Completes the recording, which takes its name. Without, what there is of it stays in FILE.part.
     void stop_recording();
     bool recording() const;
 

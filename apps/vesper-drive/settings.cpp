@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <set>
 
 #include "arguments.h"
 #include "base/error.h"
@@ -34,6 +35,32 @@ void add(CLI::App& command, SettingsArguments& a) {
     command.option_defaults()->group("Options");
 }
 
+// Names of all settings but lamps, without dashes.
+const std::set<std::string>& setting_names() {
+    static const std::set<std::string> names = [] {
+        CLI::App known;
+        known.set_help_flag();
+        SettingsArguments a;
+        add(known, a);
+        std::set<std::string> found;
+        for (const CLI::Option* option : known.get_options()) found.insert(option->get_name().substr(2));
+        return found;
+    }();
+    return names;
+}
+
+void require_known(const std::string& name) {
+    if (!name.starts_with(kLamp) && !setting_names().contains(name)) throw Error("there is no setting " + one_line(name));
+}
+
+FreeCamera free_camera_of(const std::vector<double>& v) {
+    constexpr double kFar = 1e6, kDegree = std::numbers::pi / 180;  // m
+    for (const double value : v)
+        if (!(std::abs(value) <= kFar)) throw Error("setting free: X,Y,Z,YAW,PITCH are expected within 1e6 m and degrees");
+    if (std::abs(v[4]) > 90) throw Error("setting free: PITCH is expected from -90 to 90 degrees");
+    return {{v[0], v[1], v[2]}, std::remainder(v[3], 360) * kDegree, v[4] * kDegree};
+}
+
 }  // namespace
 
 DriveSettings::DriveSettings(const Values& values) {
@@ -42,6 +69,7 @@ DriveSettings::DriveSettings(const Values& values) {
 }
 
 void DriveSettings::set(const std::string& name, const std::string& value) {
+    require_known(name);
     Values values = values_;
     if (value.empty())
         values.erase(name);
@@ -58,6 +86,7 @@ void DriveSettings::apply(const Values& values) {
     std::vector<std::string> words;
     std::map<std::string, double> lamps;
     for (const auto& [name, value] : values) {
+        require_known(name);
         if (!name.starts_with(kLamp)) {
             words.push_back("--" + name + "=" + value);
             continue;
@@ -75,11 +104,11 @@ void DriveSettings::apply(const Values& values) {
     RenderSettings render;
     static_cast<ToneChainSettings&>(render) = tone_settings(a.tone);
     render.clusters.threshold = a.threshold;
-    constexpr double kDegree = std::numbers::pi / 180;
+    const FreeCamera free = free_camera_of(a.free);
     render_ = std::move(render);
     sun_ = command.count("--sun") ? std::optional(a.sun) : std::nullopt;
     camera_ = kCameras.at(a.camera);
-    free_ = {{a.free[0], a.free[1], a.free[2]}, a.free[3] * kDegree, a.free[4] * kDegree};
+    free_ = free;
     fov_ = a.fov;
     lamps_ = std::move(lamps);
 }
@@ -92,16 +121,12 @@ void DriveSettings::add_options(CLI::App& command) {
 }
 
 DriveSettings::Values DriveSettings::given(const CLI::App& command) {
-    CLI::App known;
-    SettingsArguments a;
-    add(known, a);
     Values values;
-    for (const CLI::Option* option : known.get_options()) {
-        const std::string name = option->get_name();
-        if (name == "--help" || name.size() < 3 || !command.count(name)) continue;
+    for (const std::string& name : setting_names()) {
+        if (!command.count("--" + name)) continue;
         std::string text;
-        for (const std::string& result : command.get_option(name)->results()) text += (text.empty() ? "" : ",") + result;
-        values[name.substr(2)] = text;
+        for (const std::string& result : command.get_option("--" + name)->results()) text += (text.empty() ? "" : ",") + result;
+        values[name] = text;
     }
     for (const std::string& lamp : command.get_option("--lamp")->results()) {
         const size_t equals = lamp.rfind('=');

@@ -13,7 +13,6 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "drive_log.h"
 #include "io/atomic_file.h"
 #include "passes/operators.h"
 #include "picture_arguments.h"
@@ -45,29 +44,29 @@ Vsync vsync_of(const std::string& name) { return name == "latest" ? Vsync::Lates
 WindowedDrive::WindowedDrive(const DriveArguments& a)
     : arguments_(a),
       window_(window_settings(a)),
-      device_({.select = a.device, .validation = false, .on_message = {}, .presentation = window_.presentation()}),
-      screen_(window_, device_),
+      device_(std::make_unique<Device>(device_options())),
+      screen_(std::make_unique<Screen>(window_, *device_)),
       screen_settings_{.vsync = vsync_of(a.vsync), .scaling = a.scaling == "whole" ? Scaling::Whole : Scaling::Fit},
       hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
+    const FilesRead read;
     if (!a.channels.empty()) channels_ = read_channels(a.channels);
+    std::optional<Drive> drive;
     if (!a.replay.empty()) {
-        replay_ = read_drive(a.replay);
-        arguments_.scene = replay_->start.scene.string();
-        arguments_.run = replay_->start.run.string(), arguments_.scenario = replay_->start.scenario.string();
-        replay_has_frames_ = std::any_of(replay_->events.begin(), replay_->events.end(), [](const DriveEvent& e) { return e.kind == DriveEvent::Kind::Frame; });
-        if (!replay_->complete) say(a.replay + " breaks off; what there is of it is shown");
+        drive = read_drive(a.replay);
+        arguments_.scene = drive->start.scene.string();
+        arguments_.run = drive->start.run.string(), arguments_.scenario = drive->start.scenario.string();
+        if (!drive->complete) say(a.replay + " breaks off; what there is of it is shown");
     }
-    open_session();
-    if (!a.record.empty()) session_->record(recording_ = a.record);
+    open_session(start_of(a, drive));
+    check_outputs(a, read);
+    if (drive) replay_.emplace(std::move(drive->events), a.settings);
+    if (!a.record.empty()) session_->record(a.record), recording_ = a.record;
     if (a.autopilot) hands_.press(Action::Autopilot);
-    if (!a.log.empty()) {
-        log_.open(a.log, std::ios::trunc);
-        if (!(log_ << drive_log_heading({}) << std::flush)) throw Error("--log " + one_line(a.log) + ": cannot be written");
-    }
+    if (!a.log.empty()) log_.emplace(a.log, probes_of(a.probes));
     window_.on_key = [this](int key, int modifiers) {
         if (key == GLFW_KEY_ESCAPE && instruments_.has_keyboard()) return press(Action::Focus);
         const auto action = action_of(key, modifiers);
-        if (!action || screen_.is_typing()) return;
+        if (!action || screen_->is_typing()) return;
         // Letters and the space bar belong to the instruments while they have the keyboard.
         if (instruments_.has_keyboard() && key < GLFW_KEY_F1 && *action != Action::Focus && *action != Action::Quit) return;
         press(*action);
@@ -75,18 +74,34 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
     window_.on_drop = [this](const std::string& file) { reload(file); };
 }
 
-void WindowedDrive::open_session() {
-    const DriveStart options = start_of(arguments_, replay_);
-    if (!screen_.shows(DriveSettings(options.settings).render().display)) throw Error("--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
-    session_ = std::make_unique<Session>(device_, options);
+DeviceOptions WindowedDrive::device_options() const {
+    return {.select = arguments_.device, .validation = false, .on_message = {}, .presentation = window_.presentation()};
+}
+
+void WindowedDrive::recover(const DeviceLost& error) {
+    if (!std::exchange(shown_, false)) throw error;
+    screen_.reset();
+    auto device = std::make_unique<Device>(device_options());
+    session_->use(*device);
+    device_ = std::move(device);
+    screen_ = std::make_unique<Screen>(window_, *device_);
+    stale_ = true;
+    say(std::string(error.what()) + "; it was opened anew", true);
+}
+
+void WindowedDrive::open_session(const DriveStart& options) {
+    if (!screen_->shows(DriveSettings(options.settings).render().display)) throw Error("--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
+    session_ = std::make_unique<Session>(*device_, options);
     for (const std::string& note : session_->scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
 // A scene that cannot be used leaves everything as it is.
 void WindowedDrive::reload(const std::string& scene) {
     const bool same = scene == arguments_.scene;  // then the run on it, too
+    DriveSettings::Values settings = session_->settings().values();
+    if (!same) std::erase_if(settings, [](const auto& setting) { return setting.first.starts_with("lamp:"); });  // of lamps that only the old scene has
     try {
-        auto made = std::make_unique<Session>(device_, DriveStart{.scene = scene, .run = same ? arguments_.run : "", .scenario = same ? arguments_.scenario : "", .seed = arguments_.seed, .settings = session_->settings().values()});
+        auto made = std::make_unique<Session>(*device_, DriveStart{.scene = scene, .run = same ? arguments_.run : "", .scenario = same ? arguments_.scenario : "", .seed = arguments_.seed, .settings = settings});
         if (!recording_.empty()) session_->stop_recording();
         session_ = std::move(made);
     } catch (const Error& error) {
@@ -121,7 +136,7 @@ VkExtent2D WindowedDrive::picture_extent() const {
 }
 
 HeldInput WindowedDrive::held() const {
-    if (instruments_.has_keyboard() || screen_.is_typing()) return {};
+    if (instruments_.has_keyboard() || screen_->is_typing()) return {};
     const bool letters = session_->settings().camera() != CameraKind::Free;
     const auto down = [&](int arrow, int letter) { return window_.is_pressed(arrow) || (letters && window_.is_pressed(letter)); };
     return {.left = down(GLFW_KEY_LEFT, GLFW_KEY_A), .right = down(GLFW_KEY_RIGHT, GLFW_KEY_D), .accelerate = down(GLFW_KEY_UP, GLFW_KEY_W), .brake = down(GLFW_KEY_DOWN, GLFW_KEY_S)};
@@ -129,7 +144,7 @@ HeldInput WindowedDrive::held() const {
 
 void WindowedDrive::move_camera(double seconds) {
     const glm::dvec2 mouse = window_.mouse(), moved = mouse - std::exchange(mouse_, mouse);
-    if (session_->settings().camera() != CameraKind::Free || instruments_.has_keyboard() || screen_.is_typing()) return;
+    if (session_->settings().camera() != CameraKind::Free || instruments_.has_keyboard() || screen_->is_typing()) return;
     constexpr double kSpeed = 8, kTurn = 0.8, kDrag = 0.003;  // m/s, rad/s, rad/px
     const auto axis = [&](int plus, int minus) { return (window_.is_pressed(plus) ? 1.0 : 0.0) - (window_.is_pressed(minus) ? 1.0 : 0.0); };
     const double ahead = axis(GLFW_KEY_W, GLFW_KEY_S), left = axis(GLFW_KEY_A, GLFW_KEY_D), up = axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN);
@@ -151,19 +166,15 @@ void WindowedDrive::move_camera(double seconds) {
 }
 
 bool WindowedDrive::replay_to_next_frame() {
-    while (next_event_ < replay_->events.size()) {
-        const DriveEvent& event = replay_->events[next_event_++];
-        switch (event.kind) {
-            case DriveEvent::Kind::Step: session_->step(event.input), owed_ -= session_->options().time_step; break;
-            case DriveEvent::Kind::Set: session_->set(event.name, event.value); break;
-            case DriveEvent::Kind::Restart: session_->restart(), instruments_.forget(); break;
-            case DriveEvent::Kind::Frame: return true;
-        }
+    while (const DriveEvent* event = replay_->next(*session_)) {
+        if (event->kind == DriveEvent::Kind::Frame) return true;
+        if (event->kind == DriveEvent::Kind::Restart) instruments_.forget();
+        if (event->kind == DriveEvent::Kind::Step) owed_ -= session_->options().time_step;
         // A drive that was recorded without frames is shown step by step.
-        if (event.kind == DriveEvent::Kind::Step && owed_ <= 0 && !replay_has_frames_) return true;
+        if (event->kind == DriveEvent::Kind::Step && owed_ <= 0 && !replay_->has_frames()) return true;
     }
     paused_ = true;
-    say("the replay is over; Backspace starts it again");
+    say(replay_->strayed() ? "the replay is over; the car went another way than when it was recorded" : "the replay is over; Backspace starts it again");
     return true;
 }
 
@@ -178,13 +189,20 @@ void WindowedDrive::advance(double seconds) {
     } else {
         for (; owed_ >= step; owed_ -= step, moved = true) session_->step(hands_.next(held(), session_->world().driver().speed, step));
     }
+    say_contacts();
     render(moved);
+}
+
+void WindowedDrive::say_contacts() {
+    const std::vector<Contact>& contacts = session_->world().contacts();
+    if (contacts.size() > contacts_) say(format("collision with %s at %.0f km/h", contacts.back().node.c_str(), contacts.back().speed * 3.6));
+    contacts_ = contacts.size();
 }
 
 void WindowedDrive::render(bool moved) {
     const VkExtent2D extent = picture_extent();
     const bool ldr = session_->settings().render().tone_operator == Operator::Ldr;
-    const Outputs outputs{.display = true, .scene = (instruments_.needs_scene() || log_.is_open()) && !ldr};
+    const Outputs outputs{.display = true, .scene = (instruments_.needs_scene() || log_) && !ldr};
     const bool lacks = (outputs.scene && frame_.scene.empty()) || extent.width != rendered_.width || extent.height != rendered_.height;
     if (!moved && !stale_ && !lacks) return;
     view_ = session_->view(extent);
@@ -197,9 +215,13 @@ void WindowedDrive::render(bool moved) {
     }
     rendered_ = extent, stale_ = false, ++frame_number_;
     instruments_.remember(*session_, frame_);
-    if (log_.is_open() && !(log_ << drive_log_row(logged_++, *session_, channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_, frame_, {}) << std::flush)) {
-        log_.close();
-        say("--log " + arguments_.log + ": cannot be written any more", true);
+    if (log_) {
+        try {
+            log_->add(*session_, channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_, frame_);
+        } catch (const Error& error) {
+            log_.reset();
+            say("--log " + std::string(error.what()), true);
+        }
     }
     if (!channels_) return;
     const std::vector<Timing> timings = std::move(frame_.timings);
@@ -220,17 +242,17 @@ std::pair<View, std::optional<glm::uvec2>> WindowedDrive::view_at(std::optional<
 
 void WindowedDrive::present() {
     const Display& display = session_->settings().render().display;
-    screen_.begin_instruments(instruments_.has_keyboard());
+    screen_->begin_instruments(instruments_.has_keyboard());
     const bool talks = Clock::now() < message_until_;
-    const std::optional<glm::uvec2> pixel = screen_.pixel_under_mouse(frame_.extent, screen_settings_.scaling);
+    const std::optional<glm::uvec2> pixel = screen_->pixel_under_mouse(frame_.extent, screen_settings_.scaling);
     const auto [view, view_pixel] = view_at(pixel);
-    const Moment now{.session = *session_, .screen = screen_, .frame = frame_, .view = view, .hands = hands_, .pixel = pixel, .view_pixel = view_pixel,
+    const Moment now{.session = *session_, .screen = *screen_, .frame = frame_, .view = view, .hands = hands_, .pixel = pixel, .view_pixel = view_pixel,
                      .shown_per_second = pictures_per_second_, .paused = paused_, .recording = recording_, .message = talks ? message_ : "", .alarm = alarm_};
     const std::vector<Change> changes = instruments_.draw(now);
     const bool colours = instruments_.shows_false_colour() && display.bits == 8;
     const auto coloured = colours ? instruments_.coloured(frame_, frame_number_) : std::span<const uint8_t>();
     const Picture picture{.codes = coloured.empty() ? std::span<const uint8_t>(frame_.display) : coloured, .extent = frame_.extent, .bits = display.bits};
-    screen_.show(picture, display, screen_settings_);
+    shown_ |= screen_->show(picture, display, screen_settings_);
     for (const auto& [name, value] : changes) change(name, value);
 }
 
@@ -246,15 +268,28 @@ void WindowedDrive::run() {
         if (window_.is_minimised()) continue;  // nobody sees where the car goes: time stands still
         pictures_per_second_ += (1 / std::max(elapsed, 1e-4) - pictures_per_second_) * std::min(1.0, elapsed / 0.5);
         move_camera(elapsed);
-        advance(elapsed);
-        present();
+        try {
+            advance(elapsed);
+            present();
+        } catch (const DeviceLost& error) {
+            recover(error);
+        }
         window_.set_title(title());
         const double least = paused_ ? 1.0 / 60 : arguments_.limit > 0 ? 1 / arguments_.limit : 0;
         std::this_thread::sleep_until(now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(least)));
     }
     if (!recording_.empty()) session_->stop_recording();
+    if (log_) log_->complete();
 }
 
-void run_windowed(const DriveArguments& arguments) { WindowedDrive(arguments).run(); }
+void run_windowed(const DriveArguments& arguments) {
+    WindowedDrive drive(arguments);
+    try {
+        drive.run();
+    } catch (const Error& error) {
+        if (drive.recording().empty()) throw;
+        throw Error(std::string(error.what()) + "; the drive up to then is in " + one_line(GrowingFile::part_of(drive.recording())));
+    }
+}
 
 }  // namespace vesper

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,8 +9,11 @@
 
 #include "drive.h"
 #include "drive_file.h"
+#include "drive_log.h"
+#include "gpu/device.h"
 #include "hands.h"
 #include "instruments.h"
+#include "playback.h"
 #include "screen.h"
 #include "session.h"
 #include "window.h"
@@ -25,13 +27,17 @@ public:
 
     explicit WindowedDrive(const DriveArguments&);
 
-    /// Until the window is closed. Throws Error, as when the device is lost; a recording then has everything up to the last step.
+    /// Until the window is closed. A device that is lost is opened anew, and the drive goes on; lost again before it has shown a
+    /// picture, or on any other error, it throws Error: what was recorded up to the last step is then in the recording's part.
     void run();
+    const std::string& recording() const { return recording_; }  ///< the file; empty: none
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    void open_session();
+    DeviceOptions device_options() const;
+    void recover(const DeviceLost&);
+    void open_session(const DriveStart&);
     void reload(const std::string& scene);
     void press(Action);
     void press_view(Action);
@@ -46,6 +52,7 @@ private:
     HeldInput held() const;
     void move_camera(double seconds);
     void advance(double seconds);
+    void say_contacts();
     bool replay_to_next_frame();
     void render(bool moved);
     void present();
@@ -56,16 +63,15 @@ private:
 
     DriveArguments arguments_;
     Window window_;
-    Device device_;
+    std::unique_ptr<Device> device_;
     std::unique_ptr<Session> session_;
-    Screen screen_;
+    std::unique_ptr<Screen> screen_;
+    bool shown_ = false;  // a picture, since the device is there
     ScreenSettings screen_settings_;
     Instruments instruments_;
     Hands hands_;
 
-    std::optional<Drive> replay_;
-    size_t next_event_ = 0;
-    bool replay_has_frames_ = false;
+    std::optional<Playback> replay_;
 
     bool paused_ = false, one_step_ = false, stale_ = true;
     double owed_ = 0;              // s of real time that the world is behind
@@ -81,8 +87,8 @@ private:
     std::string recording_, message_;
     bool alarm_ = false;
     Clock::time_point message_until_{};
-    std::ofstream log_;
-    unsigned logged_ = 0;
+    std::optional<DriveLog> log_;
+    size_t contacts_ = 0;  // that were spoken of
 };
 
 /// Opens a window and drives, or replays, in it.

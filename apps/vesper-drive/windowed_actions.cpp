@@ -15,10 +15,10 @@ namespace {
 constexpr double kSunStep = 0.5, kNight = -18;  // degrees
 constexpr double kAgeStep = 5, kYoungest = 20, kOldest = 90;
 
-/// The first name with a number that no file has.
+/// The first name with a number that no file has, nor what is left of one.
 std::string free_name(const char* before, const char* after) {
     for (unsigned i = 1;; ++i)
-        if (const std::string name = before + format("%03u", i) + after; !std::filesystem::exists(name)) return name;
+        if (const std::string name = before + format("%03u", i) + after; !std::filesystem::exists(name) && !std::filesystem::exists(GrowingFile::part_of(name))) return name;
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ void WindowedDrive::change(const std::string& name, const std::string& value) {
     try {
         DriveSettings wanted = session_->settings();
         wanted.set(name, value);
-        if (!screen_.shows(wanted.render().display)) return say("this window shows no codes of that display");
+        if (!screen_->shows(wanted.render().display)) return say("this window shows no codes of that display");
         session_->set(name, value);
         stale_ = true;
     } catch (const Error& error) {
@@ -46,7 +46,7 @@ void WindowedDrive::cycle(const std::string& name, const std::vector<std::string
 void WindowedDrive::next_display() {
     std::vector<std::string> names;
     for (const NamedDisplay& known : known_displays())
-        if (screen_.shows(known.display)) names.emplace_back(known.name);
+        if (screen_->shows(known.display)) names.emplace_back(known.name);
     cycle("display", names, 1);
 }
 
@@ -86,11 +86,13 @@ void WindowedDrive::save_picture() {
 }
 
 void WindowedDrive::restart() {
-    session_->restart();
+    if (replay_)
+        replay_->rewind(*session_), paused_ = false;
+    else
+        session_->restart();
     hands_.release();
     if (arguments_.autopilot) hands_.press(Action::Autopilot);
     instruments_.forget();
-    if (replay_) next_event_ = 0, paused_ = false;
     stale_ = true;
 }
 

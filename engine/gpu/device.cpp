@@ -10,6 +10,7 @@
 
 #include "gpu/requirements.h"
 
+
 namespace vesper {
 namespace {
 

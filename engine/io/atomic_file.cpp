@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/files_read.h"
 
 namespace vesper {
 namespace {
@@ -104,6 +105,7 @@ std::vector<uint8_t> read_file(const fs::path& file, uint64_t max_bytes) {
         done += static_cast<size_t>(got);
     }
     bytes.resize(done);
+    note_read(file);
     return bytes;
 }
 

@@ -66,8 +66,8 @@ struct SignalBuilder {
         for (const double side : {-0.35, 0.35}) pole(s, frame.moved(0, side * width, 0), height * 0.9);
     }
 
-    /// A housing with lenses, the lit one as a lamp. Without a scenario, cars wait: red for them, green for people on
-    /// foot.
+    /// A housing with lenses, the lit one or all of them as lamps. Without a scenario, cars wait: red for them, green for
+    /// people on foot.
     void light(const RoadSignal& s) {
         const bool on_foot = is_for_pedestrians(s);
         const int lenses = on_foot ? 2 : 3;
@@ -81,14 +81,17 @@ struct SignalBuilder {
                   frame.at(-depth, width / 2, 0), frame.at(0, width / 2, 0));
         pole(s, frame.moved(-depth, 0, 0), height);
         const std::string name = "signal_" + s.id;
-        const bool red = !on_foot;
-        const double z = red ? height - pitch / 2 : pitch / 2;
-        const BodyFrame out = frame.moved(0.01, 0, z);
-        // It shines along -Z, its X to the right of who stands behind it.
-        Node node = node_at(build, name + (red ? "/red" : "/green"), out.origin, -out.y, out.z, -out.x);
-        node.light = red ? lens_light(build, "red signal", {1, 0.05f, 0.02f}, lens)
-                         : lens_light(build, "green signal", {0.05f, 1, 0.55f}, lens);
-        build.scene.nodes.push_back(node);
+        const auto lamp = [&](const char* colour, glm::vec3 rgb, int place) {
+            if (!build.options.every_lens && colour != std::string(on_foot ? "green" : "red")) return;
+            const BodyFrame out = frame.moved(0.01, 0, height - (place + 0.5) * pitch);
+            // It shines along -Z, its X to the right of who stands behind it.
+            Node node = node_at(build, name + "/" + colour, out.origin, -out.y, out.z, -out.x);
+            node.light = lens_light(build, (std::string(colour) + " signal").c_str(), rgb, lens);
+            build.scene.nodes.push_back(node);
+        };
+        lamp("red", {1, 0.05f, 0.02f}, 0);
+        if (!on_foot) lamp("yellow", {1, 0.4f, 0}, 1);
+        lamp("green", {0.05f, 1, 0.55f}, lenses - 1);
     }
 
     /// A line across the lanes of one direction.

@@ -28,6 +28,7 @@ struct LitRoadOptions {
     double ambient = 0.1;     ///< lx on every surface, and
     double sky = 0.02;        ///< cd/m^2: a clear night over a town, as vesper convert has it
     bool headlamps = true;    ///< the driver's car has low beams
+    bool every_lens = false;  ///< of a traffic light is a lamp, for who switches them; otherwise only the one that is lit
     double eye_height = 1.2;  ///< m, of the driver
 };
 
@@ -39,7 +40,7 @@ struct LitRoads {
 /// Lane surfaces (R3), kerbs, pavements and verges, markings and signs that reflect back, objects, traffic lights,
 /// street lamps and the ground around them. Cameras: "driver", who follows the longest way over the lanes in the
 /// animation, at the speed limit or what bends allow; "overview"; "roadside". Nodes "car_ego", "street_lamp_*/light",
-/// "signal_*/red", ... Throws Error where it would be too large.
+/// "signal_*/red", ".../yellow", ".../green" Throws Error where it would be too large.
 LitRoads lit_roads(const RoadNetwork& network, const LitRoadOptions& options = {});
 
 }  // namespace vesper

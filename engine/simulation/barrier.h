@@ -11,10 +11,7 @@ namespace vesper {
 
 using Barrier = std::vector<glm::dvec2>;  ///< a line in plan, X and Z of the scene, m
 
-/// What of a car that scrapes along a barrier is lost: force along over force across.
-constexpr double kScrape = 0.3;
-
-/// Stops the corners of a car that crossed a barrier since `before`: an inelastic blow there, with friction along the barrier, and
+/// Stops the corners of a car that crossed a barrier since `before`: an inelastic blow there, with friction (kScrape) along the barrier, and
 /// the car put back to its side. Takes energy, never gives any. Tells whether there was a blow.
 bool collide(VehicleState&, const VehicleState& before, const VehicleParameters&, const std::vector<Barrier>&);
 

@@ -22,6 +22,7 @@ struct Forces {
     double front, rear;  // along the wheels, N
     double resistance;   // air and rolling, against the motion, N
     double engine;       // asked of the engine, N
+    bool held;           // brakes are stronger than the engine
 };
 
 Forces longitudinal_forces(const VehicleState& s, const VehicleParameters& p, const VehicleControls& c, double front_load, double rear_load) {
@@ -29,13 +30,15 @@ Forces longitudinal_forces(const VehicleState& s, const VehicleParameters& p, co
     const double throttle = std::clamp(c.throttle, -1.0, 1.0);
     const double engine = throttle * std::min(p.drive_force, v > 0 ? p.power / v : p.drive_force);
     const double pedal = std::clamp(c.brake, 0.0, 1.0) * p.mass * p.brake_deceleration;
-    const double against = s.speed > 0 ? -1 : s.speed < 0 ? 1 : 0;
+    // At rest brakes work against the engine, and as much as they have to.
+    const double moves = s.speed != 0 ? s.speed : engine, against = moves > 0 ? -1 : moves < 0 ? 1 : 0;
     const auto grip = [&](double force, double load) { return std::clamp(force, -p.friction * load, p.friction * load); };
     Forces f{};
     f.front = grip(engine + against * pedal * front_load / weight, front_load);
     f.rear = grip(against * pedal * rear_load / weight, rear_load);
     f.resistance = p.rolling * weight + 0.5 * p.air_density * p.drag_area * v * v;
     f.engine = engine;
+    f.held = pedal > 0 && pedal >= std::abs(engine);
     return f;
 }
 
@@ -58,8 +61,7 @@ void substep(VehicleState& s, const VehicleParameters& p, const VehicleControls&
     double speed = s.speed + driven * dt;
     // Brakes and resistances bring a car to rest, and keep it there against less force than they have.
     const double drop = f.resistance / p.mass * dt;
-    const bool braked = c.brake > 0 && c.throttle == 0;
-    if (braked && was != 0 && speed * was < 0) speed = 0;
+    if (f.held && (was == 0 || speed * was < 0)) speed = 0;
     speed = std::abs(speed) <= drop ? 0 : speed - std::copysign(drop, speed);
 
     const double lateral = s.lateral + ((front * cosine + f.front * sine + rear) / p.mass - s.speed * s.yaw_rate) * dt;

@@ -14,10 +14,12 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kChangeSeconds = 3;        // of a change of lane
 constexpr double kPatience = 1;             // between thoughts of changing lane, s
 constexpr double kBraking = 0.7;            // deceleration beyond which the pedal is pressed, m/s^2: engines alone give about this
+constexpr double kWalkerRoom = 0.5;         // that a walker keeps before him, m
 constexpr double kWalkerReach = 1.2;        // beyond the edge of a lane a walker counts as on it, m
 constexpr double kRecordedReach = 0.5;      // the same of what was recorded
 constexpr double kGapSeconds = 6;           // before walkers go, nobody may be nearer in time (HCM: critical gaps of 5 to 7 s for two lanes)
 constexpr double kHidden = 50;              // m below the ground
+constexpr double kLying = 0.15;             // height of the middle of somebody who lies, m
 constexpr double kQueue = 12;              // between cars that come in anew, m
 // MOBIL (Kesting, Treiber and Helbing 2007): what others lose counts for so much, the gain must be so much, and nobody behind may
 // have to brake harder, m/s^2.
@@ -50,6 +52,7 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
     driver_.position = {start.position.x, start.position.z};
     driver_.yaw = start.yaw;
     driver_.speed = d.driver_speed;
+    touched_at_.assign(d.cars.size() + d.walkers.size() + d.recordings.size(), -kInfinite);
     occupy();
 }
 
@@ -223,11 +226,15 @@ void World::move_walkers(double seconds) {
         Walk& walk = walks_[i];
         const Course& path = (walk.back ? back_ : d.paths)[d.walkers[i].path];
         walk.speed = 0;
+        if (walk.fallen) continue;
         if (!walk.under_way) {
             walk.wait -= seconds;
             if (walk.wait <= 0 && way_is_free(d.walkers[i].path)) walk.under_way = true;
             continue;
         }
+        // Nobody walks into a car that stands.
+        const Course::Place next = path.at(walk.s + kWalkerRoom);
+        if (std::abs(driver_.speed) < path.speed() && ground_box(driver_, d.vehicle).contains({next.position.x, next.position.z})) continue;
         walk.speed = path.speed();
         walk.s += walk.speed * seconds;
         if (walk.s < path.length()) continue;
@@ -261,9 +268,11 @@ void World::move_driver(const DriverInput& input, double seconds) {
 
 void World::step(const DriverInput& input, double seconds) {
     input_ = input;
+    const VehicleState before = driver_;
     move_driver(input, seconds);
     move_cars(seconds);
     move_walkers(seconds);
+    meet_others(before);
     ++steps_;
     seconds_ += seconds;
     occupy();
@@ -280,11 +289,15 @@ Course::Place World::place_of(size_t index) const {
     return place;
 }
 
+Course::Place World::ground() const {
+    const Course& lane = description_->lanes[driver_lane_];
+    return lane.at(lane.beside(driver_.position).s);
+}
+
 std::vector<Actor> World::actors() const {
     const WorldDescription& d = *description_;
     std::vector<Actor> actors;
-    const Course& lane = d.lanes[driver_lane_];
-    const Course::Place ground = lane.at(lane.beside(driver_.position).s);
+    const Course::Place ground = World::ground();
     const double middle = (d.vehicle.front_axle - d.vehicle.rear_axle) / 2;
     const glm::dvec2 origin = driver_.position + middle * driver_.forward();
     actors.push_back({d.driver_node, {origin.x, ground.position.y, origin.y}, driver_.yaw,
@@ -302,6 +315,7 @@ std::vector<Actor> World::actors() const {
         const Walk& walk = walks_[i];
         const Course::Place at = (walk.back ? back_ : d.paths)[d.walkers[i].path].at(walk.s);
         actors.push_back({.node = d.walkers[i].node, .position = at.position, .yaw = at.yaw, .speed = walk.speed});
+        if (walk.fallen) actors.back().pitch = std::numbers::pi / 2, actors.back().position.y += kLying;
     }
     for (const RecordedMover& r : d.recordings) {
         bool there = false;

@@ -11,6 +11,7 @@
 
 #include "simulation/autopilot.h"
 #include "simulation/barrier.h"
+#include "simulation/contact.h"
 #include "simulation/driver.h"
 #include "simulation/course.h"
 #include "simulation/vehicle.h"
@@ -23,7 +24,7 @@ struct TrafficCar {
     size_t lane = 0;
     double s = 0;            ///< of its middle along the lane at the start, m
     double speed = 0;        ///< m/s
-    double length = 4.4;     ///< m
+    double length = 4.4, width = 1.8;  ///< m
     double wish = 0;         ///< wanted speed, part of what the lane allows; 0: drawn, 0.9 .. 1.05
     Beam beam = Beam::Low;
 };
@@ -46,8 +47,9 @@ struct RecordedMover {
         VehicleLamps lamps;                  ///< until the next
     };
     std::string node;
-    double length = 4.4;       ///< m
+    double length = 4.4, width = 1.8;  ///< m
     double middle = 0;         ///< of it before the node's origin, m
+    bool person = false;       ///< does not stop a car
     std::vector<Pose> poses;   ///< times ascending, at least one
 };
 
@@ -75,6 +77,14 @@ struct Actor {
     VehicleLamps lamps;
 };
 
+/// The driver's car met something that moves.
+struct Contact {
+    double seconds = 0;   ///< when
+    std::string node;     ///< whom
+    double speed = 0;     ///< at which they met, m/s
+    double impulse = 0;   ///< N s
+};
+
 class World {
 public:
     World(std::shared_ptr<const WorldDescription>, uint64_t seed);
@@ -88,6 +98,9 @@ public:
     const WorldDescription& description() const { return *description_; }
     size_t driver_lane() const { return driver_lane_; }  ///< the one the autopilot keeps to
     bool touched() const { return touched_; }            ///< a barrier in the last step
+    /// What the driver's car met since the start, in that order. Cars of traffic give way along their lane by their mass, what was
+    /// recorded does not, and who walks falls and stays where he is.
+    const std::vector<Contact>& contacts() const { return contacts_; }
     /// The driver's car first, then traffic, walkers and recordings, in the order of the description.
     std::vector<Actor> actors() const;
 
@@ -100,7 +113,7 @@ private:
     };
     struct Walk {
         double s = 0, wait = 0;
-        bool back = false, under_way = false;
+        bool back = false, under_way = false, fallen = false;
         double speed = 0;
     };
     /// Whoever is next on a lane.
@@ -123,6 +136,9 @@ private:
     void consider_change(size_t index);
     void move_walkers(double seconds);
     void move_driver(const DriverInput&, double seconds);
+    Course::Place ground() const;  // below the driver's car
+    void meet_others(const VehicleState& before);
+    glm::dvec2 meet(size_t who, const std::string& node, const GroundBox&, double height, const Opponent&, bool person);
     void find_crossings(const Course& path, size_t lane);
     bool way_is_free(size_t path) const;
     Course::Place place_of(size_t car) const;
@@ -144,6 +160,8 @@ private:
     bool braking_ = false, touched_ = false;
     size_t driver_lane_ = 0;
     std::vector<Occupant> occupants_;
+    std::vector<Contact> contacts_;
+    std::vector<double> touched_at_;  // s, of each car, walker and recording
     double seconds_ = 0;
     uint64_t steps_ = 0;
 };

@@ -12,6 +12,9 @@ namespace {
 
 constexpr uint64_t kMostBytes = 64u << 20;
 constexpr double kFar = 1e6;  // m
+// With more, steps would take longer than a drive has patience for.
+constexpr size_t kMostPoints = 100'000, kMostMovers = 1000;
+constexpr double kLongestPaths = 10'000;  // m, of all walkers' paths
 
 glm::dvec3 point_of(const JsonValue& value) {
     const auto xyz = value.elements(3);
@@ -31,7 +34,12 @@ Course lane_of(const JsonValue& value, double width, double speed) {
 
 std::vector<Course> lanes_of(const JsonValue& root, const char* key, double width, double speed) {
     std::vector<Course> lanes;
-    for (const JsonValue& value : root.elements_of(key)) lanes.push_back(lane_of(value, width, speed));
+    size_t points = 0;
+    for (const JsonValue& value : root.elements_of(key)) {
+        lanes.push_back(lane_of(value, width, speed));
+        points += value.at("points").elements().size();
+        if (points > kMostPoints) value.fail("with this one there are more than " + std::to_string(kMostPoints) + " points");
+    }
     return lanes;
 }
 
@@ -56,10 +64,13 @@ Beam beam_of(const JsonValue& car) {
 }
 
 void read_cars(const JsonValue& root, WorldDescription& world) {
+    for (const char* movers : {"cars", "walkers"})
+        if (root.elements_of(movers).size() > kMostMovers) root.at(movers).fail("more than " + std::to_string(kMostMovers));
     for (const JsonValue& car : root.elements_of("cars")) {
-        car.allow_only({"node", "lane", "at_m", "speed_km_h", "length_m", "beam", "wish"});
+        car.allow_only({"node", "lane", "at_m", "speed_km_h", "length_m", "width_m", "beam", "wish"});
         world.cars.push_back({.node = car.at("node").text(), .lane = index_of(car.at("lane"), world.lanes), .s = car.number_or("at_m", 0, -kFar, kFar),
-                              .speed = car.number_or("speed_km_h", 0, 0, 300) / 3.6, .length = car.number_or("length_m", 4.4, 0.5, 50), .wish = car.number_or("wish", 0, 0.05, 2), .beam = beam_of(car)});
+                              .speed = car.number_or("speed_km_h", 0, 0, 300) / 3.6, .length = car.number_or("length_m", 4.4, 0.5, 50), .width = car.number_or("width_m", 1.8, 0.3, 10),
+                              .wish = car.number_or("wish", 0, 0.05, 2), .beam = beam_of(car)});
     }
     for (const JsonValue& walker : root.elements_of("walkers")) {
         walker.allow_only({"node", "path", "wait_s", "at_m"});
@@ -102,7 +113,13 @@ WorldFile read_world(const std::filesystem::path& path) {
         if (const auto right = lanes[i].find("right")) file.world.lanes[i].right = int(index_of(*right, file.world.lanes));
     }
     file.world.paths = lanes_of(root, "paths", 1, 4.7);  // km/h: 1.3 m/s
+    double walked = 0;
+    for (const Course& walk : file.world.paths) walked += walk.length();
+    if (walked > kLongestPaths) root.at("paths").fail("are longer than " + std::to_string(int(kLongestPaths)) + " m in all");
+    size_t points = 0;
     for (const JsonValue& barrier : root.elements_of("barriers")) {
+        points += barrier.elements().size();
+        if (points > kMostPoints) barrier.fail("with this one there are more than " + std::to_string(kMostPoints) + " points");
         file.world.barriers.emplace_back();
         for (const JsonValue& point : barrier.elements()) {
             const auto xz = point.elements(2);

@@ -11,6 +11,7 @@
 #include "base/luminance.h"
 #include "drive_file.h"
 #include "places.h"
+#include "playback.h"
 #include "session.h"
 #include "support/program.h"
 
@@ -81,9 +82,11 @@ TEST(Drive, AReplayHasTheSameBytes) {
         driven = play(session, {events.begin(), events.begin() + 40});
         session.record(scratch / "drive.json");
         for (Frame& frame : play(session, {events.begin() + 40, events.end()})) driven.push_back(std::move(frame));
-        const Drive unfinished = read_drive(scratch / "drive.json");
+        EXPECT_FALSE(std::filesystem::exists(scratch / "drive.json"));
+        const Drive unfinished = read_drive(scratch / "drive.json.part");
         EXPECT_FALSE(unfinished.complete);
         EXPECT_EQ(unfinished.events.size(), events.size());
+        session.stop_recording();
     }
     const Drive drive = read_drive(scratch / "drive.json");
     EXPECT_TRUE(drive.complete);
@@ -141,6 +144,62 @@ TEST(Drive, SettingsAreTheOptionsOfRender) {
     EXPECT_EQ(settings.values(), before);
     settings.set("operator", "");
     EXPECT_EQ(settings.render().tone_operator, Operator::Irawan);
+}
+
+TEST(Drive, SettingsAreRefusedWithTheirPlace) {
+    const TempFolder scratch;
+    const auto refused = [&](const std::string& settings, const std::string& events) {
+        scratch.write("d.json", "{\"vesper_drive\":1,\"scene\":\"x.gltf\",\"settings\":{" + settings + "},\"events\":[" + events + "]}");
+        return complaint_of([&] { read_drive(scratch / "d.json"); });
+    };
+    EXPECT_EQ(refused("", R"({"set":{"age":"50"}})"), "");
+    for (const auto& [name, value] : std::map<std::string, std::string>{{"help", "1"}, {"help", ""}, {"age", "old"}, {"age=5 --fov", "1"}, {"free", "1,2,nan,0,0"}, {"free", "0,0,0,0,91"}, {"free", "1,1e308,0,0,0"}, {"lamp:x", "-1"}}) {
+        const std::string pair = "\"" + name + "\":\"" + value + "\"";
+        const std::string event = refused("", "{\"frame\":true},{\"set\":{" + pair + "}}");
+        EXPECT_TRUE(contains(event, "d.json: /events/1/set: ")) << event;
+        EXPECT_EQ(event.find('\n'), event.npos) << event;
+        if (!value.empty()) {
+            EXPECT_TRUE(contains(refused(pair, ""), "d.json: /settings: ")) << pair;
+        }
+    }
+    DriveSettings settings;
+    settings.set("free", "0,0,0,720,0");
+    EXPECT_NEAR(settings.free_camera().yaw, 0, 1e-12);
+}
+
+// What is given beside a recording wins over what it sets, and starting again brings back the settings of the start.
+TEST(Drive, GivenSettingsWinOverRecordedOnes) {
+    Device device({.select = ""});
+    const DriveSettings::Values given{{"operator", "grave"}};
+    Session session(device, {.scene = kWorld, .settings = {{"operator", "grave"}, {"age", "30"}}});
+    std::vector<DriveEvent> events(3);
+    events[0] = {.kind = DriveEvent::Kind::Set, .pose = {}, .name = "operator", .value = "ward"};
+    events[1] = {.kind = DriveEvent::Kind::Set, .pose = {}, .name = "age", .value = "70"};
+    events[2] = {.kind = DriveEvent::Kind::Step, .input = {.throttle = 1}, .pose = {}, .name = {}, .value = {}};
+    Playback playback(events, given);
+    while (playback.next(session)) {}
+    EXPECT_EQ(session.settings().values().at("operator"), "grave");
+    EXPECT_EQ(session.settings().values().at("age"), "70");
+    EXPECT_FALSE(playback.strayed());
+    session.set("operator", "reinhard");
+    playback.rewind(session);
+    EXPECT_EQ(session.settings().values(), (DriveSettings::Values{{"operator", "grave"}, {"age", "30"}}));
+    EXPECT_EQ(session.world().steps(), 0u);
+    EXPECT_NE(playback.next(session), nullptr);
+    events[2].pose = glm::dvec4(1, 2, 3, 4);
+    Playback other(events);
+    while (other.next(session)) {}
+    EXPECT_TRUE(other.strayed());
+    EXPECT_EQ(session.settings().values().at("operator"), "ward");
+}
+
+TEST(Drive, LampsThatAreNotThereAreRefused) {
+    Device device({.select = ""});
+    EXPECT_TRUE(contains(complaint_of([&] { Session(device, {.scene = kWorld, .settings = {{"lamp:strete lamp", "0"}}}); }), "--lamp strete lamp: the scene has no lamp of that name; it has arcade lantern"));
+    Session session(device, {.scene = kWorld, .settings = {}});
+    EXPECT_THROW(session.set("lamp:strete lamp", "0"), Error);
+    EXPECT_TRUE(session.settings().values().empty());
+    session.set("lamp:street lamp", "0");
 }
 
 TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
@@ -231,6 +290,63 @@ TEST_F(DriveProgram, DrivesRecordsAndReplays) {
     EXPECT_EQ(run(size + "--replay drive.json --operator ldr --log ldr.csv --probe 0.5,0.7"), 0) << said;
     const std::string ldr = read_text(folder / "ldr.csv");
     EXPECT_EQ(std::count(ldr.begin(), ldr.end(), ','), 7 * commas);
+}
+
+// Options that would say nothing are named, with what they would need.
+TEST_F(DriveProgram, RefusesIdleOptions) {
+    const std::string replay = "--headless --log l.csv --replay d.json ", drive = "--headless --log l.csv --seconds 0 ";
+    for (const char* option : {"--seed", "--seconds"}) expect_refused(replay + option + " 3", {option, "--replay"});
+    expect_refused(replay + "--autopilot", {"--autopilot", "--replay"});
+    expect_refused(replay + "--record r.json", {"--record", "replay"});
+    expect_refused(replay + "x.xodr", {"scene", "--replay"});
+    expect_refused(replay + "--scenario x.csv", {"--scenario", "--replay"});
+    const auto name = [](const std::string& option) { return option.substr(0, option.find(' ')) + ": "; };
+    for (const char* option : {"--video x.mp4", "--fps 30", "--seconds 3"}) expect_refused(option, {name(option), "--headless"});
+    for (const char* option : {"--window 64x64", "--fullscreen", "--vsync off", "--limit 9", "--scaling fit", "--controllers c.json"}) expect_refused(drive + option, {name(option), "--headless"});
+    for (const char* option : {"--size 64x64", "--fov 30"}) expect_refused(drive + "--channels c.json " + option, {name(option), "--channels"});
+    expect_refused("--headless --record r.json --fps 30", {"--fps", "--video"});
+    expect_refused("--headless --record r.json --probe 0.5,0.5", {"--probe", "--log"});
+    expect_refused(drive + "--free 1,2,3,0,0", {"--free", "--camera free"});
+    for (const char* probe : {",", "0.5", "0.5,", ",0.5", "0.5,0.5,0.5", "0.5,0.5x", "nan,0", "1.1,0", "0.5;0.5"}) expect_refused(drive + "--probe '" + probe + "'", {"--probe", "X,Y"});
+    EXPECT_FALSE(exists("l.csv") || exists("r.json") || exists("l.csv.part"));
+}
+
+// No output replaces what is read, also where only another file names it; nor does what there is of a log replace a good one.
+TEST_F(DriveProgram, SparesWhatItReadsAndWhatIsGood) {
+    GltfFile scene;
+    scene.show({{"attributes", {{"POSITION", scene.vec3(kTriangle)}}}});
+    scene.root["nodes"].push_back({{"name", "lamp"}});
+    scene.text();
+    scene.root["buffers"][0]["uri"] = "s.bin";
+    std::ofstream(folder / "s.bin", std::ios::binary).write(reinterpret_cast<const char*>(scene.bytes.data()), std::streamsize(scene.bytes.size()));
+    folder.write("s.gltf", scene.root.dump());
+    folder.write("s.photometry.json", R"({"version": 1, "lamps": [{"name": "lamp", "nodes": "lamp", "type": "distribution", "file": "l.csv"}]})");
+    std::filesystem::copy(std::string(VESPER_SOURCE_DIR) + "/data/photometry/low-beam.csv", folder / "l.csv");
+    folder.write("w.json", R"({"version": 1, "scene": "s.gltf", "photometry": "s.photometry.json", "driver": {"lane": "a"}, "lanes": [{"name": "a", "points": [[0, 0, 9], [0, 0, -9]]}]})");
+    const std::string common = "w.json --headless --size 16x10 --seconds 0.1 ";
+    const auto whole = [&](const std::string& name) { return read_text(folder / name); };
+    for (const char* input : {"w.json", "s.gltf", "s.bin", "s.photometry.json", "l.csv"}) {
+        const std::string before = whole(input);
+        ASSERT_FALSE(before.empty()) << input;
+        expect_refused(common + "--log " + input, {"--log", input, "replace"});
+        expect_refused(common + "--record " + input, {"--record", input, "replace"});
+        EXPECT_EQ(whole(input), before) << input;
+    }
+    std::filesystem::create_symlink("s.bin", folder / "00002.exr");
+    expect_refused(common + "--video %05d.exr", {"00002.exr", "replace"});
+    EXPECT_EQ(run(common + "--log good.csv"), 0) << said;
+    EXPECT_FALSE(exists("good.csv.part"));
+    const std::string good = whole("good.csv");
+    // Frames end at a film that is none: the rows until then are beside the good ones.
+    std::filesystem::remove_all(folder / "00002.exr");
+    std::filesystem::create_directory(folder / "00002.exr");
+    expect_refused(common + "--log good.csv --record good.json --video %05d.exr", {"00002.exr"});
+    EXPECT_EQ(whole("good.csv"), good);
+    const std::string part = whole("good.csv.part");
+    EXPECT_EQ(std::count(part.begin(), part.end(), '\n'), 3);  // a heading and two frames
+    EXPECT_FALSE(exists("good.json"));
+    ASSERT_EQ(run("--headless --replay good.json.part --log replayed.csv --size 16x10"), 0) << said;
+    EXPECT_NE(said.find("breaks off"), said.npos);
 }
 
 TEST_F(DriveProgram, RefusesWhatItCannotUse) {

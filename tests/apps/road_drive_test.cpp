@@ -1,5 +1,7 @@
 // Driving on roads of others, among what was recorded on them. SPDX-License-Identifier: MIT
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -7,6 +9,7 @@
 #include "base/error.h"
 #include "places.h"
 #include "road_world.h"
+#include "support/complaints.h"
 #include "roads/opendrive.h"
 #include "scenery.h"
 #include "support/program.h"
@@ -70,6 +73,95 @@ TEST(RoadDrive, PlainBodiesHaveTheirLamps) {
     for (const LampGroup& group : scenery.lamp_groups()) names.push_back(group.name);
     for (const char* name : {"low beam", "high beam", "tail lamp", "brake lamp", "left front indicator", "right rear indicator"}) EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
     EXPECT_THROW(Scenery(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json", folder / "run.csv"), Error);
+}
+
+// The driver's car has what the one in data/rivoli has: lamps of every kind, the beams as measured, its eye behind the bonnet.
+TEST(RoadDrive, TheDriversCarHasAllItsLamps) {
+    const RoadWorld made = road_world(kRoads, {}, {});
+    ASSERT_EQ(made.world.world.driver_node, "car_ego");
+    EXPECT_EQ(made.world.camera, "driver");
+    const auto& nodes = made.scene.nodes;
+    uint32_t car = 0;
+    while (nodes[car].name != "car_ego") ++car;
+    std::map<std::string, int> lamps;
+    for (const Node& node : nodes) {
+        if (node.parent != car) continue;
+        if (node.camera != kNone) {
+            EXPECT_NEAR(node.translation.z, -0.14, 0.01);
+        }
+        if (node.light == kNone) continue;
+        const Light& light = made.scene.lights[node.light];
+        ++lamps[light.name];
+        if (light.name.ends_with("beam")) {
+            EXPECT_EQ(light.kind, Light::Kind::Measured) << light.name;
+        }
+        const bool rear = light.name.find("rear") != light.name.npos || light.name == "tail lamp" || light.name == "brake lamp";
+        EXPECT_EQ(node.translation.z > 0, rear) << light.name;
+    }
+    const std::map<std::string, int> wanted{{"low beam", 2}, {"high beam", 2}, {"tail lamp", 2}, {"brake lamp", 2}, {"left front indicator", 1}, {"left rear indicator", 1}, {"right front indicator", 1}, {"right rear indicator", 1}};
+    EXPECT_EQ(lamps, wanted);
+}
+
+// A run on other roads is refused, one that leaves them at times is noted.
+TEST(RoadDrive, ARunOfOtherRoadsIsRefused) {
+    const TempFolder folder;
+    const auto straight = [](double off, double until) {  // 20 places, those before `until` beside the road
+        std::string rows = "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_rot\n";
+        for (int i = 0; i < 20; ++i) rows += std::to_string(i * 0.1) + ", 0, Car, " + std::to_string(i < until ? off : 1.5) + ", " + std::to_string(10.0 * i) + ", 0, 1.5708, 0, 0, 10, 0, 0\n";
+        return rows;
+    };
+    const auto notes = [&](double off, double until) {
+        const std::vector<std::string> all = road_world(kRoads, folder.write("run.csv", straight(off, until)), {}).notes;
+        return size_t(std::count_if(all.begin(), all.end(), [](const std::string& note) { return contains(note, "off the roads"); }));
+    };
+    EXPECT_EQ(notes(1.5, 20), 0u);
+    EXPECT_EQ(notes(300, 1), 0u);
+    EXPECT_EQ(notes(300, 3), 1u);
+    const std::string complaint = complaint_of([&] { notes(300, 12); });
+    EXPECT_TRUE(contains(complaint, "run.csv: 60 % of the places of its vehicles lie more than 3 m off the roads of ")) << complaint;
+    EXPECT_TRUE(contains(complaint, "rivoli.xodr")) << complaint;
+}
+
+TEST(RoadDrive, StatesOfTrafficLights) {
+    using Mode = SignalLens::Mode;
+    EXPECT_EQ(lens_in("off;off;on", 2, "green"), Mode::On);
+    EXPECT_EQ(lens_in("off; flashing ;on", 1, "yellow"), Mode::Flashing);
+    EXPECT_EQ(lens_in("on;off", 2, "green"), std::nullopt);
+    EXPECT_EQ(lens_in("red", 0, "red"), Mode::On);
+    EXPECT_EQ(lens_in("red;yellow", 0, "red"), std::nullopt);
+    EXPECT_EQ(lens_in("redyellow", 1, "yellow"), Mode::On);
+    EXPECT_EQ(lens_in("amber", 1, "yellow"), Mode::On);
+    EXPECT_EQ(lens_in("off", 0, "red"), Mode::Off);
+    EXPECT_EQ(lens_in("", 0, "red"), std::nullopt);
+    const SignalLens lens{.node = 0, .otherwise = true, .changes = {{2, Mode::Off}, {4, Mode::Flashing}}};
+    const std::map<double, bool> wanted{{0, true}, {2, false}, {3.9, false}, {4.1, true}, {4.6, false}, {5.2, true}};
+    for (const auto& [seconds, lit] : wanted) EXPECT_EQ(lens.shines(seconds), lit) << seconds;
+}
+
+// The lights of a scenario shine as it sets them: green for cars, then yellow, red, and green again.
+TEST(RoadDrive, ARunSwitchesItsTrafficLights) {
+    const std::filesystem::path shared = std::string(VESPER_SHARED_DATA) + "/scenario";
+    if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";
+    const std::filesystem::path roads = shared / "esmini/xodr/fabriksgatan_traffic_lights.xodr";
+    const Scenery scenery(roads, shared / "esmini-output/traffic_lights.csv", shared / "esmini/xosc/traffic_lights.xosc");
+    const World world(scenery.world(), 1);
+    const auto lit = [&](double seconds) {
+        std::map<std::string, int> count;
+        const SceneFrame frame = scenery.frame(world.actors(), seconds, DriveSettings());
+        for (size_t i = 0; i < scenery.scene().nodes.size(); ++i) {
+            const Node& node = scenery.scene().nodes[i];
+            if (node.light != kNone && frame.dimming[i] > 0) ++count[scenery.scene().lights[node.light].name];
+        }
+        return std::vector<int>{count["red signal"], count["yellow signal"], count["green signal"]};
+    };
+    EXPECT_EQ(lit(1), (std::vector<int>{2, 0, 1}));   // red for two people on foot
+    EXPECT_EQ(lit(5), (std::vector<int>{2, 1, 0}));
+    EXPECT_EQ(lit(8), (std::vector<int>{3, 0, 0}));
+    EXPECT_EQ(lit(12), (std::vector<int>{1, 0, 2}));  // people walk
+    EXPECT_EQ(lit(23), (std::vector<int>{2, 0, 1}));
+    // Without a scenario cars wait.
+    const RoadWorld steady = road_world(roads, {}, {});
+    EXPECT_TRUE(steady.lenses.empty());
 }
 
 class RoadDriveProgram : public ProgramTest {

@@ -70,6 +70,33 @@ TEST(Vehicle, BrakesWithinTheFormula) {
     EXPECT_NEAR(s.odometer, 100 / (2 * 0.1 * 9.80665), 0.3);
 }
 
+// Both pedals: the stronger one wins, and a car that stands does not tremble.
+TEST(Vehicle, BrakesHoldAgainstTheEngine) {
+    const VehicleParameters p;
+    const double fades = p.drive_force / (p.mass * p.brake_deceleration);  // of the pedal
+    for (const double throttle : {1.0, -1.0})
+        for (const double grip : {0.9, 0.1}) {
+            VehicleParameters road = p;
+            road.friction = grip;
+            VehicleState s;
+            for (int i = 0; i < 120; ++i) {
+                advance(s, road, {.throttle = throttle, .brake = fades * 1.05}, kStep);
+                ASSERT_EQ(s.speed, 0) << i;
+            }
+            EXPECT_EQ(s.odometer, 0);
+        }
+    VehicleState s;
+    for (int i = 0; i < 60; ++i) advance(s, p, {.throttle = 1, .brake = fades * 0.5}, kStep);
+    const double expected = (p.drive_force * 0.5 - p.rolling * p.mass * 9.80665) / p.mass;
+    EXPECT_NEAR(s.speed, expected, 0.02);
+    s.speed = 10;
+    for (int i = 0; i < 240; ++i) advance(s, p, {.throttle = 1, .brake = 1}, kStep);
+    EXPECT_EQ(s.speed, 0) << "comes to rest, and stays";
+    s.speed = -3;  // brakes do not stop an engine that they are weaker than
+    for (int i = 0; i < 120; ++i) advance(s, p, {.throttle = 1, .brake = 0.1}, kStep);
+    EXPECT_GT(s.speed, 1);
+}
+
 // Terminal speed: the engine's power is what air and tyres take.
 TEST(Vehicle, TopSpeedIsWherePowerIsSpent) {
     const VehicleParameters p;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "places.h"
+#include "scene/scene_files.h"
 #include "simulation/car_following.h"
 #include "simulation/daylight.h"
 #include "simulation/world_file.h"
@@ -225,6 +226,24 @@ TEST(WorldFile, TheStreetOfRivoliIsOne) {
     EXPECT_EQ(file.scene.filename(), "rivoli-drive.gltf");
     EXPECT_TRUE(file.world.lanes[0].closed());
     EXPECT_EQ(file.world.lanes[0].right, 1);
+}
+
+// Files that would keep a drive busy for ever are refused with their place.
+TEST(WorldFile, HasBounds) {
+    const test::TempFolder folder;
+    const auto refused = [&](const std::string& more) {
+        folder.write("w.json", R"({"version": 1, "scene": "s.gltf", "driver": {"lane": "a"}, "lanes": [{"name": "a", "points": [[0, 0, 0], [0, 0, -9]]}])" + more + "}");
+        return test::complaint_of([&] { read_world(folder / "w.json"); });
+    };
+    const auto many = [](size_t count, const std::string& one) {
+        std::string text = "[" + one;
+        for (size_t i = 1; i < count; ++i) text += "," + one;
+        return text + "]";
+    };
+    EXPECT_EQ(refused(R"(, "paths": [{"name": "p", "points": [[0, 0, 0], [5000, 0, 0]]}])"), "");
+    EXPECT_TRUE(test::contains(refused(R"(, "paths": [{"name": "p", "points": [[-1000000, 0, 0], [1000000, 0, 0]]}])"), "w.json: /paths: are longer than 10000 m"));
+    EXPECT_TRUE(test::contains(refused(R"(, "cars": )" + many(1001, R"({"node": "c", "lane": "a"})")), "w.json: /cars: more than 1000"));
+    EXPECT_TRUE(test::contains(refused(R"(, "barriers": [)" + many(100'001, "[0, 1]") + "]"), "w.json: /barriers/0: with this one"));
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 # Opens vesper-drive on a display of its own and drives it by keys, as somebody would: steers, resizes, minimises and fills the
 # screen, switches operators, breaks the scene's file, records. What the window shows is the headless picture of the same frame, and a replay of the recording, twice, gives
 # the same bytes. The validation layer watches. Waits for what the title says, never for a time. SPDX-License-Identifier: MIT
-#   tests/window/drive.sh VESPER_DRIVE WORLD
+#   tests/window/drive.sh VESPER_DRIVE WORLD LOSE_DEVICE (the built lose_device.cpp)
 set -euo pipefail
 
-program=$1 world=$2
+program=$1 world=$2 lose=$3
 for tool in Xvfb xdotool import compare openbox; do
     command -v "$tool" >/dev/null || { echo "skipped: $tool is missing (Debian, Ubuntu: apt install xvfb xdotool openbox imagemagick)"; exit 77; }
 done
@@ -137,6 +137,37 @@ refused() {
 refused env DISPLAY=:none "$program" "$world"
 refused "$program" "$world" --fullscreen 7
 refused "$program" "$world" --device cpu --size 64x64 --display hdr10
+
+# A replay in a window: options given beside it win over what was recorded, and Backspace brings back all of the start.
+"$program" --replay drive.json --operator grave --size 64x40 --window 240x150 --device cpu >said.txt 2>&1 &
+drive=$!
+started+=("$drive")
+until_true "a window" find_window
+until_true "the end of the replay" titled paused
+titled "grave, " || fail "a recorded operator has replaced the one that was asked for"
+key o
+until_true "another operator" untitled grave
+key BackSpace
+until_true "the replay from its start" untitled paused
+titled "grave, " || fail "starting again has not brought back the operator"
+key ctrl+q
+wait "$drive" || fail "the replay ended with $?"
+
+# A device that is lost while driving is opened anew; the drive, and its recording, go on.
+LD_PRELOAD=$lose LOSE_DEVICE_AT=60 "$program" "$world" --size 64x40 --window 240x150 --device cpu --record lost.json --log lost.csv >said.txt 2>&1 &
+drive=$!
+started+=("$drive")
+until_true "a window" find_window
+until_true "a lost device" grep -q "^vesper-drive: .*the device was lost; it was opened anew" said.txt
+now=$(seconds)
+until_true "time after the device is back" beyond "$(awk -v t="$now" 'BEGIN { print t + 0.3 }')"
+titled recording || fail "the recording has ended with the device"
+[[ -s lost.json.part && -s lost.csv.part && ! -e lost.json ]] || fail "what is recorded is not beside its place"
+key ctrl+q
+wait "$drive" || fail "vesper-drive ended with $?"
+[[ -s lost.json && -s lost.csv && ! -e lost.json.part && ! -e lost.csv.part ]] || fail "what was recorded has not taken its place"
+"$program" --headless --replay lost.json --device cpu --size 64x40 --log again.csv >>said.txt 2>&1 || fail "the replay ended with $?"
+grep -q 'another way' said.txt && fail "the replay of the lost device drives another way"
 
 # What was recorded, twice again: the same bytes, and the last frame is what the window showed.
 for run in a b; do

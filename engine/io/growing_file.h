@@ -1,0 +1,33 @@
+// Files that are written while something goes on. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace vesper {
+
+/// A text file that grows as NAME.part beside the place it is meant for, and takes its name once it is complete. Whatever ends the
+/// program, what was appended is in NAME.part, and NAME holds what it held before. Something that exists and is no regular file
+/// (a pipe, /dev/stdout) is written to directly. Functions throw Error.
+class GrowingFile {
+public:
+    explicit GrowingFile(const std::filesystem::path& file);
+    ~GrowingFile();  ///< leaves NAME.part where it was not completed
+    GrowingFile(const GrowingFile&) = delete;
+    GrowingFile& operator=(const GrowingFile&) = delete;
+
+    void append(std::string_view text);
+    void complete();
+
+    static std::string part_of(const std::string& file) { return file.empty() ? "" : file + ".part"; }
+
+private:
+    [[noreturn]] void fail(int code);
+
+    std::filesystem::path file_, target_, part_;
+    int descriptor_ = -1;
+    unsigned unsafe_ = 0;  // appended since the disk was told to keep it
+};
+
+}  // namespace vesper

@@ -1,0 +1,66 @@
+// Files that grow beside their place, and what is read is remembered. SPDX-License-Identifier: MIT
+#include "io/growing_file.h"
+
+#include "io/atomic_file.h"
+#include "io/files_read.h"
+#include "scene/scene_files.h"
+
+namespace vesper::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(GrowingFile, TakesItsNameWhenItIsComplete) {
+    const TempFolder folder;
+    folder.write("log", "a good one");
+    {
+        GrowingFile file(folder / "log");
+        file.append("one\n");
+        EXPECT_EQ(read_text(folder / "log.part"), "one\n") << "on disk at once";
+        file.append("two\n");
+        EXPECT_EQ(read_text(folder / "log"), "a good one");
+        file.complete();
+    }
+    EXPECT_EQ(read_text(folder / "log"), "one\ntwo\n");
+    EXPECT_FALSE(fs::exists(folder / "log.part"));
+}
+
+TEST(GrowingFile, LeavesWhatThereIsWhenItIsNot) {
+    const TempFolder folder;
+    folder.write("log", "a good one");
+    GrowingFile(folder / "log").append("half\n");
+    EXPECT_EQ(read_text(folder / "log"), "a good one");
+    EXPECT_EQ(read_text(folder / "log.part"), "half\n");
+}
+
+TEST(GrowingFile, KeepsLinksAndWritesToWhatIsNoFile) {
+    const TempFolder folder;
+    folder.write("target", "old");
+    fs::create_symlink("target", folder / "link");
+    GrowingFile file(folder / "link");
+    file.append("new");
+    file.complete();
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_EQ(read_text(folder / "target"), "new");
+    GrowingFile null("/dev/null");
+    null.append("x");
+    null.complete();
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+    EXPECT_THROW(GrowingFile(folder.path()), Error);
+    EXPECT_THROW(GrowingFile(folder / "missing/x"), Error);
+}
+
+TEST(FilesRead, AreThoseThatOtherFilesName) {
+    const TempFolder folder;
+    const FilesRead read;
+    folder.write("a", "x"), folder.write("b", "x");
+    fs::create_symlink("a", folder / "link");
+    read_file(folder / "a", 10);
+    EXPECT_TRUE(read.contains(folder / "a"));
+    EXPECT_TRUE(read.contains(folder / "link"));
+    EXPECT_TRUE(read.contains(folder.path() / "." / "a"));
+    EXPECT_FALSE(read.contains(folder / "b"));
+}
+
+}  // namespace
+}  // namespace vesper::test

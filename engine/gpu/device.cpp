@@ -149,16 +149,18 @@ void check(VkResult result, std::string_view what) {
 }
 
 std::vector<std::string> list_devices() {
-    const VkInstance instance = make_instance(nullptr, {}, {});
+    const struct Instance {
+        VkInstance handle = make_instance(nullptr, {}, {});
+        ~Instance() { vkDestroyInstance(handle, nullptr); }
+    } instance;
     std::vector<std::string> lines;
-    for (const VkPhysicalDevice device : physical_devices(instance)) {
+    for (const VkPhysicalDevice device : physical_devices(instance.handle)) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(device, &properties);
         const std::string reason = missing(device);
         lines.push_back(std::to_string(lines.size()) + ": " + properties.deviceName +
                         (reason.empty() ? "" : " (unusable: " + reason + ")"));
     }
-    vkDestroyInstance(instance, nullptr);
     return lines;
 }
 
@@ -329,7 +331,11 @@ void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const 
                                .commandBufferInfoCount = 1,
                                .pCommandBufferInfos = &submitted};
     check(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "submitting");
-    check(vkQueueWaitIdle(queue_), "waiting for the device");
+    const VkResult waited = vkQueueWaitIdle(queue_);
+    if (waited != VK_SUCCESS) finish();
+    check(waited, "waiting for the device");
 }
+
+void Device::finish() const { vkDeviceWaitIdle(device_); }
 
 }  // namespace vesper

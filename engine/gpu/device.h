@@ -95,6 +95,8 @@ public:
 
     /// Records and runs commands, and waits for them.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
+    /// Lets what was submitted end, where waiting for it has failed: before what it uses goes. A lost device does nothing any more.
+    void finish() const;
 
     PFN_vkCmdPushDescriptorSetKHR push_descriptors = nullptr;
 

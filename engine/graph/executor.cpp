@@ -54,7 +54,8 @@ struct Executor::Past {
     OwnedImage images[2];
     OwnedImageView views[2];
     OwnedBuffer buffers[2];
-    int current = 0;  // the half the next frame writes
+    int current = 0;        // the half the next frame writes
+    bool forgotten = true;  // zero before the next frame
 
     Past(const Device& device, const Shape& s, uint32_t u) : shape(s), usage(u), arena(device) {
         for (int half : {0, 1}) {
@@ -67,10 +68,9 @@ struct Executor::Past {
                 arena.bind(buffers[half].get());
             }
         }
-        zero(device);
     }
 
-    void zero(const Device& device) const {
+    void zero(const Device& device) {
         device.run_once([&](VkCommandBuffer commands) {
             for (int half : {0, 1}) {
                 if (!shape.is_image()) {
@@ -92,6 +92,7 @@ struct Executor::Past {
                 vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1, &all);
             }
         });
+        forgotten = false;
     }
 };
 
@@ -170,6 +171,7 @@ void Executor::run(const FrameGraph& graph) {
     record(graph);
     host_times_.record = watch.lap();
     finish(graph);
+    turn_histories(graph);
 }
 
 void Executor::place(const FrameGraph& graph) {
@@ -217,14 +219,20 @@ void Executor::realize_histories(const FrameGraph& graph) {
         usage |= info.shape.is_image() ? uint32_t(VK_IMAGE_USAGE_TRANSFER_DST_BIT) : uint32_t(VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         auto& past = histories_[info.name];
         if (!past || !(past->shape == info.shape) || past->usage != usage) past = std::make_unique<Past>(device_, info.shape, usage);
+        if (past->forgotten) past->zero(device_);
         for (const auto& [index, half] : {std::pair{i, past->current}, std::pair{info.partner, 1 - past->current}}) {
             Realized& r = resources_[index];
             r.image = past->images[half].get(), r.view = past->views[half].get();
             r.buffer = past->buffers[half].get(), r.offset = 0, r.bytes = info.shape.bytes;
             r.texels = is_texel(usage) && r.buffer ? view_texels(device_, r.buffer, info.shape.format, 0, r.bytes) : OwnedBufferView();
         }
-        past->current = 1 - past->current;
     }
+}
+
+// Only a frame that was finished is the past of the next.
+void Executor::turn_histories(const FrameGraph& graph) {
+    for (uint32_t i = 0; i < graph.resources().size(); ++i)
+        if (graph.resources()[i].origin == FrameGraph::Origin::HistoryCurrent && plan_.usage[i]) histories_.at(graph.resources()[i].name)->current ^= 1;
 }
 
 void Executor::realize_uploads(const FrameGraph& graph) {
@@ -410,10 +418,12 @@ void Executor::finish(const FrameGraph& graph) {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted};
     const VkFence fence = fence_.get();
     Stopwatch watch;
+    check(vkResetFences(device_.handle(), 1, &fence), "submitting a frame");
     check(vkQueueSubmit2(device_.queue(), 1, &submit, fence), "submitting a frame");
     host_times_.submit = watch.lap();
-    check(vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "waiting for a frame");
-    check(vkResetFences(device_.handle(), 1, &fence), "waiting for a frame");
+    const VkResult waited = vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX);
+    if (waited != VK_SUCCESS) device_.finish();
+    check(waited, "waiting for a frame");
     host_times_.wait = watch.lap();
     if (readbacks_.bytes()) readbacks_.invalidate();
 
@@ -438,7 +448,7 @@ std::span<const std::byte> Executor::read(Resource readback) const {
 }
 
 void Executor::reset(const std::string& history) {
-    if (const auto found = histories_.find(history); found != histories_.end()) found->second->zero(device_);
+    if (const auto found = histories_.find(history); found != histories_.end() && found->second) found->second->forgotten = true;
 }
 
 uint64_t Executor::heap_bytes() const {

@@ -39,7 +39,8 @@ public:
 
     /// What the device's resources of a shape occupy.
     Measure measure() const;
-    /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error.
+    /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error; a frame that failed has left
+    /// histories as they were, and unless the device is lost the next can be run.
     void run(const FrameGraph& graph);
     /// What the last frame left in one of its readback resources.
     std::span<const std::byte> read(Resource readback) const;
@@ -52,7 +53,7 @@ public:
     const Plan& plan() const { return plan_; }                     ///< of the last frame
     const std::vector<Timing>& timings() const { return timings_; } ///< of the last frame; empty without timestamps
     const HostTimes& host_times() const { return host_times_; }    ///< of the last frame
-    /// Makes a history zero again, as after a camera cut. Unknown names are ignored.
+    /// Makes a history zero again for the next frame, as after a camera cut. Unknown names are ignored.
     void reset(const std::string& history);
     uint64_t heap_bytes() const;  ///< device memory behind transients, bytes
 
@@ -71,6 +72,7 @@ private:
     void record_dispatch(const FrameGraph::PassInfo& pass) const;
     void record_raster(const FrameGraph& graph, const Plan::Step& step) const;
     void finish(const FrameGraph& graph);
+    void turn_histories(const FrameGraph& graph);
 
     Device& device_;
     Plan plan_;

@@ -169,11 +169,11 @@ void DriveRecorder::add(const DriveEvent& event) {
 void DriveRecorder::open(const std::filesystem::path& file) {
     close();
     file_ = file;
-    descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) throw Error(one_line(file.string()) + ": cannot be written: " + std::strerror(errno));
     std::error_code failed;
-    const std::filesystem::path folder = std::filesystem::absolute(file, failed).parent_path();
-    write(heading(start_, folder) + lines_);
+    const std::string text = heading(start_, std::filesystem::absolute(file, failed).parent_path()) + lines_;
+    replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));  // an earlier drive stays until this one can be read
+    descriptor_ = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (descriptor_ < 0) throw Error(one_line(file.string()) + ": cannot be written: " + std::strerror(errno));
 }
 
 void DriveRecorder::write(const std::string& text) {

@@ -6,7 +6,7 @@
 // the sphere around the cell: the largest intensity in the cone of directions that the sphere subtends, over the square
 // of the nearest distance. Lights are tried in ascending order, so lists are ascending and the same on every run.
 
-#include "reach.glsl"
+#include "shared/cluster.h"
 
 layout(local_size_x = 64) in;
 
@@ -18,6 +18,8 @@ layout(binding = 4, r32ui) writeonly uniform uimageBuffer indices;
 layout(binding = 5, scalar) buffer Report { ClusterReport report; };
 layout(binding = 6) uniform samplerBuffer maps;
 layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
+
+#include "reach.glsl"
 
 vec3 centre;
 float radius;
@@ -50,8 +52,9 @@ bool cone_reaches(int light) {
 
 bool map_reaches(int light) {
     const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
-    const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
-    const float largest = a.w * largest_map(maps, b.w, cosines_to(a.xyz, b.xyz, centre, radius));
+    const vec4 d = texelFetch(lights, light * int(kTexelsPerLight) + 3);
+    const vec4 e = texelFetch(lights, light * int(kTexelsPerLight) + 4);
+    const float largest = a.w * largest_map(a.xyz, d, e, centre, radius);
     return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
 }
 

@@ -101,12 +101,12 @@ float between(float value[kPoints], uint k) {
 }
 
 // How wide a cone of directions may be, as an angle from its axis, rad, for the points to show all that is in it: a beam is not narrower than
-// that; points lie in every cell of a map; and a lamp is not so near that its peak fits between them.
+// that; points are no farther than a cell of a map apart (at most 5/7 of the radius); and a lamp is not so near that its peak fits between them.
 float widest_cone(Lamp lamp, bool cone) {
     float beam = kPi;
     if (cone) beam = lamp.lobe_a > 0.0 ? arccos(clamp(-lamp.lobe_b / lamp.lobe_a, -1.0, 1.0)) : kPi;
     if (!cone && kPowers != 0u) beam = inversesqrt(max(lamp.lobe_a, 0.1));  // where cos^n is still exp(-1/2)
-    if (!cone && kMaps != 0u) beam = lamp.measured ? 2.0 / max(abs(lamp.grid.x), abs(lamp.grid.z)) : beam;
+    if (!cone && kMaps != 0u) beam = lamp.measured ? 2.8 / max(abs(lamp.grid.x), abs(lamp.grid.z)) : beam;
     return min(0.5 * beam, kWidestCone);
 }
 

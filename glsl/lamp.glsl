@@ -26,7 +26,7 @@ Lamp fetch(uint index, bool cone, uint maps_from) {
     if (cone || kPowers != 0u) b = texelFetch(lights, texel + 1);
     if (!cone && kMaps != 0u) d = texelFetch(lights, texel + 3), e = texelFetch(lights, texel + 4), f = texelFetch(lights, texel + 5);
     return Lamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w, kPowers == 0u || index >= maps_from,
-                d.xyz, cross(d.xyz, e.xyz), e.xyz, d.w, e.w, f);
+                d.xyz, turn_of(d.xyz, e.xyz, e.w), e.xyz, d.w, abs(e.w), f);
 }
 
 // Intensity in a direction relative to the largest. `cosine` to the axis; `from` the lamp, of any length.

@@ -20,12 +20,20 @@ float arccos(float cosine) {
 // Value in a cell of a map, between its corners.
 float interpolate(vec4 corners, float u, float v) { return mix(mix(corners.x, corners.y, u), mix(corners.z, corners.w, u), v); }
 
-// Relative intensity in a direction given along azimuth 0, azimuth 90 degrees and the pole, times its `inverse` length.
-float map_intensity(vec3 d, float inverse, vec4 grid, float first, vec2 last) {
-    const vec2 a = abs(d.xy);
+// From -pi to pi.
+float azimuth_of(vec2 d) {
+    const vec2 a = abs(d);
     const float octant = arctan(min(a.x, a.y) / max(max(a.x, a.y), 1e-30));
     const float quadrant = a.y > a.x ? kPi / 2.0 - octant : octant, half_turn = d.x < 0.0 ? kPi - quadrant : quadrant;
-    const vec2 angles = vec2(d.y < 0.0 ? -half_turn : half_turn, arccos(d.z * inverse));
+    return d.y < 0.0 ? -half_turn : half_turn;
+}
+
+// Azimuth 90 degrees of a measurement.
+vec3 turn_of(vec3 start, vec3 pole, float last_azimuth) { return last_azimuth < 0.0 ? cross(pole, start) : cross(start, pole); }
+
+// Relative intensity in a direction given along azimuth 0, azimuth 90 degrees and the pole, times its `inverse` length.
+float map_intensity(vec3 d, float inverse, vec4 grid, float first, vec2 last) {
+    const vec2 angles = vec2(azimuth_of(d.xy), arccos(d.z * inverse));
     const vec2 at = angles * grid.xz + grid.yw;
     const vec2 cell = floor(clamp(at, vec2(0.0), last));
     const vec4 corners = texelFetch(maps, int(first + cell.x * (last.y + 1.0) + cell.y));

@@ -1,5 +1,7 @@
-// Whether a light may give the threshold somewhere in a volume: what may be said without looking at single points.
+// Whether a light may give the threshold somewhere in a volume: what may be said without looking at single points. Needs
+// `samplerBuffer maps`.
 
+#include "maps.glsl"
 #include "shared/cluster.h"
 
 const float kSlack = 1.001;  // float rounding never costs a light
@@ -23,11 +25,33 @@ float largest_cone(float lobe_a, float lobe_b, float cosine) {
 }
 float largest_power(float exponent, float cosine) { return cosine > 0.0 ? exp2(exponent * log2(cosine)) : 0.0; }
 
-// Between the angles of two cosines nothing of a map is brighter.
-float largest_map(samplerBuffer maps, float envelope, vec2 cosines) {
-    const vec2 rings = min(floor(sqrt(max(0.5 - 0.5 * cosines, 0.0)) * float(kEnvelope)), float(kEnvelope) - 1.0);
-    const int level = findMSB(uint(rings.y - rings.x) + 1u), row = int(envelope) + level * int(kEnvelope);
-    return max(texelFetch(maps, row + int(rings.x)).r, texelFetch(maps, row + int(rings.y) + 1 - (1 << level)).r);
+// The shortest window (shared/maps.h) that holds bin `first` and `more` bins after it, of `count`.
+int window_of(int first, int more, int count) {
+    int level = more > 0 ? (floatBitsToInt(float(more)) >> 23) - 126 : 0;  // 2^level is more than that
+    const int stride_bits = max(level - 1, 0);
+    level += (first & (1 << stride_bits) - 1) + more >= 1 << level ? 1 : 0;
+    return (level > 0 ? 3 * count - (4 * count >> level) : 0) + (first >> max(level - 1, 0));
+}
+
+// Nothing of a map is brighter towards the sphere. `start_map` and `pole_last`: texels 3 and 4 of the light.
+float largest_map(vec3 position, vec4 start_map, vec4 pole_last, vec3 centre, float radius) {
+    const float kBlur = 1e-4;  // rad, of azimuth where it is known that well
+    const vec3 to = centre - position;
+    const vec2 polar = cosines_to(position, pole_last.xyz, centre, radius);
+    const vec2 rings = min(sqrt(max(0.5 - 0.5 * polar, 0.0)) * float(kRings), float(kRings) - 0.5);
+    const vec2 d = vec2(dot(start_map.xyz, to), dot(turn_of(start_map.xyz, pole_last.xyz, pole_last.w), to));
+    const float across = length(d), away = length(to);
+    // Near the pole it may have any azimuth.
+    const bool around = !(across > max(radius, 0.01 * away));
+    const float sine = radius / across;
+    const float width = around ? kPi : sine * (1.0 + (kPi / 2.0 - 1.0) * sine * sine) + kBlur;  // at least its arcsine
+    const float sector = (azimuth_of(d) - width) * (float(kSectors) / (2.0 * kPi)) + 1.5 * float(kSectors), sectors = width * (float(kSectors) / kPi);
+    const int first = around ? 0 : int(sector), more = around ? int(kSectors) - 1 : min(int(sector + sectors) - first, int(kSectors) - 1);
+    const int ring = window_of(int(rings.x), int(rings.y) - int(rings.x), int(kRings)), column = window_of(first & int(kSectors) - 1, more, int(kSectors));
+    const int value = ring * int(3u * kSectors) + column;
+    const vec4 four = texelFetch(maps, int(start_map.w) - int(kWindowTexels) + (value >> 2));
+    const float even = (value & 2) == 0 ? four.x : four.z, odd = (value & 2) == 0 ? four.y : four.w;
+    return (value & 1) == 0 ? even : odd;
 }
 
 // Whether an intensity still gives the threshold at a distance, m.

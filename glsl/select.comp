@@ -10,7 +10,6 @@
 
 #include "blocks.glsl"
 #include "normal.glsl"
-#include "reach.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;  // the blocks of a tile, whose lists they share
 
@@ -25,6 +24,8 @@ layout(binding = 4, r32ui) writeonly uniform uimageBuffer block_counts;
 layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
 layout(binding = 6) uniform samplerBuffer maps;
 layout(push_constant, scalar) uniform Push { SelectPush push; };
+
+#include "reach.glsl"
 
 const uint kMaxTurns = 7000u;  // of one invocation; a CPU device counts those of eight together
 const uint kTogether = 3u;     // slices that share a box
@@ -68,16 +69,16 @@ vec3 largest_product(vec3 a_low, vec3 a_high, vec3 b_low, vec3 b_high) {
 }
 
 bool lights_block(uint light) {
+    const bool map = kMaps != 0u && light >= push.view.lights.cones + push.view.lights.powers;
     const int texel = int(light * kTexelsPerLight);
-    const vec4 a = texelFetch(lights, texel), b = texelFetch(lights, texel + 1);
-    const float lobe_b = texelFetch(lights, texel + 2).w;
+    const vec4 a = texelFetch(lights, texel), b = texelFetch(lights, texel + (map ? 3 : 1)), c = texelFetch(lights, texel + (map ? 4 : 2));
     const vec3 centre = 0.5 * (position_low + position_high);
     const float radius = kSlack * 0.5 * distance(position_low, position_high);
     const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
-    const vec2 cosines = cosines_to(a.xyz, b.xyz, centre, radius);
-    float relative = largest_cone(b.w, lobe_b, cosines.x);
-    if (kPowers != 0u && light >= push.view.lights.cones) relative = largest_power(b.w, cosines.x);
-    if (kMaps != 0u && light >= push.view.lights.cones + push.view.lights.powers) relative = largest_map(maps, b.w, cosines);
+    const float cosine = cosines_to(a.xyz, b.xyz, centre, radius).x;
+    float relative = largest_cone(b.w, c.w, cosine);
+    if (kPowers != 0u && light >= push.view.lights.cones) relative = largest_power(b.w, cosine);
+    if (kMaps != 0u) relative = map ? largest_map(a.xyz, b, c, centre, radius) : relative;
     const float largest = a.w * relative;
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);

@@ -1,5 +1,6 @@
 #include "bench.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -20,7 +21,7 @@ namespace vesper {
 namespace {
 
 struct BenchArguments {
-    std::vector<std::string> scenes{"rivoli"}, sizes{"1680x1050"}, operators, glares;
+    std::vector<std::string> scenes{"rivoli"}, sizes{"1680x1050"}, luminaires, operators, glares;
     std::vector<uint32_t> lamps{0}, channels{1};
     uint32_t triangles = 10000;
     RunPlan run{.settings = {.frames = 48, .laps = 3, .warm_up = 4}, .render = {}, .camera = {}, .device = {}};
@@ -34,6 +35,7 @@ struct BenchArguments {
 /// One run of those that the arguments ask for.
 struct Planned {
     RunPlan plan;
+    std::string scene, luminaire;
     uint32_t lamps;
 };
 
@@ -47,27 +49,39 @@ void take_defaults_of_matrix(BenchArguments& a) {
     unless_given("--operator", a.operators, std::vector<std::string>{"ward", "reinhard"});
 }
 
+/// Of a file, its name without folders.
+std::string short_name(const std::string& name) {
+    return name.find('/') == name.npos ? name : std::filesystem::path(name).filename().string();
+}
+
+/// Empty: the scene's own lamps.
+std::vector<std::string> luminaires_of(const BenchArguments& a, const std::string& scene) {
+    return scene == "street" && !a.luminaires.empty() ? a.luminaires : std::vector<std::string>{""};
+}
+
 /// Every combination of what was listed.
 std::vector<Planned> planned_runs(const BenchArguments& a) {
     std::vector<Planned> runs;
     ToneArguments tone = a.tone;
     const std::vector<std::string> operators = a.operators.empty() ? std::vector{tone.eye.tone_operator} : a.operators;
     const std::vector<std::string> glares = a.glares.empty() ? std::vector{tone.glare} : a.glares;
+    const auto plan = [&](Planned run, const std::string& size, uint32_t channels, const std::string& glare, const std::string& op) {
+        tone.eye.tone_operator = op, tone.glare = glare;
+        static_cast<ToneChainSettings&>(run.plan.render) = tone_settings(tone);
+        RunSettings& s = run.plan.settings;
+        s.scene = short_name(run.scene) + (run.luminaire.empty() ? "" : "(" + short_name(run.luminaire) + ")");
+        s.tone_operator = name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
+        s.width = parse_size(size).width, s.height = parse_size(size).height;
+        s.threshold = double(run.plan.render.clusters.threshold);
+        runs.push_back(std::move(run));
+    };
     for (const std::string& scene : a.scenes)
-        for (const uint32_t lamps : a.lamps)
-            for (const std::string& size : a.sizes)
-                for (const uint32_t channels : a.channels)
-                    for (const std::string& glare : glares)
-                        for (const std::string& op : operators) {
-                            Planned& run = runs.emplace_back(Planned{a.run, lamps});
-                            tone.eye.tone_operator = op, tone.glare = glare;
-                            static_cast<ToneChainSettings&>(run.plan.render) = tone_settings(tone);
-                            RunSettings& s = run.plan.settings;
-                            s.scene = scene.find('/') == scene.npos ? scene : std::filesystem::path(scene).filename().string();
-                            s.tone_operator = name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
-                            s.width = parse_size(size).width, s.height = parse_size(size).height;
-                            s.threshold = double(run.plan.render.clusters.threshold);
-                        }
+        for (const std::string& luminaire : luminaires_of(a, scene))
+            for (const uint32_t lamps : a.lamps)
+                for (const std::string& size : a.sizes)
+                    for (const uint32_t channels : a.channels)
+                        for (const std::string& glare : glares)
+                            for (const std::string& op : operators) plan({a.run, scene, luminaire, lamps}, size, channels, glare, op);
     return runs;
 }
 
@@ -75,6 +89,10 @@ void check_files(const BenchArguments& a) {
     Files files;
     for (const std::string& scene : a.scenes)
         if (scene != "street") files.reads(scene);
+    for (const std::string& luminaire : a.luminaires)
+        if (luminaire != "point" && luminaire != "none") files.reads(luminaire);
+    if (!a.luminaires.empty() && std::find(a.scenes.begin(), a.scenes.end(), "street") == a.scenes.end())
+        throw Error("--luminaire: lamps of --scene street alone can be exchanged");
     if (!a.growth.empty() && !std::filesystem::is_directory(a.growth)) {
         files.writes("--matrix", a.growth);
         std::error_code failed;
@@ -108,8 +126,7 @@ void run(BenchArguments& a) {
     const std::vector<Planned> planned = planned_runs(a);
     Scenes scenes;
     for (const std::string& scene : a.scenes) scenes.prepare(scene);
-    const auto name_of_run = [&](size_t i) { return a.scenes[i * a.scenes.size() / planned.size()]; };
-    const auto load = [&](size_t i) { return scenes.load(name_of_run(i), planned[i].lamps, a.triangles, a.run.camera); };
+    const auto load = [&](size_t i) { return scenes.load(planned[i].scene, planned[i].lamps, a.triangles, planned[i].luminaire, a.run.camera); };
 
     // Starts come before this process opens a device.
     std::vector<Start> starts;
@@ -162,6 +179,7 @@ void add_bench(CLI::App& program) {
     program.add_option("--camera,-c", a->run.camera, "Name of a camera of the scene (default: the first)");
     program.add_option("--size,-s", a->sizes, "WIDTHxHEIGHT of a channel, px")->delimiter(',')->capture_default_str();
     program.add_option("--lamps", a->lamps, "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")->delimiter(',')->check(CLI::Range(0u, 32000u));
+    program.add_option("--luminaire", a->luminaires, "Of the street, in place of its spots of 1,500 cd: point (1,500 cd), none, or a file of a distribution (.ies, .ldt, .csv, .exr), scaled to the flux that the point sends down")->delimiter(',');
     program.add_option("--triangles", a->triangles, "Of the street: at least so many")->check(CLI::Range(0u, 100'000'000u))->capture_default_str();
     program.add_option("--channels", a->channels, "Views in every frame, side by side")->delimiter(',')->check(CLI::Range(1u, 16u))->capture_default_str();
     program.add_option("--frames", s.frames, "Of a lap: the path of the scene's camera in equal steps")->check(CLI::Range(1u, 100000u))->capture_default_str();
@@ -178,7 +196,7 @@ void add_bench(CLI::App& program) {
     add_tone_options(program, a->tone);
     take_list(program, "--operator", a->operators);
     take_list(program, "--glare", a->glares);
-    program.footer("Lists (scenes, sizes, lamps, channels, operators, glare) are separated by commas; every combination is a run.\n"
+    program.footer("Lists (scenes, sizes, lamps, luminaires, channels, operators, glare) are separated by commas; every combination is a run.\n"
                    "Examples:\n  vesper-bench --json now.json\n"
                    "  vesper-bench --compare before.json now.json\n"
                    "  vesper-bench --scene street --lamps 1024 --operator ward,reinhard --size 1680x1050,2560x1600\n"

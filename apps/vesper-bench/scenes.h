@@ -21,8 +21,9 @@ public:
     /// Converts what has to be. Throws Error.
     void prepare(const std::string& name);
     /// Reads or generates one that was prepared, from its file on. `lamps`: of the street, how many (default 256); of others, those
-    /// nearest the camera at the start of its path, all if 0. `triangles`: of the street, at least. Throws Error.
-    Scene load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& camera) const;
+    /// nearest the camera at the start of its path, all if 0. `triangles`: of the street, at least; `luminaire`: of the street (street.h).
+    /// Throws Error.
+    Scene load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire, const std::string& camera) const;
 
     /// An empty folder of that name beside the files.
     std::string folder(const std::string& name) const;

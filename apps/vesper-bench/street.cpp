@@ -4,10 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/error.h"
+
 namespace vesper {
 namespace {
 
 constexpr float kSpacing = 12, kHeight = 6.5f, kHalfWidth = 7, kWall = 15, kShortest = 400;  // m
+constexpr float kCandela = 1500;                                                             // cd
 constexpr float kSpeed = 50 / 3.6f, kSeconds = 10;                                           // m/s, s
 
 /// A rectangle from `corner` along two edges, its front where their cross product points.
@@ -29,9 +32,24 @@ Mesh patch(const std::string& name, glm::vec3 corner, glm::vec3 u, glm::vec3 v, 
     return {name, {std::move(p)}};
 }
 
+/// What the lamps of the street are (street.h). Measured ones go into the scene's distributions.
+Light luminaire_of(const std::string& name, Scene& scene) {
+    Light light{.name = "lamp", .kind = Light::Kind::Point, .intensity = kCandela};
+    if (name == "point") return light;
+    if (name.empty()) {
+        light.kind = Light::Kind::Spot, light.inner_cone = 0.8f, light.outer_cone = 80 * std::numbers::pi_v<float> / 180;
+        return light;
+    }
+    scene.distributions.push_back(read_distribution(name));
+    const double flux = luminous_flux(scene.distributions.back());
+    if (!(flux > 0)) throw Error(name + ": no light");
+    light.kind = Light::Kind::Measured, light.distribution = 0, light.intensity = float(2 * std::numbers::pi * double(kCandela) / flux);
+    return light;
+}
+
 }  // namespace
 
-Scene lamp_street(uint32_t lamps, uint64_t triangles) {
+Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminaire) {
     // Cut into pieces of one spacing, so that they can be culled; the first lies behind the eye.
     const uint32_t pieces = 1 + uint32_t(std::ceil(std::max(kShortest, float((lamps + 1) / 2) * kSpacing) / kSpacing));
     const uint64_t cells = std::max<uint64_t>(1, (triangles + 6 * pieces - 1) / (6 * pieces));  // of each of three patches
@@ -49,13 +67,10 @@ Scene lamp_street(uint32_t lamps, uint64_t triangles) {
         for (uint32_t mesh = 0; mesh < 3; ++mesh)
             scene.nodes.push_back({.name = scene.meshes[mesh].name, .translation = {0, 0, kSpacing * (1 - float(piece))}, .mesh = mesh});
 
-    scene.lights.push_back({.name = "lamp",
-                            .kind = Light::Kind::Spot,
-                            .intensity = 1500,
-                            .inner_cone = 0.8f,
-                            .outer_cone = 80 * std::numbers::pi_v<float> / 180});
+    const bool dark = luminaire == "none";
+    if (!dark) scene.lights.push_back(luminaire_of(luminaire, scene));
     const glm::quat down = glm::angleAxis(-std::numbers::pi_v<float> / 2, glm::vec3(1, 0, 0));
-    for (uint32_t i = 0; i < lamps; ++i)
+    for (uint32_t i = 0; i < lamps && !dark; ++i)
         scene.nodes.push_back({.name = "lamp",
                                .translation = {i % 2 ? w - 1 : 1 - w, kHeight, -float(i / 2) * kSpacing},
                                .rotation = down,

@@ -1,7 +1,6 @@
 #include "resident/light_maps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -107,35 +106,67 @@ private:
     std::vector<float> values_;
 };
 
-// The least and the greatest cosine from one angle to another, deg.
-glm::dvec2 cosines(double low, double high) {
-    const double a = std::cos(glm::radians(low)), b = std::cos(glm::radians(high));
-    const auto passes = [&](double angle) { return angle + 360 * std::ceil((low - angle) / 360) <= high; };
-    return {passes(180) ? -1 : std::min(a, b), passes(0) ? 1 : std::max(a, b)};
-}
+// Bins of directions, or windows of them: values by ring and sector.
+using Windows = std::vector<std::vector<float>>;
 
-// sin(a / 2) of the least and of the largest angle between a direction of a cell and the axis -Z, of which the cosine is that of the
-// polar angle in type C, and sin(polar) cos(azimuth) in the others. Angles in deg.
-glm::dvec2 angles_from_axis(Goniometry goniometry, glm::dvec2 azimuth, glm::dvec2 polar) {
-    polar = glm::clamp(polar, 0.0, 180.0);
-    glm::dvec2 cosine = cosines(polar.x, polar.y);
-    if (goniometry != Goniometry::CGamma) {
-        const glm::dvec2 turn = cosines(azimuth.x, azimuth.y), sine = cosines(polar.x - 90, polar.y - 90);
-        cosine = {turn.x * (turn.x > 0 ? sine.x : sine.y), turn.y * (turn.y > 0 ? sine.y : sine.x)};
+// The largest value that cells have in each bin. Within a cell they are bilinear, so the largest in a part of it is at one of the corners of that part.
+class Bins {
+public:
+    Bins() {
+        for (uint32_t r = 0; r <= shared::kRings; ++r) rings_.push_back(glm::degrees(2 * std::asin(double(r) / shared::kRings)));
     }
-    return glm::sqrt(glm::max(glm::dvec2(1 - cosine.y, 1 - cosine.x) / 2.0, 0.0));
+
+    // The range of a cell, deg, and its values.
+    void add(glm::dvec2 azimuth, glm::dvec2 polar, const glm::vec4& corners) {
+        const auto part = [](double angle, glm::dvec2 range) { return std::clamp((angle - range.x) / (range.y - range.x), 0.0, 1.0); };
+        const auto sector = [](int64_t s) { return 360.0 * double(s) / shared::kSectors - 180; };
+        const auto first_ring = size_t(std::sin(glm::radians(std::clamp(polar.x, 0.0, 180.0) / 2)) * shared::kRings);
+        for (auto s = int64_t(std::floor((azimuth.x + 180) / 360 * shared::kSectors)); sector(s) <= azimuth.y; ++s)
+            for (size_t r = first_ring; r < shared::kRings && rings_[r] <= polar.y; ++r) {
+                const double u[]{part(sector(s), azimuth), part(sector(s + 1), azimuth)}, v[]{part(rings_[r], polar), part(rings_[r + 1], polar)};
+                float& largest = values[r][size_t((s % shared::kSectors + shared::kSectors) % shared::kSectors)];
+                for (const double x : u)
+                    for (const double y : v)
+                        largest = std::max(largest, 1.001f * float(glm::mix(glm::mix(corners.x, corners.y, x), glm::mix(corners.z, corners.w, x), y)));
+            }
+    }
+
+    Windows values = Windows(shared::kRings, std::vector<float>(shared::kSectors));
+
+private:
+    std::vector<double> rings_;  // where they begin, deg
+};
+
+Windows transposed(const Windows& w) {
+    Windows t(w.front().size(), std::vector<float>(w.size()));
+    for (size_t i = 0; i < w.size(); ++i)
+        for (size_t j = 0; j < w[i].size(); ++j) t[j][i] = w[i][j];
+    return t;
 }
 
-// The rows of the envelope, from the first.
-std::vector<glm::vec4> envelope_rows(const std::array<float, shared::kEnvelope>& rings) {
-    std::vector<glm::vec4> rows;
-    for (const float value : rings) rows.emplace_back(value * 1.001f);
-    for (uint32_t row = 1; row < shared::kEnvelopeRows; ++row)
-        for (uint32_t k = 0; k < shared::kEnvelope; ++k) {
-            const uint32_t before = (row - 1) * shared::kEnvelope, half = 1u << (row - 1);
-            rows.push_back(glm::max(rows[before + k], rows[before + std::min(k + half, shared::kEnvelope - 1)]));
+// Windows of every length along the first coordinate (shared/maps.h), which goes on around, from bins; 3 N of N, of which the last two hold all.
+Windows windows_of(Windows bins) {
+    const size_t count = bins.size();
+    for (size_t below = 0, number = count, length = 2; length <= count; length *= 2) {
+        // A window is two of half its length, which begin every bin, or half of theirs.
+        const size_t step = length == 2 ? 1 : 2, first = below;
+        below = bins.size();
+        for (size_t k = 0; k < 2 * count / length; ++k) {
+            std::vector<float> both = bins[first + step * k];
+            const std::vector<float>& other = bins[first + (step * (k + 1)) % number];
+            for (size_t i = 0; i < both.size(); ++i) both[i] = std::max(both[i], other[i]);
+            bins.push_back(std::move(both));
         }
-    return rows;
+        number = bins.size() - below;
+    }
+    bins.resize(3 * count, std::vector<float>(bins.back()));
+    return bins;
+}
+
+void append_windows(const Bins& bins, std::vector<glm::vec4>& texels) {
+    const Windows windows = windows_of(transposed(windows_of(transposed(bins.values))));
+    for (const std::vector<float>& row : windows)
+        for (size_t i = 0; i < row.size(); i += 4) texels.emplace_back(row[i], row[i + 1], row[i + 2], row[i + 3]);
 }
 
 LightMaps::Intensities add_intensities(const Distribution& d, std::vector<glm::vec4>& texels) {
@@ -152,21 +183,14 @@ LightMaps::Intensities add_intensities(const Distribution& d, std::vector<glm::v
         throw Error("the light distribution '" + d.name + "' is too fine: " + std::to_string(map.cells.x) + " x " + std::to_string(map.cells.y) + " cells");
 
     const Grid grid(d, range, largest);
-    std::array<float, shared::kEnvelope> rings{};
+    Bins bins;
     std::vector<glm::vec4> cells;
     for (int64_t i = 0; i < map.cells.x; ++i)
         for (int64_t j = 0; j < map.cells.y; ++j) {
-            const glm::vec4 corners = grid.cell(i, j);
-            cells.push_back(corners);
-            const float value = std::max({corners.x, corners.y, corners.z, corners.w});
-            if (!(value > 0)) continue;
-            const auto span = [](const Nodes& nodes, int64_t first) { return glm::dvec2(nodes.at(first), nodes.at(first + 1)); };
-            const glm::dvec2 angles = angles_from_axis(d.goniometry, span(range.azimuth, i - 1), span(range.polar, j - 1)) * double(shared::kEnvelope);
-            for (auto ring = uint32_t(angles.x); ring <= std::min(uint32_t(angles.y), shared::kEnvelope - 1); ++ring) rings[ring] = std::max(rings[ring], value);
+            cells.push_back(grid.cell(i, j));
+            bins.add({range.azimuth.at(i - 1), range.azimuth.at(i)}, {range.polar.at(j - 1), range.polar.at(j)}, cells.back());
         }
-    map.envelope = uint32_t(texels.size());
-    const std::vector<glm::vec4> envelope = envelope_rows(rings);
-    texels.insert(texels.end(), envelope.begin(), envelope.end());
+    append_windows(bins, texels);
     map.first = uint32_t(texels.size());
     texels.insert(texels.end(), cells.begin(), cells.end());
     return map;

@@ -15,8 +15,7 @@ struct LightMaps {
     struct Intensities {
         float largest = 0;          ///< cd, what the values are relative to
         Goniometry goniometry = Goniometry::CGamma;
-        uint32_t first = 0;         ///< texel of the first cell
-        uint32_t envelope = 0;      ///< texel of the first value of the envelope
+        uint32_t first = 0;         ///< texel of the first cell; shared::kWindowTexels before it are those of its windows
         glm::uvec2 cells{0};        ///< of azimuth and of the angle from the pole, those outside the range included
         glm::dvec2 low{0}, step{1}; ///< angles of the first node, rad, and between nodes
         bool exact = true;          ///< every angle of the file is a node; otherwise the nodes lie between, step apart

@@ -31,15 +31,14 @@ void place_map(shared::Light& light, const LightMaps::Intensities& map, glm::vec
         case Goniometry::TypeB: light.start = -z, light.pole = x, turn = -y; break;
     }
     light.start -= glm::dot(light.start, light.pole) * light.pole;
-    light.start = unit(glm::vec4(light.start, 0), glm::vec3(-light.pole.y, light.pole.x, 0));
-    // The axis of the envelope is that of the map, also where a node is sheared.
-    if (map.goniometry != Goniometry::CGamma) light.axis = light.start;
-    const double sign = glm::dot(glm::cross(light.start, light.pole), turn) < 0 ? -1 : 1;  // of a mirrored node
+    const glm::vec3 across = glm::cross(light.pole, std::abs(light.pole.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
+    light.start = unit(glm::vec4(light.start, 0), glm::normalize(across));  // of a flat node
+    const bool mirrored = glm::dot(glm::cross(light.start, light.pole), turn) < 0;
     const glm::dvec2 scale = 1.0 / map.step;
-    light.grid = {float(sign * scale.x), float(1 - map.low.x * scale.x), float(scale.y), float(1 - map.low.y * scale.y)};
+    light.grid = {float(scale.x), float(1 - map.low.x * scale.x), float(scale.y), float(1 - map.low.y * scale.y)};
     light.intensity *= map.largest;
-    light.lobe_a = float(map.envelope), light.map = float(map.first);
-    light.last_azimuth = float(map.cells.x - 1), light.lobe_b = float(map.cells.y - 1);
+    light.map = float(map.first);
+    light.last_azimuth = (mirrored ? -1.0f : 1.0f) * float(map.cells.x - 1), light.lobe_b = float(map.cells.y - 1);
 }
 
 }  // namespace

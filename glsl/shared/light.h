@@ -10,14 +10,14 @@ SHARED_BEGIN
 struct Light {
     vec3 position;       // m; directional: unused
     float intensity;     // on the axis, cd; directional: illuminance facing the light, lx
-    vec3 axis;           // unit vector along which the lamp shines
-    float lobe_a;        // cone: slope of the squared ramp in cos(angle); cosine power: exponent; map: texel of the envelope
+    vec3 axis;           // unit vector along which the lamp shines; map: unused
+    float lobe_a;        // cone: slope of the squared ramp in cos(angle); cosine power: exponent; map: unused
     vec3 colour;         // linear RGB of luminance 1
     float lobe_b;        // cone: offset of the ramp, I = intensity * clamp(a cos + b, 0, 1)^2; map: last cell of the polar angle
-    vec3 start;          // unit vectors of the measurement: azimuth 0, and the pole; azimuth runs towards cross(start, pole)
+    vec3 start;          // unit vectors of the measurement: azimuth 0, and the pole
     float map;           // texel of the first cell, in the buffer of all maps
     vec3 pole;
-    float last_azimuth;  // last cell of azimuth
+    float last_azimuth;  // last cell of azimuth, which runs towards cross(start, pole); negative: the other way
     vec4 grid;           // cell = angle * (x, z) + (y, w) for azimuth (-pi to pi) and polar angle (0 to pi), rad
 };
 SHARED_SIZE(Light, 96)

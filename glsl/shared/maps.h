@@ -9,9 +9,12 @@ SHARED_BEGIN
 // Intensities relative to the largest, over azimuth about the pole of the measurement and the angle from that pole, with
 // one more cell before and behind in either direction: what lies outside the measured range. See Light.
 
-// The largest relative intensity of some rings about the axis, for a culling that may not lose anything: ring k has angles a with
-// sin(a / 2) * kEnvelope from k to k + 1, and texel k of row l is for the 2^l rings from k on.
-const uint kEnvelope = 64u, kEnvelopeRows = 7u;
+// Before the cells, for a culling that may not lose anything: the largest relative intensity of windows of directions. Ring k has
+// angles a from the pole with sin(a / 2) * kRings from k to k + 1; azimuth from -pi is cut into kSectors equal bins, which go on around. Along either of them, of N bins, windows of level l
+// are 2^l bins long and begin every max(2^l / 2, 1) bins; level 0 comes first, level l begins at window 3 N - 4 N / 2^l, and windows 3 N - 2 and 3 N - 1 hold all bins. Ring window i and
+// sector window j have value 3 kSectors i + j, four values to a texel.
+const uint kRings = 64u, kSectors = 32u;
+const uint kWindowTexels = 3u * kRings * 3u * kSectors / 4u;
 
 // r x 1e4 (sr^-1) of a road surface over tan(gamma), 0 to that of the table's last row, and beta, a degree a cell; the nodes
 // of the standard tables are among its own. Before the cells one texel: cells per unit of tan(gamma), and the last

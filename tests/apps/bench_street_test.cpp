@@ -2,12 +2,14 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "machine.h"
 #include "measure.h"
+#include "places.h"
 #include "scenes.h"
 #include "street.h"
 #include "support/pass_rig.h"
@@ -78,6 +80,21 @@ TEST(BenchStreet, LampsStandAlongItAndShineDown) {
     // The eye drives 10 s at 50 km/h.
     EXPECT_EQ(animation_length(scene), 10);
     EXPECT_NEAR(world_transforms(scene, 10).back()[3].z, -500 / 3.6, 1e-3);
+}
+
+// Whatever they are, they send as much light down as a point of 1,500 cd.
+TEST(BenchStreet, LampsCanBeOfAnotherKind) {
+    const Scene measured = lamp_street(64, 0, VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies"), points = lamp_street(64, 0, "point"), dark = lamp_street(64, 0, "none");
+    ASSERT_EQ(measured.distributions.size(), 1u);
+    EXPECT_EQ(measured.lights.at(0).kind, Light::Kind::Measured);
+    EXPECT_NEAR(double(measured.lights[0].intensity) * luminous_flux(measured.distributions[0]), 2 * std::numbers::pi * 1500, 0.01);
+    EXPECT_EQ(points.lights.at(0).kind, Light::Kind::Point);
+    EXPECT_EQ(points.lights[0].intensity, 1500);
+    EXPECT_EQ(lamps_of(measured), 64u);
+    EXPECT_EQ(lamps_of(points), 64u);
+    EXPECT_EQ(lamps_of(dark), 0u);
+    EXPECT_EQ(triangles_of(dark), triangles_of(points));
+    EXPECT_THROW(lamp_street(64, 0, "nowhere.ies"), Error);
 }
 
 TEST(BenchScenes, TheNearestLampsStay) {

@@ -5,6 +5,7 @@
 
 #include "io/image_file.h"
 #include "io/atomic_file.h"
+#include "places.h"
 #include "result.h"
 #include "support/program.h"
 
@@ -136,6 +137,8 @@ TEST_F(BenchProgram, RefusesWhatCannotBeRun) {
     expect_refused("--scene nowhere", {"nowhere"});
     expect_refused("--scene nowhere.gltf --no-start", {"nowhere.gltf"});
     expect_refused("--scene nowhere.gltf", {"nowhere.gltf", "start"});
+    expect_refused("--luminaire point", {"--luminaire", "street"});
+    expect_refused("--scene street --luminaire nowhere.ies --no-start", {"nowhere.ies"});
     expect_refused("--size 12", {"--size"});
     expect_refused("--operator ward,nothing", {"nothing"});
     expect_refused("--glare none,nothing", {"nothing"});

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/luminance.h"
+#include "places.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/luminance.h"
 #include "drive_file.h"
+#include "places.h"
 #include "session.h"
 #include "support/program.h"
 

@@ -8,6 +8,7 @@
 
 #include "io/hdr_image.h"
 #include "perception/glare.h"
+#include "places.h"
 #include "support/exr_files.h"
 #include "support/program.h"
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "places.h"
 #include "renderer.h"
 
 namespace vesper {

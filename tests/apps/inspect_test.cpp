@@ -12,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
+#include "places.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {

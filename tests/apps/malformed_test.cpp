@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "places.h"
 #include "support/program.h"
 #include "support/shared_data.h"
 

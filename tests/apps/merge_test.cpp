@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/jpeg_files.h"
 #include "photometry/brackets.h"
+#include "places.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "places.h"
 #include "renderer.h"
 #include "scene/convert.h"
 #include "scene/gltf.h"

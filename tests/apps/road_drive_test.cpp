@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "places.h"
 #include "road_world.h"
 #include "roads/opendrive.h"
 #include "scenery.h"

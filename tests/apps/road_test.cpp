@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/hdr_image.h"
+#include "places.h"
 
 namespace {
 

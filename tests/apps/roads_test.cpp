@@ -3,6 +3,7 @@
 
 #include "io/atomic_file.h"
 #include "io/image_file.h"
+#include "places.h"
 #include "scene/gltf.h"
 #include "support/program.h"
 

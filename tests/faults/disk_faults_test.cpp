@@ -7,6 +7,7 @@
 
 #include "drive_file.h"
 #include "faults/faults.h"
+#include "places.h"
 #include "support/program.h"
 
 namespace vesper::test {

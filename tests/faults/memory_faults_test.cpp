@@ -14,6 +14,7 @@
 #include "photometry/distribution.h"
 #include "photometry/reflection_table.h"
 #include "photometry/response.h"
+#include "places.h"
 #include "roads/opendrive.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"

@@ -7,6 +7,7 @@
 
 #include "fuzz/targets.h"
 #include "io/atomic_file.h"
+#include "places.h"
 
 namespace vesper::test {
 

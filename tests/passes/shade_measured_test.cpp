@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "places.h"
 #include "support/lights.h"
 #include "support/noise.h"
 #include "support/shading.h"
@@ -13,7 +14,8 @@ namespace {
 
 const std::filesystem::path kData = std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry";
 
-/// A luminaire, two beams, a floodlight of type B and two lamps that are dark on their axis, on nodes of every pose; and some lamps of other kinds.
+/// A luminaire, two beams, a floodlight of type B, two lamps that are dark on their axis and one that shines here and there, on nodes of every pose;
+/// and some lamps of other kinds.
 struct Street {
     Scene scene;
     SceneFrame frame;
@@ -22,7 +24,8 @@ struct Street {
     std::vector<reference::MeasuredLamp> measured;
     std::vector<ReflectionTable> roads;
 
-    explicit Street(VkExtent2D extent, uint32_t lamps, uint32_t seed, LampMix others = {}) {
+    /// `kinds` of the lamps: the seventh has edges too steep for lamps that all but touch a surface.
+    explicit Street(VkExtent2D extent, uint32_t lamps, uint32_t seed, LampMix others = {}, uint32_t kinds = 6) {
         for (const char* file : {"street-lamp.ies", "low-beam.csv", "high-beam.csv"})
             scene.distributions.push_back(read_distribution(kData / file));
         Distribution flood;
@@ -36,6 +39,11 @@ struct Street {
         behind.goniometry = Goniometry::TypeA;
         behind.horizontal = {100, 140, 180}, behind.vertical = {-40, 0, 40}, behind.candela = {0, 0, 0, 0, 700, 0, 0, 0, 0};
         scene.distributions.push_back(ring), scene.distributions.push_back(behind);
+        Distribution spots;
+        for (int c = 0; c <= 360; c += 6) spots.horizontal.push_back(c);
+        for (int gamma = 0; gamma <= 180; gamma += 3) spots.vertical.push_back(gamma);
+        for (size_t i = 0; i < 61 * 61; ++i) spots.candela.push_back(i % 61 > 4 && i % 61 < 56 && i / 61 % 60 * 37 % 13 == 0 && i % 61 * 5 % 7 == 3 ? 900 : 0);
+        scene.distributions.push_back(spots);
         scene.reflection_tables = {find_reflection_table("R3"), find_reflection_table("W4")};
         for (const ReflectionTable& table : scene.reflection_tables) roads.push_back(extended(table));
 
@@ -43,7 +51,7 @@ struct Street {
         std::uniform_real_distribution<float> unit(0, 1);
         std::normal_distribution<float> normal;
         for (uint32_t i = 0; i < lamps; ++i) {
-            Light light{.kind = Light::Kind::Measured, .intensity = 0.2f + unit(random), .distribution = i % 6};
+            Light light{.kind = Light::Kind::Measured, .intensity = 0.2f + unit(random), .distribution = i % kinds};
             scene.lights.push_back(light);
             Node node;
             node.light = i;
@@ -59,7 +67,7 @@ struct Street {
         for (uint32_t i = 0; i < lamps; ++i) {
             glm::dmat3 axes(frame.world[i]);
             for (int c = 0; c < 3; ++c) axes[c] = glm::normalize(axes[c]);
-            measured.push_back({&scene.distributions[i % 6], axes, double(scene.lights[i].intensity)});
+            measured.push_back({&scene.distributions[i % kinds], axes, double(scene.lights[i].intensity)});
         }
         // Maps come third in the list.
         const LightList more = street_lamps(others, 300, seed);
@@ -125,11 +133,11 @@ TEST(ShadeMeasured, MatchesTheReferenceBesideEveryOtherKind) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Blocks so small that selection asks for a few rings of an envelope.
+// Blocks so small that selection asks for a few rings and sectors of a map, and larger ones.
 TEST(ShadeMeasured, NoLampIsLostInTheDarkOfItsAxis) {
     PassRig rig;
-    const VkExtent2D extent{160, 100};
-    for (const uint32_t seed : {1u, 2u}) expect_reference(rig, Street(extent, 120, seed), ground(extent), {.gather_tolerance = -1});
+    for (const VkExtent2D extent : {VkExtent2D{160, 100}, {64, 40}, {32, 20}})
+        for (const uint32_t seed : {1u, 2u}) expect_reference(rig, Street(extent, 140, seed, {}, 7), ground(extent), {.gather_tolerance = -1});
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -137,6 +145,27 @@ TEST(ShadeMeasured, AThousandLampsOnRoadsEqualTheReference) {
     PassRig rig;
     const VkExtent2D extent{48, 30};
     expect_reference(rig, Street(extent, 1000, 9), noise(extent, 10), {});
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Maps have kinks at every node, where a polynomial that meets four pixels may be wrong by 3.5 times the tolerance between them; hardly a
+// pixel sees that of a lamp that gives most of its light.
+TEST(ShadeMeasured, ShadingWithSumsIsShadingLampByLamp) {
+    PassRig rig;
+    const ShadeSettings settings;
+    for (const VkExtent2D extent : {VkExtent2D{320, 200}, {840, 525}}) {
+        const Street street(extent, 60, extent.width);
+        const Surfaces s = ground(extent);
+        const auto luminance = [&](float tolerance) { return shade(rig, s, street.list, {.threshold = 1e-6f}, {.gather_tolerance = tolerance}, street.maps).pixels; };
+        const std::vector<glm::vec4> gathered = luminance(settings.gather_tolerance), one_by_one = luminance(-1);
+        size_t far_off = 0;
+        for (size_t i = 0; i < gathered.size(); ++i) {
+            ASSERT_NEAR(gathered[i].y, one_by_one[i].y, 3.5f * settings.gather_tolerance * one_by_one[i].y + 1e-7f) << i;
+            far_off += std::abs(gathered[i].y - one_by_one[i].y) > settings.gather_tolerance * one_by_one[i].y + 1e-7f ? 1 : 0;
+        }
+        EXPECT_LT(far_off, gathered.size() / 1000);
+        EXPECT_NE(gathered, one_by_one) << "nothing was added up";
+    }
     EXPECT_EQ(rig.complaints(), "");
 }
 

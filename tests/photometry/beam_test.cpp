@@ -2,6 +2,7 @@
 #include "photometry/beam.h"
 
 #include "photometry/distributions.h"
+#include "places.h"
 
 namespace vesper::test {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "places.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "places.h"
 #include "shared/maps.h"
 
 namespace vesper {
@@ -65,23 +67,59 @@ TEST(LightMaps, GoOnAroundStayAtThePolesAndEndWhereTheTableEnds) {
     EXPECT_EQ(cell(maps, map, 2, 3), glm::vec4(0));      // beyond gamma 90: nothing
 }
 
-TEST(LightMaps, AnEnvelopeIsNeverBelowAnyValue) {
+/// The frame of a measurement (shared/light.h): azimuth 0, azimuth 90 degrees, and the pole.
+glm::dmat3 frame_of(Goniometry goniometry) {
+    switch (goniometry) {
+        case Goniometry::CGamma: return {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+        case Goniometry::TypeA: return {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}};
+        case Goniometry::TypeB: break;
+    }
+    return {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}};
+}
+
+/// Windows of `count` bins: where each begins, in bins, and how long it is.
+struct Window {
+    uint32_t first, length;
+};
+std::vector<Window> windows_of(uint32_t count) {
+    std::vector<Window> windows;
+    for (uint32_t length = 1; length <= count; length *= 2)
+        for (uint32_t first = 0; first < count; first += std::max(length / 2, 1u)) windows.push_back({first, length});
+    for (int i = 0; i < 2; ++i) windows.push_back({0, count});
+    return windows;
+}
+
+/// The bound of a ring window and a sector window, cd.
+double bound_of(const LightMaps& maps, size_t ring, size_t sector) {
+    const auto& map = maps.intensities.at(0);
+    const size_t k = ring * 3 * shared::kSectors + sector;
+    return double(maps.texels.at(map.first - shared::kWindowTexels + k / 4)[int(k % 4)]) * double(map.largest);
+}
+
+TEST(LightMaps, NoWindowIsBelowAnyValueInItOrMuchAbove) {
+    const std::vector<Window> rings = windows_of(shared::kRings), sectors = windows_of(shared::kSectors);
+    ASSERT_EQ(rings.size() * sectors.size(), 4 * shared::kWindowTexels);
     for (const char* file : {"street-lamp.ies", "low-beam.csv", "high-beam.csv"}) {
         const Distribution d = read_distribution(kData / file);
         const LightMaps maps = light_maps(with(d));
-        const auto& map = maps.intensities.at(0);
-        std::array<double, shared::kEnvelope> largest{};  // of each ring
-        for (uint32_t k = 0; k < 4 * shared::kEnvelope; ++k) {
-            const double angle = 2 * std::asin((k + 0.5) / (4 * shared::kEnvelope));
-            for (double turn = 0; turn < 6.28; turn += 0.01)
-                largest[k / 4] = std::max(largest[k / 4], intensity(d, {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), -std::cos(angle)}));
-        }
-        for (uint32_t row = 0; row < shared::kEnvelopeRows; ++row)
-            for (uint32_t k = 0; k + (1u << row) <= shared::kEnvelope; ++k) {
-                const double bound = double(maps.texels[map.envelope + row * shared::kEnvelope + k].x) * double(map.largest);
-                const double seen = *std::max_element(&largest[k], &largest[k] + (1u << row));
-                ASSERT_LE(seen, bound) << file << ", rings " << k << " and " << (1u << row) - 1 << " more";
-                EXPECT_GE(4 * seen + 0.02 * double(map.largest), bound) << file << ", rings " << k << " and " << (1u << row) - 1 << " more: no use";
+        const glm::dmat3 frame = frame_of(d.goniometry);
+        double seen[shared::kRings][shared::kSectors]{};  // the largest in a bin
+        constexpr uint32_t kFine = 6;
+        for (uint32_t r = 0; r < kFine * shared::kRings; ++r)
+            for (uint32_t s = 0; s < kFine * shared::kSectors; ++s) {
+                const double polar = 2 * std::asin((r + 0.5) / (kFine * shared::kRings)), azimuth = (s + 0.5) / (kFine * shared::kSectors) * 2 * std::numbers::pi - std::numbers::pi;
+                double& largest = seen[r / kFine][s / kFine];
+                largest = std::max(largest, intensity(d, frame * glm::dvec3(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar))));
+            }
+        for (size_t i = 0; i < rings.size(); ++i)
+            for (size_t j = 0; j < sectors.size(); ++j) {
+                double largest = 0;
+                for (uint32_t r = rings[i].first; r < std::min(rings[i].first + rings[i].length, shared::kRings); ++r)
+                    for (uint32_t s = 0; s < sectors[j].length; ++s) largest = std::max(largest, seen[r][(sectors[j].first + s) % shared::kSectors]);
+                const double bound = bound_of(maps, i, j);
+                ASSERT_LE(largest, bound) << file << ", windows " << i << " and " << j;
+                if (rings[i].first + rings[i].length > shared::kRings) continue;  // never asked for
+                EXPECT_GE(1.5 * largest + 0.03 * largest_intensity(d), bound) << file << ", windows " << i << " and " << j << ": no use";
             }
     }
 }
@@ -95,7 +133,7 @@ glm::dvec3 direction(Goniometry goniometry, double horizontal, double vertical) 
 }
 
 // A few bright values among dark ones, cells from a degree to half a turn: they bulge, hold the axis, its opposite or a pole, or lie behind.
-TEST(LightMaps, AnEnvelopeHoldsCellsOfEverySize) {
+TEST(LightMaps, WindowsHoldCellsOfEverySize) {
     std::mt19937 random(1);
     const auto any = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
     const auto angles = [&](double low, double high) {
@@ -122,8 +160,10 @@ TEST(LightMaps, AnEnvelopeHoldsCellsOfEverySize) {
         for (int i = 0; i < 3000 && map.largest > 0; ++i) {
             const double h = any(d.horizontal.front(), d.horizontal.back()), v = any(d.vertical.front(), d.vertical.back());
             const glm::dvec3 to = direction(d.goniometry, h, v);
-            const auto ring = std::min(uint32_t(std::sqrt((1 + to.z) / 2) * shared::kEnvelope), shared::kEnvelope - 1);
-            ASSERT_LE(intensity(d, to), double(maps.texels[map.envelope + ring].x) * double(map.largest)) << turn << ": " << h << ", " << v;
+            const glm::dvec3 at = glm::transpose(frame_of(d.goniometry)) * to;
+            const auto ring = std::min(uint32_t(std::sqrt(std::max((1 - at.z) / 2, 0.0)) * shared::kRings), shared::kRings - 1);
+            const auto sector = std::min(uint32_t((std::atan2(at.y, at.x) / std::numbers::pi + 1) / 2 * shared::kSectors), shared::kSectors - 1);
+            ASSERT_LE(intensity(d, to), bound_of(maps, ring, sector)) << turn << ": " << h << ", " << v;
         }
     }
 }

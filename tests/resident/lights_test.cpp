@@ -62,18 +62,20 @@ TEST(Lights, KindsFollowOneAnotherAndDarkLampsAreLeftOut) {
     EXPECT_EQ(list.lights[2].intensity, 3);
 }
 
-// A culling that asks for angles from the axis asks for those that the map has: also on a sheared node.
-TEST(Lights, TheAxisOfAMapIsWhereItsAnglesBegin) {
+// A culling takes cones of directions for cones of a map's angles: also on a node that is sheared, mirrored or flat.
+TEST(Lights, TheFrameOfAMapIsOrthonormal) {
     for (const Goniometry goniometry : {Goniometry::CGamma, Goniometry::TypeB, Goniometry::TypeA}) {
         const Distribution d{.name = {}, .goniometry = goniometry, .horizontal = {0, 90}, .vertical = {0, 90}, .candela = {1, 1, 1, 1}, .opening = {}, .metadata = {}};
         Scene scene;
         scene.distributions = {d};
         const Light light{.name = {}, .kind = Light::Kind::Measured, .intensity = 1, .distribution = 0};
-        for (const glm::mat4& pose : {glm::mat4(1), glm::mat4(1, 0, 0, 0, 0.3f, 1, 0, 0, 0.4f, 0.5f, 1, 0, 0, 0, 0, 1), glm::mat4(-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)}) {
+        for (const glm::mat4& pose : {glm::mat4(1), glm::mat4(1, 0, 0, 0, 0.3f, 1, 0, 0, 0.4f, 0.5f, 1, 0, 0, 0, 0, 1), glm::mat4(-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)}) {
             const shared::Light lamp = light_list({{light, 0}}, light_maps(scene), {{pose}}, View()).lights.at(0);
-            const glm::vec3 begin = goniometry == Goniometry::CGamma ? lamp.pole : lamp.start;
-            EXPECT_NEAR(glm::length(lamp.axis - begin), 0, 1e-6) << int(goniometry);
             EXPECT_NEAR(glm::dot(lamp.start, lamp.pole), 0, 1e-6) << int(goniometry);
+            EXPECT_NEAR(glm::length(lamp.start), 1, 1e-6) << int(goniometry);
+            EXPECT_NEAR(glm::length(lamp.pole), 1, 1e-6) << int(goniometry);
+            EXPECT_GT(lamp.grid.x, 0) << int(goniometry);
+            if (glm::determinant(pose) != 0) { EXPECT_EQ(lamp.last_azimuth < 0, glm::determinant(pose) < 0) << int(goniometry); }
         }
     }
 }

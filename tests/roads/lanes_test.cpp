@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "places.h"
 #include "roads/lanes.h"
 #include "roads/road_texts.h"
 

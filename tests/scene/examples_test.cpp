@@ -1,6 +1,7 @@
 // The photometry files of this repository, and the example street made of shared models. SPDX-License-Identifier: MIT
 #include <cstdlib>
 
+#include "places.h"
 #include "scene/convert.h"
 #include "scene/photometry.h"
 #include "scene/scene_files.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "places.h"
 #include "scene/colour.h"
 #include "scene/convert.h"
 #include "scene/road_scene.h"

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "places.h"
 #include "simulation/car_following.h"
 #include "simulation/daylight.h"
 #include "simulation/world_file.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "places.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {

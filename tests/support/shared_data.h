@@ -5,6 +5,8 @@
 #include <string>
 #include <system_error>
 
+#include "places.h"
+
 namespace vesper::test {
 
 /// A file or folder of the set; VESPER_SHARED_DATA comes from the build.

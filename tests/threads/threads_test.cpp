@@ -9,6 +9,7 @@
 #include "io/image_file.h"
 #include "photometry/distribution.h"
 #include "photometry/standard_lamps.h"
+#include "places.h"
 #include "renderer.h"
 #include "roads/opendrive.h"
 #include "scene/display_file.h"

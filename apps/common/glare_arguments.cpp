@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <numbers>
 
 #include "arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
+#include "io/atomic_file.h"
+#include "photometry/table.h"
 #include "tone_arguments.h"
 
 namespace vesper {
@@ -17,6 +17,7 @@ namespace {
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kSourceContrast = 100;  // of the log average
 constexpr size_t kMostLamps = 10000;
+constexpr uint64_t kMostLampBytes = 4u << 20;  // of their file
 
 struct Named {
     const char* name;
@@ -39,28 +40,19 @@ void add_glare_options(CLI::App& command, GlareArguments& a) {
 std::vector<OutsideLamp> read_lamps(const std::string& file) {
     std::vector<OutsideLamp> lamps;
     if (file.empty()) return lamps;
-    std::ifstream in(file);
-    if (!in) throw Error(file + ": cannot be read");
-    std::string line;
-    for (size_t number = 1; std::getline(in, line); ++number) {
-        const size_t start = line.find_first_not_of(" \t\r");
-        if (start == line.npos || line[start] == '#') continue;
-        if (lamps.empty() && std::isalpha(static_cast<unsigned char>(line[start]))) continue;
-        double values[3];
-        const char* at = line.c_str();
-        for (size_t i = 0; i < 3; ++i) {
-            char* end = nullptr;
-            values[i] = std::strtod(at, &end);
-            const size_t rest = std::string(end).find_first_not_of(" \t\r");
-            const bool last = rest == std::string::npos;
-            if (end == at || !std::isfinite(values[i]) || last != (i == 2) || (!last && end[rest] != ','))
-                throw Error(file + ": line " + std::to_string(number) + ": expected degrees to the right, degrees up, lx");
-            at = last ? end : end + rest + 1;
-        }
-        const auto [azimuth, elevation, lux] = values;
-        if (std::abs(azimuth) > 180 || std::abs(elevation) > 90 || lux < 0 || lux > 1e9)
-            throw Error(file + ": line " + std::to_string(number) + ": degrees of -180 to 180 and -90 to 90 and 0 to 1e9 lx are expected");
-        if (lamps.size() == kMostLamps) throw Error(file + ": more than " + std::to_string(kMostLamps) + " lamps");
+    const std::vector<uint8_t> bytes = read_file(file, kMostLampBytes);
+    LineReader lines(bytes, one_line(file));
+    while (const auto line = lines.next()) {
+        const std::string_view text = trimmed(*line);
+        if (text.empty() || text.front() == '#') continue;
+        if (lamps.empty() && std::isalpha(static_cast<unsigned char>(text.front()))) continue;
+        const auto fields = fields_of(text, ',', 3);
+        std::optional<double> values[3];
+        for (size_t i = 0; i < 3 && fields.size() == 3; ++i) values[i] = number_of(fields[i], false);
+        if (!values[0] || !values[1] || !values[2]) lines.fail("expected degrees to the right, degrees up, lx");
+        const double azimuth = *values[0], elevation = *values[1], lux = *values[2];
+        if (std::abs(azimuth) > 180 || std::abs(elevation) > 90 || lux < 0 || lux > 1e9) lines.fail("degrees of -180 to 180 and -90 to 90 and 0 to 1e9 lx are expected");
+        if (lamps.size() == kMostLamps) lines.fail("more than " + std::to_string(kMostLamps) + " lamps");
         const double a = azimuth / kDegrees, e = elevation / kDegrees;
         lamps.push_back({{std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)}, glm::dvec3(lux)});
     }

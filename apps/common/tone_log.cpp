@@ -1,15 +1,15 @@
 #include "tone_log.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 
 #include "arguments.h"
 #include "base/error.h"
 #include "glare_arguments.h"
 #include "io/atomic_file.h"
+#include "photometry/table.h"
 #include "shown.h"
 
 namespace vesper {
@@ -24,6 +24,7 @@ constexpr size_t kNamed = std::size(kStateNames);
 constexpr size_t kFloats = sizeof(shared::EyeState) / sizeof(float);
 static_assert(kFloats == kNamed + shared::kMaxBins + 1);
 
+constexpr uint64_t kMostLogBytes = 2ull << 30;
 constexpr int kSamples = 101;
 double sample_log10(int i) { return -4 + i / 10.0; }
 
@@ -67,38 +68,24 @@ std::string log_line(unsigned index, const LoggedFrame& frame, const shared::Ton
 
 std::vector<LoggedFrame> read_log(const std::string& file) {
     constexpr size_t kName = 3;  // the column that is no number
-    std::ifstream in(file);
-    if (!in) throw Error(one_line(file) + ": cannot be read");
-    size_t number = 0;
-    const auto fail = [&](const std::string& reason) { throw Error(one_line(file) + ": line " + std::to_string(number) + ": " + reason); };
-    const auto next_line = [&](std::string& line) {
-        ++number;
-        if (!std::getline(in, line)) return false;
-        if (line.ends_with('\r')) line.pop_back();
-        return true;
-    };
+    const std::vector<uint8_t> bytes = read_file(file, kMostLogBytes);
+    LineReader lines(bytes, one_line(file));
+    const std::string heading(lines.next().value_or(""));
+    if (heading + "\n" != log_heading()) lines.fail("these are not the columns of a log of this version");
+    const size_t columns = size_t(std::count(heading.begin(), heading.end(), ',')) + 1;
     std::vector<LoggedFrame> frames;
-    std::string line;
-    if (!next_line(line) || line + "\n" != log_heading()) fail("these are not the columns of a log of this version");
-    const size_t columns = size_t(std::count(line.begin(), line.end(), ',')) + 1;
-    while (next_line(line)) {
+    while (const auto line = lines.next()) {
+        const auto fields = fields_of(*line, ',', columns);
+        if (fields.size() != columns) lines.fail("has not " + std::to_string(columns) + " values");
         LoggedFrame frame;
-        std::vector<double> values;
-        const char* at = line.c_str();
-        while (*at) {
-            const char* end = std::strchr(at, ',');
-            if (!end) end = at + std::strlen(at);
-            if (values.size() == kName) {
-                frame.tone_operator.assign(at, end);
-                values.push_back(0);
-            } else {
-                char* parsed = nullptr;
-                values.push_back(std::strtod(at, &parsed));
-                if (parsed == at || parsed != end || !std::isfinite(values.back())) fail("a number is expected in column " + std::to_string(values.size()));
-            }
-            at = *end ? end + 1 : end;
+        std::vector<double> values(columns);
+        for (size_t i = 0; i < columns; ++i) {
+            if (i == kName) continue;
+            const auto value = number_of(fields[i], false);
+            if (!value || std::abs(*value) > double(FLT_MAX)) lines.fail("a number is expected in column " + std::to_string(i + 1));
+            values[i] = *value;
         }
-        if (values.size() != columns) fail("has " + std::to_string(values.size()) + " of " + std::to_string(columns) + " values");
+        frame.tone_operator = fields[kName];
         frame.seconds = values[1];
         frame.step = float(values[2]);
         std::vector<float> state(values.begin() + kName + 1, values.begin() + kName + 1 + kFloats);

@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> command_line(const std::string& to, uint32_t width, uint32_t height, double fps, const Display& display) {
     const bool wide = display.bits == 10, pq = display.eotf == Eotf::Pq;
-    std::vector<std::string> words{"ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo",
+    std::vector<std::string> words{"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-y",  // without -xerror a film that the disk has no room to end is a success
+                                    "-f", "rawvideo",
                                    "-pixel_format", wide ? "x2bgr10le" : "rgba", "-video_size", format("%ux%u", width, height),
                                    "-framerate", format("%.9g", fps), "-i", "-"};
     // Colours are halved: sides must be even, so a black column or row is added where they are not.

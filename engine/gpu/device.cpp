@@ -128,16 +128,18 @@ void check(VkResult result, std::string_view what) {
 }
 
 std::vector<std::string> list_devices() {
-    const VkInstance instance = make_instance(nullptr, {}, {});
+    const struct Instance {
+        VkInstance handle = make_instance(nullptr, {}, {});
+        ~Instance() { vkDestroyInstance(handle, nullptr); }
+    } instance;
     std::vector<std::string> lines;
-    for (const VkPhysicalDevice device : physical_devices(instance)) {
+    for (const VkPhysicalDevice device : physical_devices(instance.handle)) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(device, &properties);
         const std::string reason = missing(device);
         lines.push_back(std::to_string(lines.size()) + ": " + properties.deviceName +
                         (reason.empty() ? "" : " (unusable: " + reason + ")"));
     }
-    vkDestroyInstance(instance, nullptr);
     return lines;
 }
 

@@ -1,7 +1,6 @@
 // OpenEXR, in. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
@@ -9,7 +8,6 @@
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfRgbaYca.h>
@@ -19,29 +17,23 @@
 #include "base/error.h"
 #include "io/exr_chroma.h"
 #include "io/exr_layers.h"
+#include "io/exr_stream.h"
 #include "io/hdr_parts.h"
 
 namespace vesper::hdr {
 namespace {
 
-class MemoryStream : public Imf::IStream {
-public:
-    MemoryStream(const std::string& name, std::span<const uint8_t> bytes) : IStream(name.c_str()), bytes_(bytes) {}
-    bool read(char target[], int count) override {
-        if (count < 0 || position_ > bytes_.size() || static_cast<size_t>(count) > bytes_.size() - position_)
-            throw Error("is cut off");
-        std::memcpy(target, bytes_.data() + position_, static_cast<size_t>(count));
-        position_ += static_cast<uint64_t>(count);
-        return position_ < bytes_.size();
-    }
-    uint64_t tellg() override { return position_; }
-    void seekg(uint64_t position) override { position_ = position; }
-    void clear() override {}
-
-private:
-    std::span<const uint8_t> bytes_;
-    uint64_t position_ = 0;
-};
+// OpenEXR takes memory for tables and buffers while it opens a file; this setting of the whole library is its only way to refuse
+// before that. Made once, as threads may read pictures at the same time.
+void limit_openexr() {
+    static const bool limited = [] {
+        constexpr int kMaxSide = 1 << 18;
+        Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
+        Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);
+        return true;
+    }();
+    static_cast<void>(limited);
+}
 
 struct Window {
     int64_t x0, y0, x1, y1;  // inclusive
@@ -166,12 +158,9 @@ Primaries primaries_of(const Imf::Header& exr) {
 }  // namespace
 
 HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& limits, const std::string& wanted) {
-    // OpenEXR takes memory for tables and buffers while it opens a file; this setting of the whole library is its only
-    // way to refuse before that. The same value every time.
-    constexpr int kMaxSide = 1 << 18;
-    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
-    Imf::Header::setMaxTileSize(kMaxSide, kMaxSide);
-    MemoryStream stream(name, bytes);
+    limit_openexr();
+    see_exr_attributes(bytes, [](std::string_view, std::span<const uint8_t>) {});
+    ExrStream stream(name, bytes);
     Imf::MultiPartInputFile file(stream);
     const ExrLayer layer = choose_layer(file, wanted);
     const Imf::Header& exr = file.header(layer.part);

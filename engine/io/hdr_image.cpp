@@ -62,7 +62,7 @@ HdrImage decode(std::span<const uint8_t> bytes, const std::string& name, Kind wa
 }
 
 HdrImage read(const std::filesystem::path& file, Kind wanted, const HdrLimits& limits, const std::string& layer) {
-    return decode(read_file(file, hdr::kMaxFileBytes), file.string(), wanted, limits, layer);
+    return decode(read_file(file, scaled_limit(hdr::kMaxFileBytes)), file.string(), wanted, limits, layer);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/limits.h"
 #include "io/image_file.h"
 
 namespace vesper {
@@ -21,10 +22,10 @@ struct HdrImage {
     Header header;  ///< texts and numbers of the file's header, in its order
 };
 
-/// What a picture may cost.
+/// What a picture may cost. Its pixels follow VESPER_LIMITS (base/limits.h).
 struct HdrLimits {
     uint32_t max_side = 32768;
-    uint64_t max_pixels = uint64_t{1} << 28;  ///< of 12 bytes each
+    uint64_t max_pixels = scaled_limit(uint64_t{1} << 28);  ///< of 12 bytes each
 };
 
 /// Reads an OpenEXR picture of any compression, in scan lines or tiles (the largest level), of half, float or integer

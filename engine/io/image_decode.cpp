@@ -66,24 +66,29 @@ void png_feed(png_structp png, png_bytep target, size_t count) {
     job.read += count;
 }
 
+/// What libpng has made goes however its work ends.
+struct PngReading {
+    png_structp png;
+    png_infop header;
+    explicit PngReading(Job& job) : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, png_fail, png_ignore)), header(png ? png_create_info_struct(png) : nullptr) {}
+    ~PngReading() { png_destroy_read_struct(&png, &header, nullptr); }
+    PngReading(const PngReading&) = delete;
+    PngReading& operator=(const PngReading&) = delete;
+};
+
 /// False, with a reason, when it did not work.
-bool decode_png(Job& job) {
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, png_fail, png_ignore);
-    png_infop header = png ? png_create_info_struct(png) : nullptr;
-    if (!header || setjmp(job.escape)) {
-        png_destroy_read_struct(&png, &header, nullptr);
-        return false;
-    }
+bool decode_png(Job& job, const PngReading& reading) {
+    const png_structp png = reading.png;
+    const png_infop header = reading.header;
+    if (!header || setjmp(job.escape)) return false;
     png_set_read_fn(png, &job, png_feed);
     png_set_user_limits(png, job.max_side, job.max_side);
     png_set_chunk_malloc_max(png, 64u << 20);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);  // texts, profiles and the like: some kilobytes hold megabytes
     png_read_info(png, header);
     const png_uint_32 width = png_get_image_width(png, header), height = png_get_image_height(png, header);
     // Deflate packs at most 1032 : 1, and a texel may be a single bit.
-    if (!acceptable(job, width, height, 1040 * 8)) {
-        png_destroy_read_struct(&png, &header, nullptr);
-        return false;
-    }
+    if (!acceptable(job, width, height, 1040 * 8)) return false;
     png_set_expand(png);
     png_set_scale_16(png);
     png_set_gray_to_rgb(png);
@@ -96,7 +101,6 @@ bool decode_png(Job& job) {
     for (int pass = 0; pass < passes; ++pass)
         for (png_uint_32 y = 0; y < height; ++y) png_read_row(png, job.image.rgba.data() + y * stride, nullptr);
     png_read_end(png, nullptr);
-    png_destroy_read_struct(&png, &header, nullptr);
     return true;
 }
 
@@ -135,28 +139,30 @@ void expand_row(const uint8_t* row, int components, bool inverted, std::span<uin
     }
 }
 
-bool decode_jpeg(Job& job) {
-    jpeg_error_mgr errors;
+struct JpegReading {
+    jpeg_error_mgr errors{};
     jpeg_progress_mgr progress{};
     jpeg_decompress_struct jpeg{};
+    JpegReading() = default;
+    ~JpegReading() { jpeg_destroy_decompress(&jpeg); }
+    JpegReading(const JpegReading&) = delete;
+    JpegReading& operator=(const JpegReading&) = delete;
+};
+
+bool decode_jpeg(Job& job, JpegReading& reading) {
+    auto& [errors, progress, jpeg] = reading;
     jpeg.err = jpeg_std_error(&errors);
     jpeg.client_data = &job;
     errors.error_exit = jpeg_fail;
     errors.emit_message = jpeg_message;
-    if (setjmp(job.escape)) {
-        jpeg_destroy_decompress(&jpeg);
-        return false;
-    }
+    if (setjmp(job.escape)) return false;
     jpeg_create_decompress(&jpeg);
     progress.progress_monitor = jpeg_progress;
     jpeg.progress = &progress;
     jpeg_mem_src(&jpeg, job.bytes.data(), static_cast<unsigned long>(job.bytes.size()));
     jpeg_read_header(&jpeg, TRUE);
     // At least one bit for each block of 64 texels, of which subsampling may make sixteen.
-    if (!acceptable(job, jpeg.image_width, jpeg.image_height, 64 * 16 * 8)) {
-        jpeg_destroy_decompress(&jpeg);
-        return false;
-    }
+    if (!acceptable(job, jpeg.image_width, jpeg.image_height, 64 * 16 * 8)) return false;
     // Four inks come as CMYK (libjpeg undoes YCCK); Adobe's files hold them inverted.
     jpeg.out_color_space = jpeg.num_components == 4 ? JCS_CMYK : JCS_RGB;
     jpeg_start_decompress(&jpeg);
@@ -171,7 +177,6 @@ bool decode_jpeg(Job& job) {
                    std::span(job.image.rgba).subspan(y * stride, stride));
     }
     jpeg_finish_decompress(&jpeg);
-    jpeg_destroy_decompress(&jpeg);
     return true;
 }
 
@@ -204,12 +209,14 @@ Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t m
     job.max_texels = max_texels;
     const std::string type = media_type(bytes);
     bool done = false;
-    if (type == "image/png")
-        done = decode_png(job);
-    else if (type == "image/jpeg")
-        done = decode_jpeg(job);
-    else
+    if (type == "image/png") {
+        done = decode_png(job, PngReading(job));
+    } else if (type == "image/jpeg") {
+        JpegReading reading;
+        done = decode_jpeg(job, reading);
+    } else {
         throw Error(type.empty() ? "is neither PNG nor JPEG" : "is " + type + ", neither PNG nor JPEG");
+    }
     if (!done)
         throw Error(one_line(std::string(type == "image/png" ? "PNG: " : "JPEG: ") +
                              (job.reason[0] ? job.reason : "out of memory")));

@@ -2,8 +2,10 @@
 #include "io/image_file.h"
 
 #include <csetjmp>
+#include <cstdio>
 #include <cstring>
 #include <iterator>
+#include <new>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -44,7 +46,14 @@ void png_ignore(png_structp, png_const_charp) {}
 
 void png_collect(png_structp png, png_bytep bytes, size_t count) {
     PngJob& job = *static_cast<PngJob*>(png_get_io_ptr(png));
-    job.file.insert(job.file.end(), bytes, bytes + count);
+    // No exception may pass through libpng, and no jump out of a handler.
+    bool fits = true;
+    try {
+        job.file.insert(job.file.end(), bytes, bytes + count);
+    } catch (const std::bad_alloc&) {
+        fits = false;
+    }
+    if (!fits) png_error(png, "out of memory");
 }
 
 void png_flush_nothing(png_structp) {}
@@ -158,6 +167,8 @@ void encode_exr(const std::filesystem::path& file, const ExrPixels& picture, con
         Imf::OutputFile out(stream, exr);
         out.setFrameBuffer(pixels);
         out.writePixels(static_cast<int>(picture.height));
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         throw Error(one_line(file.string() + ": OpenEXR: " + error.what()));
     }

@@ -1,5 +1,5 @@
 // Grids of intensity in OpenEXR files. SPDX-License-Identifier: MIT
-#include <cstring>
+#include <new>
 #include <stdexcept>
 
 #include <ImfChannelList.h>
@@ -7,71 +7,32 @@
 #include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfStringAttribute.h>
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "io/exr_stream.h"
 #include "photometry/grid.h"
 #include "photometry/table.h"
 
 namespace vesper {
 namespace {
 
-class MemoryInput : public Imf::IStream {
-public:
-    MemoryInput(std::span<const uint8_t> bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
-    bool read(char to[], int count) override {
-        const auto size = static_cast<size_t>(count);
-        if (count < 0 || at_ > bytes_.size() || size > bytes_.size() - at_) throw std::runtime_error("is cut off");
-        std::memcpy(to, bytes_.data() + at_, size);
-        at_ += size;
-        return at_ < bytes_.size();
-    }
-    uint64_t tellg() override { return at_; }
-    void seekg(uint64_t position) override { at_ = position; }
-
-private:
-    std::span<const uint8_t> bytes_;
-    uint64_t at_ = 0;
-};
-
-uint32_t word_at(std::span<const uint8_t> bytes, size_t at) {
-    return static_cast<uint32_t>(bytes[at]) | static_cast<uint32_t>(bytes[at + 1]) << 8 |
-           static_cast<uint32_t>(bytes[at + 2]) << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
-}
-
-/// Why a file is not to be given to OpenEXR, which allocates what a header states; empty if it may be.
-std::string objection_to_header(std::span<const uint8_t> bytes) {
-    if (bytes.size() < 8 || word_at(bytes, 0) != 20000630) return "is no OpenEXR file";
-    if ((word_at(bytes, 4) & 0xffu) != 2 || (word_at(bytes, 4) & 0x1a00u) != 0)
-        return "is tiled, deep, of several parts or of another version: one part of scan lines is read";
-    size_t at = 8;
-    std::string reason = "states no data window";
-    const auto text = [&] {
-        std::string made;
-        while (at < bytes.size() && bytes[at] != 0 && made.size() < 256) made += static_cast<char>(bytes[at++]);
-        ++at;
-        return made;
-    };
-    while (true) {
-        const std::string name = text();
-        if (at > bytes.size()) return "is cut off in its header";
-        if (name.empty()) return reason;
-        text();
-        if (at > bytes.size() || bytes.size() - at < 4) return "is cut off in its header";
-        const uint64_t size = word_at(bytes, at);
-        at += 4;
-        if (size > bytes.size() - at) return "is cut off in its header";
-        if (name == "dataWindow") {
-            if (size != 16) return "has no sound data window";
-            const auto corner = [&](size_t i) { return static_cast<int32_t>(word_at(bytes, at + 4 * i)); };
-            reason = objection_to_size(double{1} + corner(2) - corner(0), double{1} + corner(3) - corner(1));
-            if (!reason.empty()) return reason;
-        }
-        at += size;
-    }
+/// Throws Error unless the file can be given to OpenEXR, which allocates what a header states.
+void check_header(std::span<const uint8_t> bytes) {
+    bool sized = false;
+    see_exr_attributes(bytes, [&](std::string_view name, std::span<const uint8_t> value) {
+        if (name != "dataWindow") return;
+        if (value.size() != 16) throw Error("has no sound data window");
+        const auto corner = [&](size_t i) { return static_cast<int32_t>(exr_word(value, 4 * i)); };
+        const std::string reason = objection_to_size(double{1} + corner(2) - corner(0), double{1} + corner(3) - corner(1));
+        if (!reason.empty()) throw Error(reason);
+        sized = true;
+    });
+    if (const uint32_t word = exr_word(bytes, 4); (word & kExrVersion) != 2 || (word & (kExrTiled | kExrDeep | kExrParts)) != 0)
+        throw Error("is tiled, deep, of several parts or of another version: one part of scan lines is read");
+    if (!sized) throw Error("states no data window");
 }
 
 std::string text_attribute(const Imf::Header& header, const char* name) {
@@ -95,7 +56,7 @@ std::vector<double> steps(double first, double last, size_t count) {
 }
 
 Distribution read_checked(std::span<const uint8_t> bytes, const std::string& name) {
-    MemoryInput stream(bytes, name);
+    ExrStream stream(name, bytes);
     Imf::InputFile file(stream);
     const Imf::Header& header = file.header();
     const auto window = header.dataWindow();
@@ -137,10 +98,15 @@ Distribution read_checked(std::span<const uint8_t> bytes, const std::string& nam
 }  // namespace
 
 Distribution parse_grid_exr(std::span<const uint8_t> bytes, const std::string& name) {
-    const std::string reason = objection_to_header(bytes);
-    if (!reason.empty()) throw Error(one_line(name + ": " + reason));
+    try {
+        check_header(bytes);
+    } catch (const Error& error) {
+        throw Error(one_line(name + ": " + error.what()));
+    }
     try {
         return read_checked(bytes, name);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         throw Error(one_line(name + ": OpenEXR: " + error.what()));
     }

@@ -4,17 +4,18 @@
 #include <filesystem>
 #include <string_view>
 
+#include "base/limits.h"
 #include "roads/road_network.h"
 
 namespace vesper {
 
-/// Upper bounds on what a file may ask for.
+/// Upper bounds on what a file may ask for. Those on memory follow VESPER_LIMITS (base/limits.h).
 struct RoadLimits {
-    uint64_t file_bytes = 256ull << 20;
-    size_t roads = 200'000;
-    size_t elements = 8'000'000;  ///< geometries, lanes, widths, marks, objects and signals together
+    uint64_t file_bytes = scaled_limit(256ull << 20);
+    size_t roads = scaled_limit(200'000);
+    size_t elements = scaled_limit(8'000'000);  ///< geometries, lanes, widths, marks, objects and signals together
     double road_length = 1e6;     ///< m, of one
-    double total_length = 5e6;    ///< m, of all
+    double total_length = static_cast<double>(scaled_limit(5'000'000));  ///< m, of all
     double lane_width = 1000;     ///< m, of one lane, and of all of one side
     double height = 1e5;          ///< m, above or below 0
     double turns = 1e4;           ///< rad, that one geometry may turn

@@ -80,6 +80,9 @@ void check_needs_no_uv(const GltfReader& reader, uint32_t material, const JsonVa
 /// "environment".
 void read_environment(GltfReader& reader, const JsonValue& source);
 
+/// What the file breaks of glTF 2.0 without harm to the scene. After all else.
+void note_broken_rules(GltfReader& reader);
+
 /// All of the above in order, and the checks that need the whole scene.
 void read_all(GltfReader& reader);
 

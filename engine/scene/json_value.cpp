@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "io/atomic_file.h"
 
 namespace vesper {
@@ -18,6 +19,7 @@ constexpr uint64_t kMaxValues = 32'000'000;  // a million nodes have about half 
 
 /// Counts brackets and commas outside strings before the parser allocates anything for them.
 void check_size(std::span<const uint8_t> text, const std::string& name) {
+    const uint64_t most_values = scaled_limit(kMaxValues);
     int depth = 0;
     uint64_t values = 0;
     bool in_string = false;
@@ -38,7 +40,7 @@ void check_size(std::span<const uint8_t> text, const std::string& name) {
         } else if (c == ',') {
             ++values;
         }
-        if (values > kMaxValues) throw Error(name + ": JSON of more than " + std::to_string(kMaxValues) + " values");
+        if (values > most_values) throw Error(name + ": JSON of more than " + std::to_string(most_values) + " values");
     }
 }
 
@@ -67,13 +69,22 @@ std::string decimal(double value) {
     return digits;
 }
 
+// nlohmann::json takes memory to go, and ends the program where there is none: so it goes empty. Depth is bounded by parse_json.
+void empty(nlohmann::json& value) noexcept {
+    if (!value.is_structured()) return;
+    for (nlohmann::json& member : value) empty(member);
+    value.clear();
+}
+
 }  // namespace
+
+JsonFile::~JsonFile() { empty(root); }
 
 JsonFile parse_json(std::span<const uint8_t> text, const std::string& name) {
     const std::string file = one_line(name);
     check_size(text, file);
     try {
-        return {file, nlohmann::json::parse(text.begin(), text.end())};
+        return JsonFile(file, nlohmann::json::parse(text.begin(), text.end()));
     } catch (const nlohmann::json::parse_error& error) {
         throw Error(file + ": byte " + std::to_string(error.byte) + ": not valid JSON");
     } catch (const nlohmann::json::exception& error) {  // a number beyond double

@@ -19,6 +19,12 @@ namespace vesper {
 struct JsonFile {
     std::string name;
     nlohmann::json root;
+
+    JsonFile() = default;
+    JsonFile(std::string name_of_file, nlohmann::json value) : name(std::move(name_of_file)), root(std::move(value)) {}
+    JsonFile(JsonFile&&) = default;
+    JsonFile& operator=(JsonFile&&) = default;
+    ~JsonFile();
 };
 
 /// Parses JSON of bounded depth and size, so that nothing that walks it can run out of stack or memory. Throws Error.

@@ -1,12 +1,10 @@
 #include "fuzz/targets.h"
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
+#include "io/exif.h"
 #include "io/hdr_image.h"
+#include "io/image_file.h"
 #include "perception/display_fit.h"
 #include "photometry/distribution.h"
 #include "photometry/eulumdat.h"
@@ -19,6 +17,7 @@
 #include "scene/display_file.h"
 #include "scene/gltf.h"
 #include "scene/photometry.h"
+#include "scene/road_file.h"
 #include "simulation/world_file.h"
 
 namespace vesper::test {
@@ -27,50 +26,24 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::span<const uint8_t>;
 
-// A folder in memory where there is one, gone with the program.
-class Scratch {
-public:
-    Scratch() {
-        const fs::path shm = "/dev/shm";
-        folder_ = (fs::is_directory(shm) ? shm : fs::temp_directory_path()) / ("vesper-fuzz-" + std::to_string(::getpid()));
-        fs::create_directories(folder_);
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
-    fs::path write(const std::string& name, Bytes bytes) const {
-        const fs::path file = folder_ / name;
-        std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-        return file;
-    }
-
-private:
-    fs::path folder_;
-};
-
 // Small limits: a fuzzer looks for mistakes, not for memory.
 constexpr uint64_t kSmall = 1 << 16;
 const SceneLimits kFew{.file_bytes = 1 << 22, .vertices = kSmall, .indices = kSmall, .texels = kSmall, .image_side = 512, .nodes = 1000, .lights = 100, .candela = kSmall};
 
-FuzzTarget of_file(const std::string& name, const std::function<void(const fs::path&)>& read) {
-    return [=](Bytes bytes) {
-        static const Scratch scratch;
-        read(scratch.write(name, bytes));
-    };
-}
+// A run of one car along 100 m, for scenarios to play on.
+constexpr const char* kRun = "time,id,name,x,y,z,h,p,r,speed,wheel_angle,wheel_rot\n0,0,Ego,0,-2,0,0,0,0,10,0,0\n1,0,Ego,10,-2,0,0,0,0,10,0,0\n2,0,Ego,20,-2,0,0,0,0,10,0,0\n";
+constexpr const char* kRoads = R"(<OpenDRIVE><header revMajor="1" revMinor="6"/><road id="1" length="100" junction="-1"><planView><geometry s="0" x="0" y="0" hdg="0" length="100"><line/></geometry>
+</planView><lanes><laneSection s="0"><center><lane id="0" type="none"/></center><right><lane id="-1" type="driving"><width sOffset="0" a="4" b="0" c="0" d="0"/></lane></right></laneSection></lanes></road></OpenDRIVE>)";
 
-FuzzTarget answers(const FuzzTarget& target) {
-    return [=](Bytes bytes) {
-        try {
-            target(bytes);
-        } catch (const Error&) {
-        }
-    };
+void read_scenario(const fs::path& scenario) {
+    static const RoadNetwork roads = parse_opendrive(kRoads, "x.xodr");
+    const fs::path table = scenario.parent_path() / "run.csv";
+    if (!fs::exists(table)) std::ofstream(table) << kRun;
+    read_esmini_run(table, scenario, &roads);
 }
 
 std::map<std::string, FuzzTarget> make_targets() {
-    std::map<std::string, FuzzTarget> made{
+    return {
         {"gltf", of_file("x.gltf", [](const fs::path& file) { read_gltf(file, kFew); })},
         {"glb", of_file("x.glb", [](const fs::path& file) { read_gltf(file, kFew); })},
         {"photometry", of_file("x.photometry.json", [](const fs::path& file) { read_photometry(file); })},
@@ -87,15 +60,17 @@ std::map<std::string, FuzzTarget> make_targets() {
         {"esmini_run", of_file("x.csv", [](const fs::path& file) { read_esmini_run(file); })},
         {"world", of_file("x.world.json", [](const fs::path& file) { read_world(file); })},
         {"response", of_file("x.csv", [](const fs::path& file) { read_response(file); })},
+        {"road", of_file("x.json", [](const fs::path& file) { read_road(file); })},
+        {"scenario", of_file("x.xosc", read_scenario)},
+        {"image", [](Bytes bytes) { decode_image(bytes, 512, kSmall); }},
+        {"exif", [](Bytes bytes) { read_exif(bytes); }},
     };
-    for (auto& [name, target] : made) target = answers(target);
-    return made;
 }
 
 }  // namespace
 
 const std::map<std::string, FuzzTarget>& fuzz_targets() {
-    static const std::map<std::string, FuzzTarget> targets = make_targets();
+    static const std::map<std::string, FuzzTarget> targets = answering(make_targets());
     return targets;
 }
 

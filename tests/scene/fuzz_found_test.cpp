@@ -1,26 +1,10 @@
-// What fuzzers have found stays answered. SPDX-License-Identifier: MIT
-#include <filesystem>
-
-#include <gtest/gtest.h>
-
-#include "fuzz/targets.h"
-#include "io/atomic_file.h"
-#include "places.h"
+// SPDX-License-Identifier: MIT
+#include "fuzz/found.h"
 
 namespace vesper::test {
 namespace {
 
-TEST(FuzzFound, EveryInputIsAnswered) {
-    const std::filesystem::path found = std::filesystem::path(VESPER_SOURCE_DIR) / "tests/fuzz/found";
-    for (const auto& [name, target] : fuzz_targets()) {
-        EXPECT_NO_THROW(target({})) << name << ": nothing at all";
-        if (!std::filesystem::is_directory(found / name)) continue;
-        for (const auto& entry : std::filesystem::directory_iterator(found / name)) {
-            SCOPED_TRACE(entry.path().string());
-            EXPECT_NO_THROW(target(read_file(entry.path(), 1 << 24)));
-        }
-    }
-}
+TEST(FuzzFound, EveryInputIsAnswered) { expect_answers(fuzz_targets()); }
 
 }  // namespace
 }  // namespace vesper::test

@@ -1,0 +1,118 @@
+// Several engines in one process, on threads of their own: each gives what it gives alone. SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "io/atomic_file.h"
+#include "io/hdr_image.h"
+#include "io/image_file.h"
+#include "photometry/distribution.h"
+#include "photometry/standard_lamps.h"
+#include "places.h"
+#include "renderer.h"
+#include "roads/opendrive.h"
+#include "scene/display_file.h"
+#include "scene/gltf.h"
+#include "scene/photometry.h"
+#include "scene/scene_files.h"
+#include "support/scene_geometry.h"
+#include "tone_mapper.h"
+
+namespace vesper::test {
+namespace {
+
+constexpr size_t kThreads = 4;
+
+/// Runs `work(i)` on so many threads at once.
+template <class Work>
+void at_once(const Work& work) {
+    std::vector<std::thread> threads;
+    for (size_t i = 0; i < kThreads; ++i) threads.emplace_back([&work, i] { work(i); });
+    for (std::thread& thread : threads) thread.join();
+}
+
+Scene lit_wall() {
+    Scene scene;
+    scene.materials = {Material{}};
+    add_mesh(scene, rectangle({-5, -5, -10}, {10, 0, 0}, {0, 10, 0}), kRectangle, 0);
+    scene.lights = {Light{.name = "lamp", .kind = Light::Kind::Point, .intensity = 500}};
+    Node node;
+    node.light = 0;
+    scene.nodes.push_back(node);
+    return scene;
+}
+
+/// What an engine of its own shows of a scene that others read too, after some frames; each of the threads in another way.
+std::vector<uint8_t> shown(const Scene& scene, size_t which) {
+    Device device;
+    Renderer renderer(device, scene);
+    ToneMapper mapper(device);
+    RenderSettings settings;
+    settings.tone_operator = operators()[which].tone_operator;
+    settings.glare = Glare::Scatter;
+    const VkExtent2D extent{uint32_t(16 + 8 * which), 12};
+    std::vector<uint8_t> all;
+    for (int i = 0; i < 3; ++i) {
+        const Frame frame = renderer.render(settings, View::symmetric(extent, 0.4f, glm::mat4(1)), {world_transforms(scene, 0)}, 0.1f, {.display = true, .scene = true});
+        const ToneMapped mapped = mapper.map(settings, {.extent = extent, .values = frame.scene, .channels = 4}, 0.1f);
+        all.insert(all.end(), frame.display.begin(), frame.display.end());
+        all.insert(all.end(), mapped.display.begin(), mapped.display.end());
+    }
+    return all;
+}
+
+TEST(Threads, EnginesShowWhatEachShowsAlone) {
+    const Scene scene = lit_wall();
+    std::vector<uint8_t> alone[kThreads], together[kThreads];
+    for (size_t i = 0; i < kThreads; ++i) alone[i] = shown(scene, i);
+    at_once([&](size_t i) { together[i] = shown(scene, i); });
+    for (size_t i = 0; i < kThreads; ++i) EXPECT_EQ(together[i], alone[i]) << "engine " << i;
+    EXPECT_NE(alone[0].size(), alone[1].size());
+}
+
+// An engine belongs to one thread at a time, not to the one that made it.
+TEST(Threads, AnEngineMayGoFromThreadToThread) {
+    const Scene scene = lit_wall();
+    std::unique_ptr<Device> device;
+    std::unique_ptr<Renderer> renderer;
+    const auto elsewhere = [](const auto& work) { std::thread(work).join(); };
+    const View view = View::symmetric({16, 8}, 0.4f, glm::mat4(1));
+    const SceneFrame moment{world_transforms(scene, 0)};
+    std::vector<uint8_t> first, second;
+    elsewhere([&] { device = std::make_unique<Device>(), renderer = std::make_unique<Renderer>(*device, scene); });
+    elsewhere([&] { first = renderer->render({}, view, moment, 0, {.display = true}).display; });
+    elsewhere([&] { renderer->reset_adaptation(), second = renderer->render({}, view, moment, 0, {.display = true}).display; });
+    elsewhere([&] { renderer.reset(), device.reset(); });
+    EXPECT_EQ(first, second);
+    EXPECT_FALSE(first.empty());
+}
+
+TEST(Threads, ReadersReadTheSameFiles) {
+    const std::filesystem::path data = std::filesystem::path(VESPER_SOURCE_DIR) / "data";
+    const TempFolder folder;
+    write_png(folder / "x.png", 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
+    const auto read = [&](size_t i) {
+        std::vector<double> seen;
+        seen.push_back(double(read_gltf(data / "glare/headlamps.gltf").scene.nodes.size()));
+        seen.push_back(double(read_hdr_image(data / "rivoli/signs.exr").rgb[1]));
+        seen.push_back(luminous_flux(read_distribution(data / "photometry/street-lamp.ies")));
+        seen.push_back(luminous_flux(read_distribution(data / "road/luminaire.ldt")));
+        seen.push_back(luminous_flux(read_distribution(data / "photometry/high-beam.csv")));
+        seen.push_back(double(read_opendrive(data / "rivoli/rivoli.xodr").roads.size()));
+        seen.push_back(double(decode_image(read_file(folder / "x.png", 1 << 20), 100).rgba[3]));
+        seen.push_back(double(find_display("lcd").peak));
+        read_photometry(data / "rivoli/rivoli.measured.photometry.json");
+        write_png(folder / ("y" + std::to_string(i) + ".png"), 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
+        return seen;
+    };
+    const std::vector<double> alone = read(0);
+    std::vector<double> together[kThreads];
+    at_once([&](size_t i) {
+        for (int round = 0; round < 3; ++round) together[i] = read(i);
+    });
+    for (const auto& seen : together) EXPECT_EQ(seen, alone);
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -279,8 +279,8 @@ void Executor::record(const FrameGraph& graph) {
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     check(vkBeginCommandBuffer(commands_, &begin), "recording");
-    const uint32_t query_count = uint32_t(plan_.steps.size()) * 2;
-    const bool timed = device_.has_timestamps() && query_count > 0;
+    const uint32_t query_count = (uint32_t(plan_.steps.size()) + 1) * 2;
+    const bool timed = device_.has_timestamps() && !plan_.steps.empty();
     if (timed && query_capacity_ < query_count) {
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
@@ -292,18 +292,22 @@ void Executor::record(const FrameGraph& graph) {
     }
     if (timed) vkCmdResetQueryPool(commands_, queries_.get(), 0, query_count);
 
+    // Before the first pass and after each. lavapipe writes a time down no sooner than it comes to the next one, so each has a second behind it.
+    const auto mark = [&](uint32_t boundary) {
+        for (uint32_t i = 0; timed && i < 2; ++i) vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), 2 * boundary + i);
+    };
     const FrameRecording recording(*this);
+    mark(0);
     for (uint32_t i = 0; i < plan_.steps.size(); ++i) {
         const Plan::Step& step = plan_.steps[i];
         const FrameGraph::PassInfo& pass = graph.passes()[step.pass];
         record_barriers(step.barriers);
-        if (timed) vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), 2 * i);
         switch (pass.kind) {
             case FrameGraph::PassKind::Dispatch: record_dispatch(pass); break;
             case FrameGraph::PassKind::Raster: record_raster(graph, step); break;
             case FrameGraph::PassKind::Transfer: pass.record(recording); break;
         }
-        if (timed) vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), 2 * i + 1);
+        mark(i + 1);
     }
     record_barriers(plan_.final_barriers);
     check(vkEndCommandBuffer(commands_), "recording");
@@ -419,14 +423,14 @@ void Executor::finish(const FrameGraph& graph) {
 
     timings_.clear();
     if (!device_.has_timestamps() || plan_.steps.empty()) return;
-    std::vector<uint64_t> ticks(plan_.steps.size() * 2);
+    std::vector<uint64_t> ticks((plan_.steps.size() + 1) * 2);
     check(vkGetQueryPoolResults(device_.handle(), queries_.get(), 0, uint32_t(ticks.size()), ticks.size() * sizeof(uint64_t),
                                 ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading timestamps");
     for (size_t i = 0; i < plan_.steps.size(); ++i) {
         const Plan::Step& step = plan_.steps[i];
         timings_.push_back({graph.passes()[step.pass].name,
-                            double(ticks[2 * i + 1] - ticks[2 * i]) * double(device_.limits().timestampPeriod) * 1e-6,
+                            double(ticks[2 * (i + 1)] - ticks[2 * i]) * double(device_.limits().timestampPeriod) * 1e-6,
                             step.bytes_read, step.bytes_written});
     }
 }

@@ -36,6 +36,7 @@ const uint kNodes = 9u, kPoints = 13u;             // nodes, then the points bet
 const float kBetween = 5.0 / 7.0;                  // of the way from the middle to an outer node: the next pixel
 const float kHalf = 0.5 * float(kBlockSize - 1u);  // px, from the middle of a block to its outer nodes
 const float kWidestCone = 0.35;                    // rad
+const float kOfCell = 0.7;
 const float kMostTilt = 3e-4, kMostLift = 2e-4;    // of a plane's pixels: rad; and of their distance from the eye
 
 bool drawn, paved, glossy, retro;  // whether anything, some road, some specular lobe, some sheet is drawn
@@ -46,6 +47,7 @@ vec3 normal;
 vec3 points[kPoints];              // m
 Road roads[kPoints];
 float radius;                      // of the points around the middle one, m
+float gap;                         // the largest between neighbouring points, m
 vec3 sum[kNodes];                  // see shared/gather.h
 
 // Where a node or point is, from -1 to 1 between the outer nodes.
@@ -87,7 +89,12 @@ void look_at_block(uvec2 corner) {
         points[k] = ray * depth;
         if (kRoads != 0u) roads[k] = road_at(kind, normal, -normalize(points[k]), push.roads);
     }
-    radius = max(max(distance(points[0], points[4]), distance(points[2], points[4])), max(distance(points[6], points[4]), distance(points[8], points[4])));
+    radius = 0.0, gap = 0.0;
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {  // along the diagonals, from the middle outwards
+        const vec3 on_the_way = points[kNodes + k], outermost = points[2u * (k % 2u) + 6u * (k / 2u)];
+        radius = max(radius, distance(points[4], outermost));
+        gap = max(gap, max(distance(points[4], on_the_way), distance(on_the_way, outermost)));
+    }
 }
 
 // The value of the polynomial at a point between the nodes.
@@ -101,13 +108,19 @@ float between(float value[kPoints], uint k) {
 }
 
 // How wide a cone of directions may be, as an angle from its axis, rad, for the points to show all that is in it: a beam is not narrower than
-// that; points are no farther than a cell of a map apart (at most 5/7 of the radius); and a lamp is not so near that its peak fits between them.
+// that, and a lamp is not so near that its peak fits between them.
 float widest_cone(Lamp lamp, bool cone) {
     float beam = kPi;
     if (cone) beam = lamp.lobe_a > 0.0 ? arccos(clamp(-lamp.lobe_b / lamp.lobe_a, -1.0, 1.0)) : kPi;
     if (!cone && kPowers != 0u) beam = inversesqrt(max(lamp.lobe_a, 0.1));  // where cos^n is still exp(-1/2)
-    if (!cone && kMaps != 0u) beam = lamp.measured ? 2.8 / max(abs(lamp.grid.x), abs(lamp.grid.z)) : beam;
     return min(0.5 * beam, kWidestCone);
+}
+
+// Nor may points be farther apart than this, rad: a good part of a cell of the map where the middle of the block is, so that no node hides between.
+float widest_gap(Lamp lamp) {
+    const vec3 from = points[4] - lamp.position;
+    const float cosine = dot(lamp.pole, from) * inversesqrt(max(dot(from, from), 1e-12)), sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    return kOfCell * min(sine / lamp.grid.x, 1.0 / lamp.grid.z);
 }
 
 // Adds a lamp if it is smooth over the plane: wrong by at most the tolerance, or by a quarter of the threshold, below which lamps are left out
@@ -135,7 +148,8 @@ bool remains(Lamp lamp, bool cone) {
     }
     float error = 0.0;
     [[unroll]] for (uint k = kNodes; k < kPoints; ++k) error = max(error, abs(between(value, k) - value[k]));
-    const bool resolved = radius * nearest <= widest_cone(lamp, cone);
+    bool resolved = radius * nearest <= widest_cone(lamp, cone);
+    if (!cone && kMaps != 0u) resolved = resolved && (!lamp.measured || gap * nearest <= widest_gap(lamp));
     const bool taken = resolved && even && lit && error <= max(push.tolerance * least, 0.25 * push.view.threshold);
     [[unroll]] for (uint k = 0u; k < kNodes; ++k) sum[k] += lamp.colour * (taken ? value[k] : 0.0);
     return !(taken || (resolved && none_counts));

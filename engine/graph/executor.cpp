@@ -301,12 +301,12 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
 
 void Executor::read_timestamps() {
     if (timings_.empty()) return;
-    std::vector<uint64_t> ticks(timings_.size() * 2);
+    std::vector<uint64_t> ticks((timings_.size() + 1) * 2);
     check(vkGetQueryPoolResults(device_.handle(), slot_->queries.get(), 0, uint32_t(ticks.size()), ticks.size() * sizeof(uint64_t),
                                 ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading timestamps");
     for (size_t i = 0; i < timings_.size(); ++i)
-        timings_[i].milliseconds = double(ticks[2 * i + 1] - ticks[2 * i]) * double(device_.limits().timestampPeriod) * 1e-6;
+        timings_[i].milliseconds = double(ticks[2 * (i + 1)] - ticks[2 * i]) * double(device_.limits().timestampPeriod) * 1e-6;
 }
 
 std::span<const std::byte> Executor::read(Resource readback) const {

@@ -20,22 +20,26 @@ private:
 
 void Executor::record(const FrameGraph& graph, bool among_others) {
     const bool timed = device_.has_timestamps() && !plan_.steps.empty();
-    slot_->begin(timed ? uint32_t(plan_.steps.size()) * 2 : 0);
+    slot_->begin(timed ? (uint32_t(plan_.steps.size()) + 1) * 2 : 0);
     const VkCommandBuffer commands = slot_->commands;
     if (among_others) record_border(graph, Border::Enter);
 
+    // Before the first pass and after each. lavapipe writes a time down no sooner than it comes to the next one, so each has a second behind it.
+    const auto mark = [&](uint32_t boundary) {
+        for (uint32_t i = 0; timed && i < 2; ++i) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries.get(), 2 * boundary + i);
+    };
     const FrameRecording recording(*this);
+    mark(0);
     for (uint32_t i = 0; i < plan_.steps.size(); ++i) {
         const Plan::Step& step = plan_.steps[i];
         const FrameGraph::PassInfo& pass = graph.passes()[step.pass];
         record_barriers(step.barriers);
-        if (timed) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries.get(), 2 * i);
         switch (pass.kind) {
             case FrameGraph::PassKind::Dispatch: record_dispatch(pass); break;
             case FrameGraph::PassKind::Raster: record_raster(graph, step); break;
             case FrameGraph::PassKind::Transfer: pass.record(recording); break;
         }
-        if (timed) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries.get(), 2 * i + 1);
+        mark(i + 1);
     }
     record_barriers(plan_.final_barriers);
     if (among_others) record_border(graph, Border::Leave);

@@ -43,11 +43,12 @@ Resource add_scatter(FrameGraph& graph, const Kernels& kernels, Resource scene, 
     graph.dispatch("scatter top", kernels.scatter_top, {load(levels.back()), sample(weights), sample(veil), store(seen)},
                    ScatterTopPush{{sizes.back().width, sizes.back().height}}, cover((takes.width * takes.height + 3) / 4, 1, kernels.scatter_top.group[0], 1));
 
+    const bool wide = fit.reach() == kWideTapReach;
     for (int l = top - 1; l >= 0; --l) {
         const VkExtent2D size = l == 0 ? sizes[0] : with_margin(sizes[size_t(l)], kScatterDownMargin);
         const std::string name = "scatter down " + std::to_string(l);
         const Resource image = graph.transient(name, image_shape(kSceneFormat, size));
-        const Kernel& kernel = l == 0 ? kernels.scatter_down_last : kernels.scatter_down;
+        const Kernel& kernel = l == 0 ? (wide ? kernels.scatter_down_wide_last : kernels.scatter_down_last) : wide ? kernels.scatter_down_wide : kernels.scatter_down;
         const auto rows = uint32_t(scatter_strip(fit.image(), fit.nodes(), l, int(kernels.scatter_down_strip.height)));
         const glm::vec2 scale = glm::vec2(fit.nodes() - 1) * float(1 << l) / glm::vec2(fit.image().width, fit.image().height);
         graph.dispatch(name, kernel, {load(levels[size_t(l)]), load(seen), sample(taps), store(image)},
@@ -55,6 +56,12 @@ Resource add_scatter(FrameGraph& graph, const Kernels& kernels, Resource scene, 
                        cover_strips(size, kernel, {kernels.scatter_down_strip.width, rows}));
         seen = image;
     }
+    const EdgeLight::Axis &x = fit.edge_x(), &y = fit.edge_y();
+    const ScatterEdgePush edge{{sizes[0].width, sizes[0].height}, {uint32_t(x.deep), uint32_t(y.deep)}, {uint32_t(x.between), uint32_t(y.between)}};
+    const uint32_t pixels = 2 * (edge.deep.y * edge.size.x + edge.deep.x * (edge.size.y - 2 * edge.deep.y));
+    if (pixels > 0)
+        graph.dispatch("scatter edge", kernels.scatter_edge, {load(scene), sample(texels("scatter edge light", fit.edge(), VK_FORMAT_R32_SFLOAT)), update(seen)}, edge,
+                       cover(pixels, 1, kernels.scatter_edge.group[0], 1));
     return seen;
 }
 

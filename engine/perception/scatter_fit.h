@@ -43,32 +43,65 @@ constexpr std::array<double, 6> kScatterFilter{1, 5, 10, 10, 5, 1};
 constexpr int kScatterMargin = 9;
 /// Texels beyond the picture that have a say in it.
 constexpr int kScatterReach = 2;
+/// Texels that kernels reach in each direction, and in wide pictures.
+constexpr int kTapReach = 2, kWideTapReach = 3;
 
 /// A level of `width` x `height` px halved (rounding up) so many times, in texels, without margin.
 glm::ivec2 scatter_size(const ImageAngles&, int level);
 
-/// Neighbours of a texel that its level is filtered with, each with its opposite, and the texel itself. x right, y down.
-constexpr int kTaps = 13;
-constexpr std::array<glm::ivec2, kTaps> kScatterTaps{{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {1, -1}, {2, 0}, {0, 2}, {2, 1}, {2, -1}, {1, 2}, {1, -2}, {2, 2}, {2, -2}}};
+/// Neighbours of a texel that its level is filtered with, each with its opposite, and the texel itself: the rest of its row, then rows below. x right, y down.
+std::vector<glm::ivec2> scatter_taps(int reach);
+
+/// Texels of the top, in each direction, whose weights are fitted.
+constexpr int kScatterNear = 3;
+
+/// Between which nodes a part of the picture, 0 to 1, lies, and how far beyond the first.
+struct BetweenNodes {
+    int first;
+    double part;
+};
+BetweenNodes between_nodes(double part, int nodes);
 
 /// Rows of a level, an even number of at most `most`, over which taps may be taken as linear: no more than from node to node.
 int scatter_strip(const ImageAngles&, glm::ivec2 nodes, int level, int most);
 
+/// What pixels near the border keep beyond what kernels say, as a part of their light: at places, row by row, and linearly between them.
+/// Along an axis these are all of the first `deep` and the last pixels, and `between` ones evenly between.
+struct EdgeLight {
+    /// Pixels from the border that keep something.
+    static constexpr int kDeep = 8;
+    struct Axis {
+        int pixels = 1, deep = 0, between = 1;
+        int places() const { return 2 * deep + between; }
+        /// Which place a pixel is, or between which.
+        double place(double pixel) const;
+        /// The pixel of a place.
+        int pixel(int place) const;
+    };
+    Axis x, y;
+    std::vector<float> kept;
+};
+
 /// The operator: seen = sum over levels 0 .. levels - 1 of U^l K_l D^l + U^levels M D^levels, with small kernels K that
-/// depend on the place and a full matrix M between the texels of the top.
+/// depend on the place and a full matrix M between the texels of the top; and each pixel near the border keeps some more of its own light,
+/// or less, so that what all of the picture has of it is right.
 struct ScatterFit {
     ImageAngles image;
     int levels = 1;                      ///< the top is this one
+    int reach = kTapReach;               ///< of the kernels
+    glm::ivec2 strip{1, 2};              ///< texels over which passes take taps as linear, at most (scatter_strip)
     glm::ivec2 nodes{2};                 ///< places where kernels are given: columns, rows, evenly from edge to edge of the picture
-    std::vector<float> kernels;          ///< for each node, row by row, and each level: kTaps weights
+    std::vector<float> kernels;          ///< for each node, row by row, and each level: taps() weights
     /// For each texel of the top with kScatterReach around: the weights of all with kScatterMargin around.
     std::vector<float> top;
+    EdgeLight edge;
 
+    int taps() const { return 1 + 2 * reach * (reach + 1); }
     glm::ivec2 top_rows() const { return scatter_size(image, levels) + 2 * kScatterReach; }
     glm::ivec2 top_columns() const { return scatter_size(image, levels) + 2 * kScatterMargin; }
 };
 
 /// Fits the kernels by least squares of relative differences to the exact function, so that what leaves a pixel arrives.
-ScatterFit fit_scatter(const EyeScatter&, const ImageAngles&);
+ScatterFit fit_scatter(const EyeScatter&, const ImageAngles&, glm::ivec2 strip);
 
 }  // namespace vesper

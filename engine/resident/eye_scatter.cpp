@@ -14,7 +14,6 @@ namespace {
 using glm::dvec2, glm::dvec3;
 
 static_assert(kScatterMargin == int(shared::kScatterUpMargin) && kScatterReach == int(shared::kScatterDownMargin));
-static_assert(kTaps <= int(4 * shared::kScatterTapTexels));
 
 // Texels outside the picture that a lamp may be for its light to go wholly into the margin of a level. One level lower it
 // has then no say in the picture.
@@ -22,11 +21,12 @@ constexpr double kOutside = 6;
 
 // Taps of all levels, each in texels of its own.
 std::vector<glm::vec4> padded_taps(const ScatterFit& fit) {
+    const auto taps = size_t(fit.taps());
     std::vector<glm::vec4> texels;
-    for (size_t first = 0; first < fit.kernels.size(); first += kTaps)
-        for (size_t i = 0; i < shared::kScatterTapTexels; ++i) {
+    for (size_t first = 0; first < fit.kernels.size(); first += taps)
+        for (size_t i = 0; i < taps; i += 4) {
             texels.emplace_back(0);
-            for (size_t c = 0; c < 4 && 4 * i + c < kTaps; ++c) texels.back()[int(c)] = fit.kernels[first + 4 * i + c];
+            for (size_t c = 0; c < 4 && i + c < taps; ++c) texels.back()[int(c)] = fit.kernels[first + i + c];
         }
     return texels;
 }
@@ -48,15 +48,19 @@ EyeScatter eye_scatter(const ScatterSettings& settings) {
     return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
 }
 
+glm::ivec2 scatter_down_strip(const Device& device) { return device.is_cpu() ? glm::ivec2(4, 32) : glm::ivec2(1, 2); }
+
 ImageAngles angles_of(const View& view) {
     return {int(view.extent.width), int(view.extent.height), dvec2(view.tangent_low), dvec2(view.tangent_high)};
 }
 
 ResidentScatter::ResidentScatter(const Device& device, const ScatterSettings& settings, const ImageAngles& image)
     : settings_(settings), image_(image), psf_(eye_scatter(settings)), arena_(device) {
-    const ScatterFit fit = fit_scatter(psf_, image);
+    const ScatterFit fit = fit_scatter(psf_, image, scatter_down_strip(device));
     levels_ = fit.levels;
+    reach_ = fit.reach;
     nodes_ = fit.nodes;
+    edge_x_ = fit.edge.x, edge_y_ = fit.edge.y;
     const auto upload = [&](const auto& values, OwnedBuffer& buffer) {
         const auto bytes = std::as_bytes(std::span(values));
         buffer = upload_buffer(device, arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
@@ -64,6 +68,7 @@ ResidentScatter::ResidentScatter(const Device& device, const ScatterSettings& se
     };
     taps_texels_ = upload(padded_taps(fit), taps_);
     top_texels_ = upload(transposed(fit.top, size_t(fit.top_rows().x * fit.top_rows().y)), top_);
+    edge_texels_ = upload(fit.edge.kept, edge_);
 }
 
 std::optional<ResidentScatter::Entry> ResidentScatter::entry_of(const OutsideLamp& lamp) const {

@@ -26,6 +26,8 @@ struct ScatterSettings {
 /// What is smooth of the function.
 EyeScatter eye_scatter(const ScatterSettings&);
 ImageAngles angles_of(const View&);
+/// Texels that one invocation of scatter_down.comp does; of rows at most so many.
+glm::ivec2 scatter_down_strip(const Device&);
 
 /// Light of a lamp outside of the picture, which is not in its pixels. It scatters nothing from behind the plane of the eye.
 struct OutsideLamp {
@@ -46,8 +48,12 @@ public:
     const ScatterSettings& settings() const { return settings_; }
     const ImageAngles& image() const { return image_; }
     int levels() const { return levels_; }
+    int reach() const { return reach_; }
     glm::ivec2 nodes() const { return nodes_; }
+    const EdgeLight::Axis& edge_x() const { return edge_x_; }
+    const EdgeLight::Axis& edge_y() const { return edge_y_; }
     Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node, level by level (shared/scatter.h)
+    Texels edge() const { return edge_texels_; }  ///< r32f, EdgeLight::kept
     Texels top() const { return top_texels_; }    ///< rgba32f, for each texel that gives those that take, by four
 
     /// Lamps whose light begins at a level, two texels each (shared/scatter.h).
@@ -66,11 +72,12 @@ private:
     ScatterSettings settings_;
     ImageAngles image_;
     EyeScatter psf_;
-    int levels_ = 1;
+    int levels_ = 1, reach_ = kTapReach;
+    EdgeLight::Axis edge_x_, edge_y_;
     glm::ivec2 nodes_{2};
     Arena arena_;
-    OwnedBuffer taps_, top_;
-    Texels taps_texels_{}, top_texels_{};
+    OwnedBuffer taps_, top_, edge_;
+    Texels taps_texels_{}, top_texels_{}, edge_texels_{};
 };
 
 /// Keeps the fit of the last view, since most frames have the same.

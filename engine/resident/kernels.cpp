@@ -1,5 +1,7 @@
 #include "resident/kernels.h"
 
+#include "resident/eye_scatter.h"
+
 #include "shaders/acuity.comp.inc"
 #include "shaders/adapt.comp.inc"
 #include "shaders/bands.comp.inc"
@@ -18,6 +20,7 @@
 #include "shaders/picture.comp.inc"
 #include "shaders/pyramid.comp.inc"
 #include "shaders/scatter_down.comp.inc"
+#include "shaders/scatter_edge.comp.inc"
 #include "shaders/scatter_top.comp.inc"
 #include "shaders/scatter_up.comp.inc"
 #include "shaders/select.comp.inc"
@@ -54,12 +57,15 @@ Kernels::Kernels(const Device& device)
       histogram(device, "histogram.comp", histogram_comp, {histogram_rows}),
       blur(device, "blur.comp", blur_comp),
       scatter_up_strip(device.is_cpu() ? VkExtent2D{4, 32} : VkExtent2D{1, 1}),
-      scatter_down_strip(device.is_cpu() ? VkExtent2D{4, 32} : VkExtent2D{1, 2}),
+      scatter_down_strip{uint32_t(vesper::scatter_down_strip(device).x), uint32_t(vesper::scatter_down_strip(device).y)},
       scatter_up_first(device, "scatter_up.comp", scatter_up_comp, {scatter_up_strip.width, scatter_up_strip.height, 1}),
       scatter_up(device, "scatter_up.comp", scatter_up_comp, {scatter_up_strip.width, scatter_up_strip.height, 0}),
       scatter_top(device, "scatter_top.comp", scatter_top_comp),
-      scatter_down(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 0}),
-      scatter_down_last(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 1}),
+      scatter_down(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 0, kTapReach}),
+      scatter_down_last(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 1, kTapReach}),
+      scatter_down_wide(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 0, kWideTapReach}),
+      scatter_down_wide_last(device, "scatter_down.comp", scatter_down_comp, {scatter_down_strip.width, 1, kWideTapReach}),
+      scatter_edge(device, "scatter_edge.comp", scatter_edge_comp),
       corona_tiles(device, "corona_tiles.comp", corona_tiles_comp),
       corona_pick(device, "corona_pick.comp", corona_pick_comp),
       corona(device, "corona.comp", corona_comp),

@@ -45,7 +45,7 @@ struct Kernels {
     const Kernel& bands(const BandsVariant&) const;
     Kernel blur;
     VkExtent2D scatter_up_strip, scatter_down_strip;  ///< texels that one invocation does; down, at most so many rows
-    Kernel scatter_up_first, scatter_up, scatter_top, scatter_down, scatter_down_last;
+    Kernel scatter_up_first, scatter_up, scatter_top, scatter_down, scatter_down_last, scatter_down_wide, scatter_down_wide_last, scatter_edge;
     Kernel corona_tiles, corona_pick, corona;
     uint32_t composite_rows;        ///< pixels of a column that one invocation of the composite does
     /// What the composite and display_light.comp have code for. Made when first asked for.

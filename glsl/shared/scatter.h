@@ -7,9 +7,6 @@ SHARED_BEGIN
 // Texels of margin on every side of a level on the way up (means), and on the way down (what is scattered).
 const uint kScatterUpMargin = 9u, kScatterDownMargin = 2u;
 
-// The 13 taps of a level at a node, in texels of four, the rest being 0.
-const uint kScatterTapTexels = 4u;
-
 struct ScatterUpPush {
     uvec2 from_size;  // px of the picture, or texels of the level below with its margin
     uvec2 to_size;    // texels of this level with its margin
@@ -31,6 +28,14 @@ struct ScatterDownPush {
     vec2 scale;       // from texels of this level to nodes
 };
 SHARED_SIZE(ScatterDownPush, 36)
+
+// Light that pixels near the border keep, EdgeLight in perception/scatter_fit.h.
+struct ScatterEdgePush {
+    uvec2 size;       // px
+    uvec2 deep;       // columns and rows at either border, px
+    uvec2 between;    // places between them
+};
+SHARED_SIZE(ScatterEdgePush, 24)
 
 SHARED_END
 #endif

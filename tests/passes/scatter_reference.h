@@ -160,19 +160,32 @@ inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::ve
 inline std::vector<double> taps_at(const ScatterFit& fit, dvec2 pixels, int level) {
     const dvec2 place = glm::clamp(pixels / dvec2(fit.image.width, fit.image.height), 0.0, 1.0) * dvec2(fit.nodes - 1);
     const ivec2 first = glm::min(ivec2(place), fit.nodes - 2);
-    std::vector<double> taps(kTaps, 0);
+    std::vector<double> taps(size_t(fit.taps()), 0);
     for (int i = 0; i < 4; ++i) {
         const ivec2 node = first + ivec2(i & 1, i >> 1);
         const dvec2 near = 1.0 - glm::abs(place - dvec2(node));
-        const float* of = &fit.kernels[size_t(((node.y * fit.nodes.x + node.x) * fit.levels + level) * kTaps)];
+        const float* of = &fit.kernels[size_t(((node.y * fit.nodes.x + node.x) * fit.levels + level) * fit.taps())];
         for (size_t t = 0; t < taps.size(); ++t) taps[t] += near.x * near.y * double(of[t]);
     }
     return taps;
 }
 
-/// The whole operator. Over strips of texels, `most` of them, taps are linear from top to bottom, in the middle of their columns; every
+/// What a pixel near the border keeps beyond that, linear between places: every one of those near a corner, some of the sides.
+inline double edge_light(const ScatterFit& fit, ivec2 pixel) {
+    const EdgeLight& edge = fit.edge;
+    const ivec2 size(fit.image.width, fit.image.height), last(edge.x.places() - 1, edge.y.places() - 1);
+    const ivec2 away = glm::min(pixel, size - 1 - pixel);
+    if (away.x >= edge.x.deep && away.y >= edge.y.deep) return 0;
+    const dvec2 place(edge.x.place(pixel.x), edge.y.place(pixel.y));
+    const ivec2 first = glm::min(ivec2(place), last), next = glm::min(first + 1, last);
+    const dvec2 part = place - dvec2(first);
+    const auto at = [&](int x, int y) { return double(edge.kept[size_t(y * (last.x + 1) + x)]); };
+    return glm::mix(glm::mix(at(first.x, first.y), at(next.x, first.y), part.x), glm::mix(at(first.x, next.y), at(next.x, next.y), part.x), part.y);
+}
+
+/// The whole operator. Over strips of texels taps are linear from top to bottom, in the middle of their columns; every
 /// two rows have those of the line between them, for what they give. Not finite: scatters nothing, and is not finite.
-inline Plane scatter(const Plane& scene, const ScatterFit& fit, ivec2 most, const std::vector<std::vector<glm::vec4>>& lamps = {}, const std::vector<glm::vec4>& veil = {}) {
+inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vector<std::vector<glm::vec4>>& lamps = {}, const std::vector<glm::vec4>& veil = {}) {
     Plane clean = scene;
     for (dvec3& t : clean.texels)
         if (!(std::abs(t.x) <= 3.4e38 && std::abs(t.y) <= 3.4e38 && std::abs(t.z) <= 3.4e38)) t = dvec3(0);
@@ -190,7 +203,8 @@ inline Plane scatter(const Plane& scene, const ScatterFit& fit, ivec2 most, cons
     for (int l = fit.levels - 1; l >= 0; --l) {
         const int margin = l == 0 ? 0 : kScatterReach, inner = l == 0 ? 0 : kScatterMargin;
         Plane made(scatter_size(fit.image, l) + 2 * margin);
-        const ivec2 strip(most.x, scatter_strip(fit.image, fit.nodes, l, most.y));
+        const ivec2 strip(fit.strip.x, scatter_strip(fit.image, fit.nodes, l, fit.strip.y));
+        const std::vector<ivec2> taps = scatter_taps(fit.reach);
         for (int sy = 0; sy < made.size.y; sy += strip.y)
             for (int sx = 0; sx < made.size.x; sx += strip.x) {
                 const dvec2 upper = dvec2(ivec2(sx, sy) - margin) + dvec2(0.5 * strip.x, 0), lower = upper + dvec2(0, strip.y);
@@ -202,13 +216,14 @@ inline Plane scatter(const Plane& scene, const ScatterFit& fit, ivec2 most, cons
                         for (int v = 0; v < 3; ++v)
                             for (int u = 0; u < 3; ++u)
                                 sum += spline[at.x & 1][u] * spline[at.y & 1][v] * seen.at(ivec2(floor_half(at.x), floor_half(at.y)) - 1 + ivec2(u, v) + kScatterReach);
-                        for (size_t t = 0; t < kTaps; ++t)
+                        for (size_t t = 0; t < above.size(); ++t)
                             for (const int side : {1, -1}) {
-                                const ivec2 d = side * kScatterTaps[t];
+                                const ivec2 d = side * taps[t];
                                 const double part = (2 * floor_half(y - sy + d.y) + 1.0) / strip.y;
                                 const Plane& from = l == 0 && t == 0 ? scene : levels[size_t(l)];
                                 if (t > 0 || side > 0) sum += glm::mix(above[t], below[t], part) * from.at(at + d + inner);
                             }
+                        if (l == 0) sum += edge_light(fit, at) * clean.at(at);
                         made[{x, y}] = sum;
                     }
             }

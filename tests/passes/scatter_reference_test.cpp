@@ -90,7 +90,7 @@ void expect_response(const EyeScatter& psf, const ScatterFit& fit, ivec2 from, d
     const ImageAngles& image = fit.image;
     Plane scene({image.width, image.height});
     scene[from] = dvec3(1);
-    const Plane seen = scatter(scene, fit, kStrip);
+    const Plane seen = scatter(scene, fit);
     const std::array<double, 6> edges{0.5, 3, 10, 30, 100, 500};
     std::array<Band, 5> bands;
     double got_light = 0, want_light = 0;
@@ -113,53 +113,60 @@ void expect_response(const EyeScatter& psf, const ScatterFit& fit, ivec2 from, d
     EXPECT_NEAR(got_light / want_light, 1, energy);
 }
 
-// The targets: 7 % rms, 20 % anywhere, light conserved to 0.1 %. Of a pixel at the border half of the light falls beside the
-// picture, and what is left depends on the shape: 0.18 %.
+// The targets: 7 % rms, 20 % anywhere, light conserved to 0.1 %, also of what a pixel at the border leaves in the picture.
 TEST(ScatterFit, ResponseIsNearTheDefinition) {
     for (double age : {24.0, 70.0}) {
         const EyeScatter psf = eye(age);
-        const ScatterFit fit = fit_scatter(psf, driver(840, 525));
+        const ScatterFit fit = fit_scatter(psf, driver(840, 525), kStrip);
         for (const ivec2 from : {ivec2(420, 262), {421, 263}, {700, 101}}) expect_response(psf, fit, from, 1e-3);
-        for (const ivec2 from : {ivec2(839, 260), {0, 524}, {500, 0}, {837, 522}}) expect_response(psf, fit, from, 1.8e-3);
+        for (const ivec2 from : {ivec2(839, 260), {0, 524}, {500, 0}, {837, 522}}) expect_response(psf, fit, from, 1e-3);
     }
 }
 
 TEST(ScatterFit, ResponseAtFullSizeIsNearTheDefinition) {
     const EyeScatter psf = eye(24);
-    const ScatterFit fit = fit_scatter(psf, driver(1680, 1050));
+    const ScatterFit fit = fit_scatter(psf, driver(1680, 1050), kStrip);
     expect_response(psf, fit, {1260, 630}, 1e-3);
-    expect_response(psf, fit, {1679, 3}, 1.8e-3);
+    expect_response(psf, fit, {1679, 3}, 1e-3);
 }
 
-// 107 x 80 degrees. In the corners pixels see twice as far across as along, which kernels of 5 x 5 follow less well.
+// Odd sizes, whose last texels lie partly beyond the picture.
+TEST(ScatterFit, OddSizesKeepTheirLight) {
+    const EyeScatter psf = eye(70);
+    const ScatterFit fit = fit_scatter(psf, driver(801, 603), kStrip);
+    for (const ivec2 from : {ivec2(800, 602), {798, 300}, {400, 601}}) expect_response(psf, fit, from, 1e-3);
+}
+
+// 107 x 80 degrees, and 80 x 107. In the corners pixels see twice as far across as along, which kernels of 7 x 7 follow.
+// Light: 0.3 %, of which 0.1 % is what the definition has more than 90 degrees from the source.
 TEST(ScatterFit, WideViewsAreNearTheDefinition) {
     const EyeScatter psf = eye(24);
-    const ImageAngles wide{840, 525, {-1.35, -0.84}, {1.35, 0.84}};
-    const ScatterFit fit = fit_scatter(psf, wide);
-    expect_response(psf, fit, {420, 262}, 1e-3);
-    expect_response(psf, fit, {606, 146}, 1e-3);
-    expect_response(psf, fit, {820, 20}, 2e-2, 0.12, 0.4);
+    const ImageAngles wide{840, 525, {-1.35, -0.84}, {1.35, 0.84}}, high{525, 840, {-0.84, -1.35}, {0.84, 1.35}};
+    const ScatterFit fit = fit_scatter(psf, wide, kStrip);
+    EXPECT_EQ(fit.reach, kWideTapReach);
+    for (const ivec2 from : {ivec2(420, 262), {606, 146}, {820, 20}, {839, 0}}) expect_response(psf, fit, from, 3e-3);
+    const ScatterFit tall = fit_scatter(psf, high, kStrip);
+    for (const ivec2 from : {ivec2(20, 820), {0, 420}}) expect_response(psf, tall, from, 3e-3);
 }
 
 TEST(ScatterFit, SpencerWardAndSmallPictures) {
     const EyeScatter spencer = eye_scatter({ScatterSettings::Model::Spencer, {}, SpencerState::Photopic});
-    expect_response(spencer, fit_scatter(spencer, driver(420, 262)), {300, 100}, 1e-3);
+    expect_response(spencer, fit_scatter(spencer, driver(420, 262), kStrip), {300, 100}, 1e-3);
     const EyeScatter ward = eye_scatter({ScatterSettings::Model::Ward, {}, SpencerState::Photopic});
-    expect_response(ward, fit_scatter(ward, driver(420, 262)), {300, 100}, 1e-3);
+    expect_response(ward, fit_scatter(ward, driver(420, 262), kStrip), {300, 100}, 1e-3);
     const EyeScatter psf = eye(35);
-    expect_response(psf, fit_scatter(psf, driver(37, 22)), {18, 11}, 1e-3);
+    expect_response(psf, fit_scatter(psf, driver(37, 22), kStrip), {18, 11}, 1e-3);
     for (const ImageAngles& tiny : {driver(1, 1), driver(7, 5), driver(2, 1)})
-        for (float w : fit_scatter(psf, tiny).kernels) EXPECT_TRUE(std::isfinite(w));
+        for (float w : fit_scatter(psf, tiny, kStrip).kernels) EXPECT_TRUE(std::isfinite(w));
 }
 
 TEST(ScatterFit, KernelsOfASymmetricPictureAreMirrored) {
-    const ScatterFit fit = fit_scatter(eye(35), driver(64, 40));
+    const ScatterFit fit = fit_scatter(eye(35), driver(64, 40), kStrip);
     ImageAngles shifted = driver(64, 40);
     shifted.high.x = std::nextafter(shifted.high.x, 2);  // no longer symmetric, so that every node is fitted
-    const ScatterFit whole = fit_scatter(eye(35), shifted);
+    const ScatterFit whole = fit_scatter(eye(35), shifted, kStrip);
     ASSERT_EQ(fit.kernels.size(), whole.kernels.size());
-    // At the border a node that stands for others also minds what pixels near those leave in the picture.
-    const size_t node = size_t(kTaps * fit.levels);
+    const size_t node = size_t(fit.taps() * fit.levels);
     for (int y = 1; y < fit.nodes.y - 1; ++y)
         for (int x = 1; x < fit.nodes.x - 1; ++x)
             for (size_t i = 0; i < node; ++i) {
@@ -185,7 +192,7 @@ Plane night(ivec2 size, uint32_t seed) {
 void expect_frame(double age, ivec2 size, int samples) {
     const EyeScatter psf = eye(age);
     const ImageAngles image = driver(size.x, size.y);
-    const Plane scene = night(size, uint32_t(size.x)), seen = scatter(scene, fit_scatter(psf, image), kStrip);
+    const Plane scene = night(size, uint32_t(size.x)), seen = scatter(scene, fit_scatter(psf, image, kStrip));
     const ExactFrame exact(psf, image, scene);
     std::mt19937 random(5);
     std::vector<double> errors;

@@ -35,14 +35,14 @@ void expect_reference(PassRig& rig, VkExtent2D extent, std::vector<glm::vec4> pi
     const ScatterSettings settings;
     const ImageAngles image = angles_of(view_of(extent));
     const ResidentScatter resident(rig.device(), settings, image);
-    const ScatterFit fit = fit_scatter(eye_scatter(settings), image);
+    const ScatterFit fit = fit_scatter(eye_scatter(settings), image, scatter_down_strip(rig.device()));
     const std::vector<OutsideLamp> outside = lamps ? some_lamps(image) : std::vector<OutsideLamp>{};
 
     reference::Plane scene({image.width, image.height});
     for (size_t i = 0; i < pixels.size(); ++i) scene.texels[i] = dvec3(pixels[i]);
     std::vector<std::vector<glm::vec4>> lists(size_t(fit.levels) + 1);
     for (int l = 1; l <= fit.levels; ++l) lists[size_t(l)] = resident.lamps_of(l, outside);
-    const auto want = reference::scatter(scene, fit, ivec2(int(rig.kernels().scatter_down_strip.width), int(rig.kernels().scatter_down_strip.height)), lists, resident.far_veil(outside));
+    const auto want = reference::scatter(scene, fit, lists, resident.far_veil(outside));
     const auto got = seen(rig, pixels, resident, outside);
 
     Picture a(extent.width, extent.height, 3), b = a;

@@ -97,7 +97,7 @@ public:
 private:
     void check_free(const std::string& file) const {
         Files others;
-        for (const auto& [option, other] : growing_outputs(arguments_)) others.reads(other);
+        for (const auto& [option, other] : growing_outputs(arguments_)) others.writes(option, other);
         others.writes("--video", file);
         if (read_->contains(file)) throw Error("--video " + one_line(file) + ": would replace what is read");
     }
@@ -154,7 +154,7 @@ void run_headless(const DriveArguments& a) {
         DriverInput input{.autopilot = a.autopilot};
         events.assign(size_t(std::lround(a.seconds / options.time_step)), {.kind = DriveEvent::Kind::Step, .input = input, .pose = {}, .name = {}, .value = {}});
     }
-    const bool own_frames = Playback(events).has_frames() && a.fps == 0;
+    const bool own_frames = frames_in(events) > 0 && a.fps == 0;
     if (outlet.wanted() && !own_frames) events = evenly(events, options.time_step, a.fps > 0 ? a.fps : 30);
     const double fps = own_frames ? rate_of(events, options.time_step) : std::min(a.fps > 0 ? a.fps : 30, 1 / options.time_step);
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
@@ -165,7 +165,7 @@ void run_headless(const DriveArguments& a) {
     for (const std::string& note : session.scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
     if (!a.record.empty()) session.record(a.record);
     Playback playback(std::move(events), a.settings);
-    Progress progress(a.replay.empty() ? "driving" : "replaying", unsigned(std::max<size_t>(1, playback.count(DriveEvent::Kind::Frame))));
+    Progress progress(a.replay.empty() ? "driving" : "replaying", unsigned(std::max<size_t>(1, playback.frames())));
     unsigned index = 0;
     while (const DriveEvent* event = playback.next(session)) {
         if (event->kind != DriveEvent::Kind::Frame || !outlet.wanted()) continue;

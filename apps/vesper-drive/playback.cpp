@@ -4,6 +4,10 @@
 
 namespace vesper {
 
+size_t frames_in(const std::vector<DriveEvent>& events) {
+    return size_t(std::count_if(events.begin(), events.end(), [](const DriveEvent& e) { return e.kind == DriveEvent::Kind::Frame; }));
+}
+
 const DriveEvent* Playback::next(Session& session) {
     if (next_ == events_.size()) return nullptr;
     const DriveEvent& event = events_[next_++];
@@ -26,10 +30,6 @@ const DriveEvent* Playback::next(Session& session) {
 void Playback::rewind(Session& session) {
     session.rewind();
     next_ = 0, strayed_ = false;
-}
-
-size_t Playback::count(DriveEvent::Kind kind) const {
-    return size_t(std::count_if(events_.begin(), events_.end(), [&](const DriveEvent& e) { return e.kind == kind; }));
 }
 
 }  // namespace vesper

@@ -171,7 +171,7 @@ bool WindowedDrive::replay_to_next_frame() {
         if (event->kind == DriveEvent::Kind::Restart) instruments_.forget();
         if (event->kind == DriveEvent::Kind::Step) owed_ -= session_->options().time_step;
         // A drive that was recorded without frames is shown step by step.
-        if (event->kind == DriveEvent::Kind::Step && owed_ <= 0 && !replay_->has_frames()) return true;
+        if (event->kind == DriveEvent::Kind::Step && owed_ <= 0 && replay_->frames() == 0) return true;
     }
     paused_ = true;
     say(replay_->strayed() ? "the replay is over; the car went another way than when it was recorded" : "the replay is over; Backspace starts it again");

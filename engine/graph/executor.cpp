@@ -153,10 +153,16 @@ void Executor::submit(const FrameGraph& graph, const Handover& handover) {
 void Executor::finish() {
     Stopwatch watch;
     const bool last = slot_ && slot_->under_way;
-    for (const auto& slot : slots_) slot->wait();
-    if (!last) return;
-    host_times_.wait = watch.lap();
-    read_timestamps();
+    try {
+        for (const auto& slot : slots_) slot->wait();
+        host_times_.wait = last ? watch.lap() : host_times_.wait;
+        if (last) read_timestamps();
+    } catch (...) {
+        for (Past* past : turned_) past->current ^= 1;  // a frame that failed is nobody's past
+        turned_.clear();
+        throw;
+    }
+    turned_.clear();
 }
 
 // The next one in turn. With nothing under way the first, so that whoever waits for every frame has one.
@@ -236,8 +242,10 @@ void Executor::realize_histories(const FrameGraph& graph) {
 
 // Only a frame that was submitted is the past of the next.
 void Executor::turn_histories(const FrameGraph& graph) {
+    turned_.clear();
     for (uint32_t i = 0; i < graph.resources().size(); ++i)
-        if (graph.resources()[i].origin == FrameGraph::Origin::HistoryCurrent && plan_.usage[i]) histories_.at(graph.resources()[i].name)->current ^= 1;
+        if (graph.resources()[i].origin == FrameGraph::Origin::HistoryCurrent && plan_.usage[i]) turned_.push_back(histories_.at(graph.resources()[i].name).get());
+    for (Past* past : turned_) past->current ^= 1;
 }
 
 void Executor::realize_uploads(const FrameGraph& graph) {

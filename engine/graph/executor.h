@@ -92,6 +92,7 @@ private:
     HostTimes host_times_;
     std::vector<Realized> resources_;
     std::map<std::string, std::unique_ptr<Past>> histories_;
+    std::vector<Past*> turned_;  // by the last frame
     std::vector<OwnedMemory> heaps_;
     std::string placed_key_;  // what the transients were made for
     OwnedSampler sampler_;

@@ -107,12 +107,12 @@ private:
     }
 
     void accessor(const json& a, const std::string& at, uint32_t index) {
-        static const std::map<uint64_t, uint64_t> sizes{{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}};
-        static const std::map<std::string, uint64_t> columns{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 2}, {"MAT3", 3}, {"MAT4", 4}};
+        static const std::map<uint64_t, uint64_t> kSizes{{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}};
+        static const std::map<std::string, uint64_t> kColumns{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 2}, {"MAT3", 3}, {"MAT4", 4}};
         const uint64_t component = whole(a, "componentType"), elements = whole(a, "count");
-        const auto size = sizes.find(component);
-        const auto type = columns.find(a.contains("type") && a["type"].is_string() ? a["type"].get<std::string>() : "");
-        if (size == sizes.end() || type == columns.end()) return;  // noted as missing, or refused where it is read
+        const auto size = kSizes.find(component);
+        const auto type = kColumns.find(a.contains("type") && a["type"].is_string() ? a["type"].get<std::string>() : "");
+        if (size == kSizes.end() || type == kColumns.end()) return;  // noted as missing, or refused where it is read
         if (a.value("normalized", json()) == true && (component == 5125 || component == 5126)) note(at, "is normalized, which numbers of its type cannot be");
         if (a.contains("sparse") && a["sparse"].is_object() && whole(a["sparse"], "count") > elements) note(at + "/sparse/count", "is more than the " + std::to_string(elements) + " elements there are");
         if (a.contains("sparse") && a["sparse"].is_object())

@@ -107,7 +107,7 @@ class Document:
             "scenes": [{"name": name, "nodes": self.roots}],
             "nodes": self.nodes,
             "cameras": self.cameras,
-            "animations": [{"name": "drive", "channels": self.channels, "samplers": self.samplers}],
+            **({"animations": [{"name": "drive", "channels": self.channels, "samplers": self.samplers}]} if self.channels else {}),
             "meshes": self.meshes,
             "materials": self.materials,
             "textures": [{"sampler": 0, "source": i} for i in range(len(self.images))],

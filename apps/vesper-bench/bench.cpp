@@ -69,7 +69,7 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
         tone.eye.tone_operator = op, tone.glare = glare;
         static_cast<ToneChainSettings&>(run.plan.render) = tone_settings(tone);
         RunSettings& s = run.plan.settings;
-        s.scene = short_name(run.scene) + (run.luminaire.empty() ? "" : "(" + short_name(run.luminaire) + ")");
+        s.scene = short_name(run.scene) + (run.luminaire.empty() ? "" : "(" + run.luminaire + ")");
         s.tone_operator = name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
         s.width = parse_size(size).width, s.height = parse_size(size).height;
         s.threshold = double(run.plan.render.clusters.threshold);

@@ -42,7 +42,7 @@ Light luminaire_of(const std::string& name, Scene& scene) {
     }
     scene.distributions.push_back(read_distribution(name));
     const double flux = luminous_flux(scene.distributions.back());
-    if (!(flux > 0)) throw Error(name + ": no light");
+    if (!(flux > 1e-6)) throw Error(name + ": no light");
     light.kind = Light::Kind::Measured, light.distribution = 0, light.intensity = float(2 * std::numbers::pi * double(kCandela) / flux);
     return light;
 }

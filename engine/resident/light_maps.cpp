@@ -215,7 +215,7 @@ LightMaps light_maps(const Scene& scene) {
     LightMaps maps;
     const auto check_size = [&] {
         if (maps.texels.size() > kMostTexels)
-            throw Error("the scene's light distributions need more than " + std::to_string(kMostTexels) + " cells in all");
+            throw Error("the scene's light distributions need more than " + std::to_string(kMostTexels) + " texels in all");
     };
     for (const Distribution& d : scene.distributions) maps.intensities.push_back(add_intensities(d, maps.texels)), check_size();
     for (const ReflectionTable& table : scene.reflection_tables) maps.roads.push_back(add_road(extended(table), maps.texels)), check_size();

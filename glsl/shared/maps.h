@@ -9,10 +9,11 @@ SHARED_BEGIN
 // Intensities relative to the largest, over azimuth about the pole of the measurement and the angle from that pole, with
 // one more cell before and behind in either direction: what lies outside the measured range. See Light.
 
-// Before the cells, for a culling that may not lose anything: the largest relative intensity of windows of directions. Ring k has
-// angles a from the pole with sin(a / 2) * kRings from k to k + 1; azimuth from -pi is cut into kSectors equal bins, which go on around. Along either of them, of N bins, windows of level l
-// are 2^l bins long and begin every max(2^l / 2, 1) bins; level 0 comes first, level l begins at window 3 N - 4 N / 2^l, and windows 3 N - 2 and 3 N - 1 hold all bins. Ring window i and
-// sector window j have value 3 kSectors i + j, four values to a texel.
+// Before the cells stand bounds, for a culling that may not lose anything: the largest relative intensity in windows of directions. Ring k of
+// kRings has angles a from the pole with sin(a / 2) * kRings from k to k + 1; azimuth from -pi is cut into kSectors equal bins, which go on
+// around. A window is some rings by some sectors. Along either, of N bins, there are windows of 1, 2, 4 .. N bins; those of 2^l bins begin
+// every max(2^l / 2, 1) bins, and the first of them is window 3 N - 4 N / 2^l (0 for l = 0). Windows 3 N - 2 and 3 N - 1 hold all. Ring window i by
+// sector window j is value 3 kSectors i + j, four values to a texel.
 const uint kRings = 64u, kSectors = 32u;
 const uint kWindowTexels = 3u * kRings * 3u * kSectors / 4u;
 

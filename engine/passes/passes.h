@@ -91,7 +91,8 @@ struct Blocks {
 /// Selects the lamps that can light what is drawn in each block. Where that is one matt plane or one plane of road, adds up those whose
 /// light is smooth over it: a polynomial of second degree along either side meets it with at most this relative error at four pixels between its
 /// nodes, which is 1.2 times that at any other where light is smooth and up to 3.5 times where it has a kink (edges of a beam's ramp, cells of a
-/// map). A negative tolerance adds up nothing. Throws Error for an image of more blocks than the device can shade in one dispatch.
+/// map; more, in hardly a pixel, under maps with single bright nodes). A negative tolerance adds up nothing. Throws Error for an image of more
+/// blocks than the device can shade in one dispatch.
 Blocks add_blocks(FrameGraph&, const Kernels&, const GBuffer&, const Clusters&, const View&, float tolerance);
 
 /// Bits of Kernels::ShadeVariant for the lamps and roads there are.

@@ -138,11 +138,11 @@ VkExtent2D extent_of(const Channels& channels) {
 }  // namespace
 
 void run_headless(const DriveArguments& a) {
+    const FilesRead read;
     std::optional<Channels> channels;
     if (!a.channels.empty()) channels = read_channels(a.channels);
     const VkExtent2D extent = channels ? extent_of(*channels) : parse_size(a.size);
     Outlet outlet(a, extent);
-    const FilesRead read;
     std::optional<Drive> replayed;
     if (!a.replay.empty()) replayed = read_drive(a.replay);
     const DriveStart options = start_of(a, replayed);

@@ -95,6 +95,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& file, const SceneLimits&
         json_ = parse_json(chunks.json, name);
         has_binary_chunk_ = chunks.binary.has_value();
         if (chunks.binary) binary_chunk_.assign(chunks.binary->begin(), chunks.binary->end());
+        if (!chunks.binary && !list("buffers").empty() && !list("buffers")[0].find("uri")) broken_rules_.push_back("/buffers/0: has neither a uri nor a binary chunk");
     } else {
         json_ = parse_json(bytes, name);
     }

@@ -1,6 +1,7 @@
 // Rules of glTF 2.0 that a file may break without harm to its scene: noted, each with its place. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "io/image_file.h"
@@ -8,6 +9,14 @@
 
 namespace vesper {
 namespace {
+
+// A number that is whole, also where it is written as 1.0.
+std::optional<uint64_t> whole_number(const nlohmann::json& value) {
+    if (value.is_number_unsigned()) return value.get<uint64_t>();
+    if (!value.is_number_float()) return {};
+    const double number = value.get<double>();
+    return number >= 0 && number < 9e15 && number == std::floor(number) ? std::optional(uint64_t(number)) : std::nullopt;
+}
 
 using nlohmann::json;
 
@@ -37,9 +46,8 @@ public:
         for (const std::string& broken : reader_.document.broken_rules()) note("", broken);
         walk(root_, "");
         needed();
-        each("buffers", [&](const json& b, const std::string& at, uint32_t i) {
+        each("buffers", [&](const json& b, const std::string& at, uint32_t) {
             if (b.contains("byteLength") && b["byteLength"] == 0) note(at, "is empty");
-            if (i == 0 && !reader_.document.has_bytes(0)) note(at, "has neither a uri nor a binary chunk");
             uri(b, at, {"application/octet-stream", "application/gltf-buffer"});
         });
         each("accessors", [&](const json& a, const std::string& at, uint32_t i) { accessor(a, at, i); });
@@ -61,7 +69,14 @@ private:
     }
     static uint64_t whole(const json& holder, const char* key, uint64_t otherwise = 0) {
         const auto found = holder.find(key);
-        return found != holder.end() && found->is_number_unsigned() ? found->get<uint64_t>() : otherwise;
+        return found != holder.end() ? whole_number(*found).value_or(otherwise) : otherwise;
+    }
+    /// Whether an extension brings other kinds of pictures.
+    bool extended_pictures() const {
+        const json used = root_.value("extensionsUsed", json::array());
+        return used.is_array() && std::any_of(used.begin(), used.end(), [](const json& e) {
+            return e.is_string() && (e.get_ref<const std::string&>().starts_with("EXT_texture_") || e.get_ref<const std::string&>().starts_with("KHR_texture_"));
+        });
     }
     /// The element of a list that a key names, if there is one.
     const json* named(const json& holder, const char* key, const char* list) const {
@@ -80,7 +95,7 @@ private:
         }
     }
     void refer(const json& to, const std::string& at, const char* list) {
-        if (to.is_number() && (!to.is_number_unsigned() || to.get<uint64_t>() >= count(list))) note(at, "names none of the " + std::to_string(count(list)) + " " + list);
+        if (to.is_number() && whole_number(to).value_or(UINT64_MAX) >= count(list)) note(at, "names none of the " + std::to_string(count(list)) + " " + list);
         if (to.is_array() && list == std::string_view("nodes"))
             for (size_t i = 0; i < to.size(); ++i) refer(to[i], at + "/" + std::to_string(i), list);
     }
@@ -98,7 +113,7 @@ private:
         const std::string& text = found->get_ref<const std::string&>();
         if (text.starts_with("data:")) {
             const std::string_view type = std::string_view(text).substr(5, std::min(text.find_first_of(";,"), text.size()) - 5);
-            if (std::find(types.begin(), types.end(), type) == types.end()) note(at + "/uri", "has data of the type '" + std::string(type) + "'");
+            if (std::find(types.begin(), types.end(), type) == types.end() && !(type.starts_with("image/") && extended_pictures())) note(at + "/uri", "has data of the type '" + std::string(type) + "'");
             if (const size_t comma = text.find(','); comma != text.npos && text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=", comma + 1) != text.npos)
                 note(at + "/uri", "has data that are not base64");
         } else if (text.find("://") != text.npos || text.find_first_of(" \\<>\"^`{|}") != text.npos || text.starts_with('/')) {
@@ -127,7 +142,7 @@ private:
         const uint64_t offset = whole(a, "byteOffset"), stride = whole(*view, "byteStride", padded), bytes = whole(*view, "byteLength");
         if (offset % (matrix ? 4 : size->second) != 0 || (offset + whole(*view, "byteOffset")) % size->second != 0) note(at, "does not begin at a multiple of the size of its numbers");
         if (stride < padded || (view->contains("byteStride") && (stride % 4 != 0 || stride > 252))) note(at, "lies in a buffer view with a stride of " + std::to_string(stride) + " bytes");
-        if (elements > 0 && elements < UINT32_MAX && stride <= UINT32_MAX && offset <= bytes && (elements - 1) * stride + padded > bytes - offset) note(at, "reaches beyond its buffer view");
+        if (elements > 0 && elements < UINT32_MAX && stride <= UINT32_MAX && offset <= bytes && (elements - 1) * stride + padded - (matrix ? (4 - column % 4) % 4 : 0) > bytes - offset) note(at, "reaches beyond its buffer view");
         if (!matrix) limits(a, at, index, type->first, elements * type->second);
     }
 
@@ -188,13 +203,13 @@ private:
         const auto mark = [&](const json& n, const std::string&, uint32_t) {
             if (n.contains("children") && n["children"].is_array())
                 for (const json& c : n["children"])
-                    if (c.is_number_unsigned() && c.get<uint64_t>() < child.size()) child[c.get<uint64_t>()] = true;
+                    if (const auto which = whole_number(c); which && *which < child.size()) child[*which] = true;
         };
         each("nodes", mark);
         each("scenes", [&](const json& s, const std::string& at, uint32_t) {
             if (s.contains("nodes") && s["nodes"].is_array())
                 for (const json& n : s["nodes"])
-                    if (n.is_number_unsigned() && n.get<uint64_t>() < child.size() && child[n.get<uint64_t>()]) note(at, "lists a node that hangs on another");
+                    if (const auto which = whole_number(n); which && *which < child.size() && child[*which]) note(at, "lists a node that hangs on another");
         });
     }
 

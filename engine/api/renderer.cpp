@@ -94,6 +94,7 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
         const RenderSettings how = settings_of(settings);
         const float passed = seconds_of(seconds);
         const Seen seen = see(*renderer, view);
+        finish(*renderer);  // its eye stays should this frame fail
         const Frame frame = renderer->renderer.render(how, seen.view, seen.frame, passed, wanted(to));
         renderer->eye = frame.eye;
         give(frame, to);

@@ -38,6 +38,7 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
         require(p.values && (p.channels == 3 || p.channels == 4), "a picture has values, of 3 or 4 channels");
         check_picture(p.scale, p.vertical_fov);
         const HostPicture host{.extent = extent, .values = {p.values, size_t{p.width} * p.height * p.channels}, .channels = p.channels, .scale = p.scale, .vertical_fov = double(p.vertical_fov)};
+        finish(*mapper);  // its eye stays should this picture fail
         const ToneMapped shown = mapper->mapper.map(settings_of(settings), host, seconds_of(seconds), wanted(to));
         mapper->eye = shown.eye;
         give(shown, to);

@@ -18,19 +18,32 @@ namespace fs = std::filesystem;
 
 constexpr unsigned kSafeEvery = 60;  // appends: one or two seconds of a drive
 
+// A link stays a link: what it points at is replaced.
+fs::path target_of(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::is_symlink(fs::symlink_status(file, ignored))) return file;
+    const fs::path resolved = fs::weakly_canonical(file, ignored);
+    return resolved.empty() ? file : resolved;
+}
+
 }  // namespace
 
-GrowingFile::GrowingFile(const fs::path& file) : file_(file), target_(file) {
+std::string GrowingFile::part_of(const std::string& file) { return file.empty() ? "" : target_of(file).string() + ".part"; }
+
+GrowingFile::GrowingFile(const fs::path& file) : file_(file), target_(target_of(file)) {
     std::error_code ignored;
     const fs::file_status status = fs::status(file, ignored);
     if (fs::is_directory(status)) throw Error(one_line(file.string()) + ": is a folder");
     const bool directly = fs::exists(status) && !fs::is_regular_file(status);
-    // A link stays a link: what it points at is replaced.
-    if (fs::is_symlink(fs::symlink_status(file, ignored)))
-        if (const fs::path resolved = fs::weakly_canonical(file, ignored); !resolved.empty()) target_ = resolved;
-    if (!directly) part_ = part_of(target_.string());
-    descriptor_ = ::open(directly ? target_.c_str() : part_.c_str(), O_WRONLY | O_CLOEXEC | (directly ? 0 : O_CREAT | O_TRUNC), 0666);
-    if (descriptor_ < 0) fail(errno);
+    if (directly) {
+        descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    } else {
+        // A file of its own: what the name, or a link of that name, led to before is not written to.
+        part_ = part_of(file.string());
+        ::unlink(part_.c_str());
+        descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    }
+    if (descriptor_ < 0) fail(part_.empty() ? file_ : part_, errno);
     if (!directly && fs::exists(status)) ::fchmod(descriptor_, static_cast<mode_t>(status.permissions()));
 }
 
@@ -38,16 +51,16 @@ GrowingFile::~GrowingFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void GrowingFile::fail(int code) {
+void GrowingFile::fail(const fs::path& file, int code) {
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
-    throw Error(one_line(file_.string()) + ": cannot be written: " + std::generic_category().message(code));
+    throw Error(one_line(file.string()) + ": cannot be written: " + std::generic_category().message(code));
 }
 
 void GrowingFile::append(std::string_view text) {
     while (!text.empty()) {
         const ssize_t written = ::write(descriptor_, text.data(), text.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail(errno);
+        if (written < 0) fail(file_, errno);
         text.remove_prefix(static_cast<size_t>(written));
     }
     if (++unsafe_ < kSafeEvery) return;
@@ -58,8 +71,8 @@ void GrowingFile::append(std::string_view text) {
 void GrowingFile::complete() {
     ::fdatasync(descriptor_);
     // Some file systems report a full disk only here.
-    if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
-    if (!part_.empty() && ::rename(part_.c_str(), target_.c_str()) != 0) fail(errno);
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail(file_, errno);
+    if (!part_.empty() && ::rename(part_.c_str(), target_.c_str()) != 0) fail(file_, errno);
 }
 
 }  // namespace vesper

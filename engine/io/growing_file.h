@@ -8,8 +8,9 @@
 namespace vesper {
 
 /// A text file that grows as NAME.part beside the place it is meant for, and takes its name once it is complete. Whatever ends the
-/// program, what was appended is in NAME.part, and NAME holds what it held before. Something that exists and is no regular file
-/// (a pipe, /dev/stdout) is written to directly. Functions throw Error.
+/// program, what was appended is in NAME.part, and NAME holds what it held before. Of a link, NAME is what it points at. A NAME.part
+/// that is there already is removed; links of that name are, not what they lead to. Something that exists and is no regular file (a
+/// pipe, /dev/stdout) is written to directly. Functions throw Error.
 class GrowingFile {
 public:
     explicit GrowingFile(const std::filesystem::path& file);
@@ -20,10 +21,11 @@ public:
     void append(std::string_view text);
     void complete();
 
-    static std::string part_of(const std::string& file) { return file.empty() ? "" : file + ".part"; }
+    /// Where that file grows; empty for no file.
+    static std::string part_of(const std::string& file);
 
 private:
-    [[noreturn]] void fail(int code);
+    [[noreturn]] void fail(const std::filesystem::path&, int code);
 
     std::filesystem::path file_, target_, part_;
     int descriptor_ = -1;

@@ -50,6 +50,31 @@ TEST(GrowingFile, KeepsLinksAndWritesToWhatIsNoFile) {
     EXPECT_THROW(GrowingFile(folder / "missing/x"), Error);
 }
 
+// Whatever links lead from the part's name, and whatever the part of a link is: nothing is written through them.
+TEST(GrowingFile, WritesThroughNoLink) {
+    const TempFolder folder;
+    folder.write("input", "precious");
+    fs::create_symlink("input", folder / "soft.part");
+    fs::create_hard_link(folder / "input", folder / "hard.part");
+    for (const char* name : {"soft", "hard"}) {
+        GrowingFile file(folder / name);
+        file.append("new");
+        EXPECT_EQ(read_text(folder / "input"), "precious") << name;
+        file.complete();
+        EXPECT_EQ(read_text(folder / name), "new");
+        EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / name))) << name;
+    }
+    EXPECT_EQ(read_text(folder / "input"), "precious");
+    EXPECT_EQ(GrowingFile::part_of(folder / "soft"), folder / "soft.part");
+    fs::create_directory(folder / "elsewhere");
+    folder.write("elsewhere/log", "old");
+    fs::create_symlink("elsewhere/log", folder / "link");
+    EXPECT_EQ(GrowingFile::part_of(folder / "link"), folder / "elsewhere/log.part") << "where it really grows";
+    EXPECT_EQ(GrowingFile::part_of(""), "");
+    fs::create_directory(folder / "taken.part");
+    EXPECT_THROW(GrowingFile(folder / "taken"), Error);
+}
+
 TEST(FilesRead, AreThoseThatOtherFilesName) {
     const TempFolder folder;
     const FilesRead read;

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <sstream>
+#include <set>
+#include <utility>
 
 #include "io/atomic_file.h"
 
@@ -13,12 +14,22 @@ namespace {
 
 constexpr std::array kColours{"red", "yellow", "green"};  // from the top
 
-std::optional<SignalLens::Mode> mode_of(std::string word) {
-    std::erase(word, ' ');
-    if (word == "on") return SignalLens::Mode::On;
-    if (word == "off") return SignalLens::Mode::Off;
-    if (word == "flashing") return SignalLens::Mode::Flashing;
-    return std::nullopt;
+using Mode = SignalLens::Mode;
+
+const std::map<std::string, Mode> kModes{{"on", Mode::On}, {"steady", Mode::On}, {"constant", Mode::On}, {"solidon", Mode::On}, {"off", Mode::Off}, {"solidoff", Mode::Off}, {"flashing", Mode::Flashing}, {"blinking", Mode::Flashing}};
+const std::map<std::string, std::set<std::string>> kShining{{"red", {"red"}}, {"stop", {"red"}}, {"yellow", {"yellow"}}, {"amber", {"yellow"}}, {"orange", {"yellow"}},
+                                                            {"green", {"green"}}, {"go", {"green"}}, {"redyellow", {"red", "yellow"}}, {"redamber", {"red", "yellow"}}};
+
+// In lower case, parted at any of `at`, without spaces around them.
+std::vector<std::string> words_of(const std::string& text, const std::string& at) {
+    std::vector<std::string> words(1);
+    for (const char c : text) {
+        if (at.find(c) != at.npos)
+            words.emplace_back();
+        else if (c != ' ')
+            words.back() += char(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    }
+    return words;
 }
 
 }  // namespace
@@ -30,18 +41,32 @@ bool SignalLens::shines(double seconds) const {
     return now.mode == Mode::On || (now.mode == Mode::Flashing && std::fmod(seconds - now.time, 1.0) < 0.5);
 }
 
-std::optional<SignalLens::Mode> lens_in(const std::string& state, size_t place, const std::string& colour) {
-    if (state.find(';') == state.npos && state != "on" && state != "flashing") {
-        if (state == "off") return SignalLens::Mode::Off;
-        const auto names = [&](const std::string& word) { return state.find(word) != state.npos; };
-        if (!names("red") && !names("yellow") && !names("amber") && !names("green")) return std::nullopt;
-        return names(colour) || (colour == "yellow" && names("amber")) ? SignalLens::Mode::On : SignalLens::Mode::Off;
+std::optional<std::vector<Mode>> lenses_in(const std::string& state, const std::vector<std::string>& colours) {
+    std::vector<Mode> shown;
+    for (const std::string& word : words_of(state, ";"))
+        if (const auto mode = kModes.find(word); mode != kModes.end()) shown.push_back(mode->second);
+    const size_t places = size_t(std::count(state.begin(), state.end(), ';')) + 1;
+    if (shown.size() == places && places == colours.size()) return shown;
+
+    std::set<std::string> shining;
+    std::optional<Mode> how;
+    for (const std::string& word : words_of(state, " ,+-_/")) {
+        if (word.empty()) continue;
+        const auto mode = kModes.find(word);
+        const auto these = kShining.find(word);
+        if (these != kShining.end())
+            shining.insert(these->second.begin(), these->second.end());
+        else if (mode != kModes.end() && !how)
+            how = mode->second;
+        else
+            return std::nullopt;
     }
-    std::istringstream parts(state);
-    std::string word;
-    for (size_t i = 0; std::getline(parts, word, ';'); ++i)
-        if (i == place) return mode_of(word);
-    return std::nullopt;
+    // All dark is one word; of a lens that is named, on and flashing can be said; each of the colours must be there.
+    if (shining.empty() != (how == Mode::Off)) return std::nullopt;
+    shown.clear();
+    for (const std::string& colour : colours) shown.push_back(shining.erase(colour) > 0 ? how.value_or(Mode::On) : Mode::Off);
+    if (!shining.empty()) return std::nullopt;
+    return shown;
 }
 
 std::vector<SignalLens> lenses_of(const Scene& scene, const RoadNetwork& network, const EsminiRun& run, std::vector<std::string>& notes) {
@@ -52,30 +77,36 @@ std::vector<SignalLens> lenses_of(const Scene& scene, const RoadNetwork& network
     for (size_t i = 0; i < run.signals.size(); ++i) set[run.signals[i].signal].push_back(i);
 
     std::vector<SignalLens> lenses;
-    std::vector<bool> known(run.signals.size(), false);
+    std::vector<bool> found(run.signals.size(), false);
+    std::set<std::pair<std::string, std::string>> unknown;  // states, with their signals
     for (const Road& road : network.roads)
         for (const RoadSignal& signal : road.signals) {
             const std::string name = "signal_" + signal.id + "/";
-            const auto events = set.find(set.contains(signal.id) ? signal.id : signal.name);
             const bool on_foot = !lamps.contains(name + "yellow");
-            size_t place = 0;
+            std::vector<SignalLens> own;
+            std::vector<std::string> colours;
             for (const char* colour : kColours) {
                 const auto lamp = lamps.find(name + colour);
                 if (lamp == lamps.end()) continue;
-                SignalLens lens{.node = lamp->second, .otherwise = colour == std::string(on_foot ? "green" : "red"), .changes = {}};
-                if (events != set.end())
-                    for (const size_t i : events->second)
-                        if (const auto mode = lens_in(run.signals[i].state, place, colour)) lens.changes.push_back({run.signals[i].time, *mode}), known[i] = true;
-                lenses.push_back(std::move(lens));
+                own.push_back({.node = lamp->second, .otherwise = colour == std::string(on_foot ? "green" : "red"), .changes = {}});
+                colours.emplace_back(colour);
                 lamps.erase(lamp);  // of several signals with one id the first counts
-                ++place;
             }
+            if (own.empty()) continue;
+            const auto events = set.find(set.contains(signal.id) ? signal.id : signal.name);
+            for (const size_t i : events == set.end() ? std::vector<size_t>() : events->second) {
+                const SignalEvent& event = run.signals[i];
+                found[i] = true;
+                const auto shown = lenses_in(event.state, colours);
+                for (size_t k = 0; shown && k < own.size(); ++k) own[k].changes.push_back({event.time, (*shown)[k]});
+                if (!shown && unknown.emplace(event.signal, event.state).second)
+                    notes.push_back(event.place + ": '" + one_line(event.state) + "' is no state of traffic light " + one_line(event.signal) + ": it stays as it is");
+            }
+            lenses.insert(lenses.end(), own.begin(), own.end());
         }
+    std::set<std::string> missing;
     for (size_t i = 0; i < run.signals.size(); ++i)
-        if (!known[i]) {
-            notes.push_back("traffic light " + one_line(run.signals[i].signal) + ": there is none in the roads, or '" + one_line(run.signals[i].state) + "' is no state of it");
-            break;
-        }
+        if (!found[i] && missing.insert(run.signals[i].signal).second) notes.push_back(run.signals[i].place + ": there is no traffic light " + one_line(run.signals[i].signal) + " in the roads");
     return lenses;
 }
 

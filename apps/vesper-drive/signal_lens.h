@@ -24,12 +24,12 @@ struct SignalLens {
     bool shines(double seconds) const;
 };
 
-/// How a lens is in a state of its signal: "on;off;off" by its place from the top (on, off, flashing: once a second), or words that
-/// name what shines ("red", "yellow" or "amber", "green"; "off"). Nothing where the state is none of that.
-std::optional<SignalLens::Mode> lens_in(const std::string& state, size_t place, const std::string& colour);
+/// What the lenses of a signal, whose colours from the top these are, show in a state of it (docs/roads.md has the words): one word for
+/// each by its place ("on;off;off"), or words that name what shines ("red", "flashing yellow"; "off"). Nothing where it is none of that.
+std::optional<std::vector<SignalLens::Mode>> lenses_in(const std::string& state, const std::vector<std::string>& colours);
 
 /// Of all lenses ("signal_ID/red" and so on: LitRoadOptions::every_lens) of a scene. Signals that the run does not set stay as they
-/// are without one: red for cars, green for people on foot. Adds a note on what was not understood.
+/// are without one: red for cars, green for people on foot; so they do in states that are not understood, of each of which there is one note.
 std::vector<SignalLens> lenses_of(const Scene&, const RoadNetwork&, const EsminiRun&, std::vector<std::string>& notes);
 
 }  // namespace vesper

@@ -78,6 +78,7 @@ struct RunEntity {
 struct SignalEvent {
     double time = 0;
     std::string signal, state;
+    std::string place = {};  ///< where the scenario says so
 };
 
 struct EsminiRun {

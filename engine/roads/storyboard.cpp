@@ -112,7 +112,7 @@ struct Player {
                  infrastructure.children_of("TrafficSignalAction", "TrafficSignalStateAction")) {
                 const std::string name = resolved(each, "name", scope).value_or(""),
                                   state = resolved(each, "state", scope).value_or("");
-                run.signals.push_back({time, name, state});
+                run.signals.push_back({time, name, state, each.place()});
                 story.signals[name] = state;
             }
         for (const XmlElement& environment : element.children_of("EnvironmentAction", "Environment"))

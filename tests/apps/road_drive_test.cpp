@@ -124,18 +124,42 @@ TEST(RoadDrive, ARunOfOtherRoadsIsRefused) {
 
 TEST(RoadDrive, StatesOfTrafficLights) {
     using Mode = SignalLens::Mode;
-    EXPECT_EQ(lens_in("off;off;on", 2, "green"), Mode::On);
-    EXPECT_EQ(lens_in("off; flashing ;on", 1, "yellow"), Mode::Flashing);
-    EXPECT_EQ(lens_in("on;off", 2, "green"), std::nullopt);
-    EXPECT_EQ(lens_in("red", 0, "red"), Mode::On);
-    EXPECT_EQ(lens_in("red;yellow", 0, "red"), std::nullopt);
-    EXPECT_EQ(lens_in("redyellow", 1, "yellow"), Mode::On);
-    EXPECT_EQ(lens_in("amber", 1, "yellow"), Mode::On);
-    EXPECT_EQ(lens_in("off", 0, "red"), Mode::Off);
-    EXPECT_EQ(lens_in("", 0, "red"), std::nullopt);
+    constexpr Mode O = Mode::Off, I = Mode::On, F = Mode::Flashing;
+    const std::vector<std::pair<const char*, std::vector<Mode>>> known{
+        {"off;off;on", {O, O, I}}, {"off; flashing ;on", {O, F, I}}, {"ON;Off;OFF", {I, O, O}}, {"red", {I, O, O}}, {"Red", {I, O, O}}, {"stop", {I, O, O}}, {"GREEN", {O, O, I}}, {"amber", {O, I, O}},
+        {"redyellow", {I, I, O}}, {"red-yellow", {I, I, O}}, {"RED_AMBER", {I, I, O}}, {"yellow flashing", {O, F, O}}, {"Flashing Yellow", {O, F, O}}, {"blinking,red", {F, O, O}}, {"green on", {O, O, I}}, {"off", {O, O, O}}, {"OFF", {O, O, O}}};
+    for (const auto& [state, shown] : known) EXPECT_EQ(lenses_in(state, {"red", "yellow", "green"}), shown) << state;
+    // Words that are none, or say nothing of these lenses, among them what once looked like a colour.
+    for (const char* state : {"", " ", ";", "on", "flashing", "on;off", "on;off;off;off", "red;off;off", "red;yellow", "red off", "infrared", "reddish", "evergreen", "purple", "red purple", "on;off;perhaps", "on on red"})
+        EXPECT_EQ(lenses_in(state, {"red", "yellow", "green"}), std::nullopt) << state;
+    EXPECT_EQ(lenses_in("on;off", {"red", "green"}), (std::vector{I, O}));
+    EXPECT_EQ(lenses_in("yellow", {"red", "green"}), std::nullopt) << "has none";
+    EXPECT_EQ(lenses_in("on", {"yellow"}), std::vector{I});
+    EXPECT_EQ(lenses_in("flashing", {"yellow"}), std::vector{F});
     const SignalLens lens{.node = 0, .otherwise = true, .changes = {{2, Mode::Off}, {4, Mode::Flashing}}};
     const std::map<double, bool> wanted{{0, true}, {2, false}, {3.9, false}, {4.1, true}, {4.6, false}, {5.2, true}};
     for (const auto& [seconds, lit] : wanted) EXPECT_EQ(lens.shines(seconds), lit) << seconds;
+}
+
+// What is no state is named with its place, once; the light stays as it was.
+TEST(RoadDrive, UnknownStatesOfTrafficLightsAreNoted) {
+    Scene scene;
+    RoadNetwork network;
+    network.roads.resize(1);
+    network.roads[0].signals.resize(1);
+    network.roads[0].signals[0].id = "7";
+    for (const char* colour : {"red", "yellow", "green"}) {
+        Node& node = scene.nodes.emplace_back();
+        node.name = std::string("signal_7/") + colour, node.light = 0;
+    }
+    EsminiRun run;
+    run.signals = {{1, "7", "Green", "s.xosc:3"}, {2, "7", "purple", "s.xosc:4"}, {3, "7", "purple", "s.xosc:5"}, {4, "8", "red", "s.xosc:6"}};
+    std::vector<std::string> notes;
+    const std::vector<SignalLens> lenses = lenses_of(scene, network, run, notes);
+    EXPECT_EQ(notes, (std::vector<std::string>{"s.xosc:4: 'purple' is no state of traffic light 7: it stays as it is", "s.xosc:6: there is no traffic light 8 in the roads"}));
+    ASSERT_EQ(lenses.size(), 3u);
+    for (const double seconds : {0.5, 1.5, 2.5, 9.0})
+        for (size_t i = 0; i < 3; ++i) EXPECT_EQ(lenses[i].shines(seconds), i == (seconds < 1 ? 0u : 2u)) << seconds;
 }
 
 // The lights of a scenario shine as it sets them: green for cars, then yellow, red, and green again.

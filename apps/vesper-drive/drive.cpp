@@ -57,9 +57,9 @@ void check_outputs(const DriveArguments& a, const FilesRead& read) {
         if (!file.empty() && read.contains(file)) throw Error(option + " " + one_line(file) + ": would replace what is read");
 }
 
-DriveStart start_of(const DriveArguments& a, const std::optional<Drive>& replayed) {
-    if (!replayed) return {.scene = a.scene, .run = a.run, .scenario = a.scenario, .seed = a.seed, .settings = a.settings};
-    DriveStart start = replayed->start;
+DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {
+    if (a.replay.empty()) return {.scene = a.scene, .run = a.run, .scenario = a.scenario, .seed = a.seed, .settings = a.settings};
+    DriveStart start = recorded;
     for (const auto& [name, value] : a.settings) start.settings[name] = value;
     return start;
 }

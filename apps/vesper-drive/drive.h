@@ -1,7 +1,6 @@
 // The command line of vesper-drive. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,8 +33,8 @@ struct DriveArguments {
 
 void add_drive(CLI::App& program);
 
-/// How the drive begins that the command line asks for, or, of a recording, that one, with the settings given beside it.
-DriveStart start_of(const DriveArguments&, const std::optional<Drive>& replayed);
+/// How the drive begins that the command line asks for: where it names a recording, as that does, with the settings given beside it.
+DriveStart start_of(const DriveArguments&, const DriveStart& recorded);
 
 /// What is written while a drive goes on, by the option that names it.
 std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArguments&);

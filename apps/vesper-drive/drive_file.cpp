@@ -1,5 +1,10 @@
 #include "drive_file.h"
 
+#include <algorithm>
+#include <span>
+#include <tuple>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "arguments.h"
@@ -78,105 +83,146 @@ DriveSettings::Values read_values(const JsonValue& object) {
     return values;
 }
 
-// A file whose program ended early: up to its last whole line, and closed.
-std::vector<uint8_t> completed(std::vector<uint8_t> text, bool& was_complete) {
-    const auto parses = [](const std::vector<uint8_t>& candidate) { return json::accept(candidate.begin(), candidate.end()); };
-    was_complete = parses(text);
-    if (was_complete) return text;
-    // The last line may have been cut short.
-    for (int tries = 0; tries < 2; ++tries) {
-        std::vector<uint8_t> candidate = text;
-        for (const char c : {']', '}'}) candidate.push_back(uint8_t(c));
-        if (parses(candidate)) return candidate;
-        while (!text.empty() && text.back() != '\n') text.pop_back();
+// What an event of a file says, added to a drive. `input`: of the step before.
+void read_event(const JsonValue& event, uint64_t place, DriverInput& input, DriveEvents& events) {
+    event.allow_only({"step", "pose", "frame", "set", "restart"});
+    if (event.json().size() != (event.find("step") ? 2 : 1)) event.fail("is more than one step, frame, set or restart");
+    const auto happens = [&](const char* name) {
+        const auto found_event = event.find(name);
+        if (found_event && !(found_event->json().is_boolean() && found_event->json().get<bool>())) found_event->fail("must be true");
+        return found_event.has_value();
+    };
+    if (const auto step = event.find("step")) {
+        input = read_input(*step, input);
+        const auto pose = event.at("pose").elements(4);
+        events.push_back({.kind = DriveEvent::Kind::Step, .input = input, .pose = glm::dvec4(pose[0].number(), pose[1].number(), pose[2].number(), pose[3].number()), .name = {}, .value = {}});
+    } else if (const auto set = event.find("set")) {
+        for (const auto& [name, value] : read_values(*set)) events.push_back({.kind = DriveEvent::Kind::Set, .input = {}, .pose = {}, .name = name, .value = value, .place = place});
+    } else if (happens("frame")) {
+        events.push_back({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
+    } else if (happens("restart")) {
+        events.push_back({.kind = DriveEvent::Kind::Restart, .name = {}, .value = {}});
+    } else {
+        event.fail("is no step, frame, set or restart");
     }
-    return text;
 }
+
+// Takes events as they are parsed, so that a long drive is never in memory as JSON, and gives back the rest of the file.
+class DriveParser {
+public:
+    DriveParser(std::string name, Drive& drive) : name_(std::move(name)), drive_(drive) {}
+
+    JsonFile parse(std::span<const uint8_t> text) {
+        try {
+            std::ignore = json::parse(text.begin(), text.end(), [this](int depth, json::parse_event_t at, json& value) { return take(depth, at, value); });
+        } catch (const json::parse_error& error) {
+            // A file whose program ended early is whole up to its last line.
+            const auto rest = text.subspan(std::min(text.size(), size_t(error.byte)));
+            drive_.complete = false;
+            if (key_ != "events" || std::find(rest.begin(), rest.end(), '\n') != rest.end()) throw Error(name_ + ": byte " + std::to_string(error.byte) + ": not valid JSON");
+            rest_[key_] = json::array();
+        } catch (const json::exception& error) {  // a number beyond double
+            throw Error(name_ + ": not valid JSON: " + one_line(error.what()));
+        }
+        return {name_, std::move(rest_)};
+    }
+
+private:
+    static constexpr int kMostDepth = 8, kMostValues = 10'000;  // of JSON; of an event, or beside them
+
+    bool take(int depth, json::parse_event_t at, json& value) {
+        using Event = json::parse_event_t;
+        if (depth > kMostDepth || ++values_ > kMostValues) throw Error(name_ + ": /" + key_ + ": has more in it than a drive has");
+        if (depth == 1 && at == Event::key) key_ = value.get<std::string>();
+        const bool ends = at == Event::value || at == Event::object_end || at == Event::array_end;
+        if (depth == 1 && ends) rest_[key_] = std::move(value);
+        if (depth != 2 || !ends || key_ != "events") return true;
+        const JsonFile event(name_, std::move(value), "/events/" + std::to_string(place_));
+        read_event(JsonValue(event), place_++, input_, drive_.events);
+        values_ = 0;
+        return false;
+    }
+
+    std::string name_;
+    Drive& drive_;
+    json rest_;
+    std::string key_;  // of the root, where the parser is
+    int values_ = 0;
+    uint64_t place_ = 0;
+    DriverInput input_;
+};
 
 }  // namespace
 
 Drive read_drive(const std::filesystem::path& file) {
-    Drive drive;
-    const JsonFile text = parse_json(completed(read_file(file, kMostBytes), drive.complete), file.string());
+    Drive drive{.file = file, .start = {}, .events = {}};
+    const JsonFile text = DriveParser(one_line(file.string()), drive).parse(read_file(file, kMostBytes));
     const JsonValue root(text);
     root.allow_only({"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "settings", "events"});
     if (root.at("vesper_drive").integer() != 1) root.at("vesper_drive").fail("this version of Vesper reads drives of version 1");
+    root.at("events").elements();
     const auto found = [&](const std::filesystem::path& named) { return named.empty() || named.is_absolute() ? named : file.parent_path() / named; };
     drive.start.scene = found(root.at("scene").text());
     drive.start.run = found(root.text_or("run", "")), drive.start.scenario = found(root.text_or("scenario", ""));
     drive.start.seed = root.integer_or("seed", 1);
     drive.start.time_step = root.number_or("time_step_s", 1.0 / 60, 1e-4, 0.1);
-    // Settings are tried here, so that a wrong one is named with its place, not met in the middle of a film.
-    DriveSettings settings;
-    const auto change = [&](const JsonValue& object, const std::string& name, const std::string& value) {
-        try {
-            settings.set(name, value);
-        } catch (const Error& error) {
-            object.fail(error.what());
-        }
-    };
     if (const auto object = root.find("settings")) {
         drive.start.settings = read_values(*object);
         try {
-            settings = DriveSettings(drive.start.settings);
+            DriveSettings(drive.start.settings);
         } catch (const Error& error) {
             object->fail(error.what());
         }
     }
-    DriverInput input;
-    for (const JsonValue& event : root.at("events").elements()) {
-        event.allow_only({"step", "pose", "frame", "set", "restart"});
-        if (event.json().size() != (event.find("step") ? 2 : 1)) event.fail("is more than one step, frame, set or restart");
-        const auto happens = [&](const char* name) {
-            const auto found_event = event.find(name);
-            if (found_event && !(found_event->json().is_boolean() && found_event->json().get<bool>())) found_event->fail("must be true");
-            return found_event.has_value();
-        };
-        if (const auto step = event.find("step")) {
-            input = read_input(*step, input);
-            const auto pose = event.at("pose").elements(4);
-            drive.events.push_back({.kind = DriveEvent::Kind::Step, .input = input, .pose = glm::dvec4(pose[0].number(), pose[1].number(), pose[2].number(), pose[3].number()), .name = {}, .value = {}});
-        } else if (const auto set = event.find("set")) {
-            for (const auto& [name, value] : read_values(*set)) {
-                change(*set, name, value);
-                drive.events.push_back({.kind = DriveEvent::Kind::Set, .name = name, .value = value});
-            }
-        } else if (happens("frame")) {
-            drive.events.push_back({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
-        } else if (happens("restart")) {
-            drive.events.push_back({.kind = DriveEvent::Kind::Restart, .name = {}, .value = {}});
-        } else {
-            event.fail("is no step, frame, set or restart");
+    check_settings(drive, {}, [](const DriveSettings&) {});
+    return drive;
+}
+
+void check_settings(const Drive& drive, const DriveSettings::Values& kept, const std::function<void(const DriveSettings&)>& usable) {
+    DriveSettings::Values start = drive.start.settings;
+    for (const auto& [name, value] : kept) start[name] = value;
+    DriveSettings settings(start);
+    for (const DriveEvent& event : drive.events) {
+        if (event.kind != DriveEvent::Kind::Set || kept.contains(event.name)) continue;
+        try {
+            settings.set(event.name, event.value);
+            usable(settings);
+        } catch (const Error& error) {
+            throw Error(one_line(drive.file.string()) + ": /events/" + std::to_string(event.place) + "/set: " + one_line(error.what(), 1000));
         }
     }
-    return drive;
 }
 
 DriveRecorder::DriveRecorder(DriveStart start) : start_(std::move(start)) {}
 
 void DriveRecorder::add(const DriveEvent& event) {
-    std::string line = first_ ? "" : ",";
+    events_.push_back(event);
+    if (file_) write(line(event));
+}
+
+std::string DriveRecorder::line(const DriveEvent& event) {
+    std::string line = std::exchange(first_, false) ? "" : ",";
     switch (event.kind) {
-        case DriveEvent::Kind::Step:
-            line += step_text(event, last_);
-            last_ = event.input;
-            break;
+        case DriveEvent::Kind::Step: line += step_text(event, std::exchange(last_, event.input)); break;
         case DriveEvent::Kind::Frame: line += "{\"frame\":true}"; break;
         case DriveEvent::Kind::Set: line += json{{"set", {{event.name, event.value}}}}.dump(); break;
         case DriveEvent::Kind::Restart: line += "{\"restart\":true}"; break;
     }
-    line += "\n";
-    first_ = false;
-    lines_ += line;
-    if (file_) write(line);
+    return line + "\n";
 }
 
 void DriveRecorder::open(const std::filesystem::path& file) {
+    constexpr size_t kAtOnce = 1 << 20;  // bytes
     close();
     file_ = std::make_unique<GrowingFile>(file);
+    first_ = true, last_ = {};
     std::error_code failed;
-    const std::filesystem::path folder = std::filesystem::absolute(file, failed).parent_path();
-    write(heading(start_, folder) + lines_);
+    std::string text = heading(start_, std::filesystem::absolute(file, failed).parent_path());
+    for (const DriveEvent& event : events_) {
+        text += line(event);
+        if (text.size() > kAtOnce) write(std::exchange(text, {}));
+    }
+    write(text);
 }
 
 void DriveRecorder::write(const std::string& text) {

@@ -2,27 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include <glm/glm.hpp>
-
+#include "drive_events.h"
 #include "io/growing_file.h"
 #include "settings.h"
-#include "simulation/driver.h"
 
 namespace vesper {
-
-/// What happened, in the order in which it did.
-struct DriveEvent {
-    enum class Kind : uint8_t { Step, Frame, Set, Restart };
-    Kind kind = Kind::Step;
-    DriverInput input;              ///< Step
-    std::optional<glm::dvec4> pose; ///< Step: X, Z (m), yaw (rad) and speed (m/s) of the driver's car after it, where that is known
-    std::string name, value;        ///< Set
-};
 
 /// How a drive begins.
 struct DriveStart {
@@ -34,15 +22,20 @@ struct DriveStart {
 };
 
 struct Drive {
+    std::filesystem::path file;
     DriveStart start;
-    std::vector<DriveEvent> events;
+    DriveEvents events;
     bool complete = true;  ///< false: its program ended before it did
 };
 
 /// Reads a drive, also one that breaks off. Throws Error, naming file, place and reason.
 Drive read_drive(const std::filesystem::path&);
 
-/// Remembers a drive as the lines of its file, and keeps that file up to date once there is one (GrowingFile: read_drive also takes
+/// Shows `usable` all settings that a drive comes to have after its start, in their order; what was given beside it (`kept`) wins over
+/// what it sets. Where that throws Error, this does, naming file and place.
+void check_settings(const Drive&, const DriveSettings::Values& kept, const std::function<void(const DriveSettings&)>& usable);
+
+/// Remembers a drive, and keeps that file up to date once there is one (GrowingFile: read_drive also takes
 /// the part of it that a broken drive leaves).
 class DriveRecorder {
 public:
@@ -56,12 +49,13 @@ public:
     bool is_open() const { return file_ != nullptr; }
 
 private:
+    std::string line(const DriveEvent&);
     void write(const std::string&);
 
     DriveStart start_;
-    std::string lines_;  // of the events so far
-    bool first_ = true;
-    DriverInput last_;
+    DriveEvents events_;
+    bool first_ = true;  // the next line
+    DriverInput last_;   // of the lines so far
     std::unique_ptr<GrowingFile> file_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "arguments.h"
 #include "base/error.h"
@@ -62,13 +63,7 @@ std::vector<LogProbe> probes_of(const std::vector<std::string>& texts) {
 DriveLog::DriveLog(const std::string& file, std::vector<LogProbe> probes) : file_(file), probes_(std::move(probes)) { file_.append(heading(probes_)); }
 
 // NODE@SPEED of each, the speed (m/s) at which they met; several are parted by semicolons.
-std::string DriveLog::contacts_since(const World& world) {
-    std::string text;
-    const std::vector<Contact>& contacts = world.contacts();
-    if (contacts_ > contacts.size()) contacts_ = 0;  // another start
-    for (; contacts_ < contacts.size(); ++contacts_) text += (text.empty() ? "" : ";") + csv_name(contacts[contacts_].node) + format("@%.3g", contacts[contacts_].speed);
-    return text;
-}
+void DriveLog::add(const Contact& contact) { contacts_ += (contacts_.empty() ? "" : ";") + csv_name(contact.node) + format("@%.3g", contact.speed); }
 
 void DriveLog::add(const Session& session, const View& view, const Frame& frame) {
     const World& world = session.world();
@@ -78,7 +73,7 @@ void DriveLog::add(const Session& session, const View& view, const Frame& frame)
     const RenderSettings& settings = session.settings().render();
     std::string line = format("%u,%llu,%.6f,%.9g,%s", rows_++, static_cast<unsigned long long>(world.steps()), world.seconds(), session.eye_step(), name_of(settings.tone_operator).c_str());
     for (const double value : {me.position.x, me.position.y, me.position.z, me.yaw, me.pitch, me.speed, car.acceleration, car.angle}) line += format(",%.9g", value);
-    line += format(",%zu,%.4g,%.4g,%.4g,%d", world.driver_lane(), input.throttle, input.brake, input.steering, int(world.touched())) + "," + contacts_since(world);
+    line += format(",%zu,%.4g,%.4g,%.4g,%d", world.driver_lane(), input.throttle, input.brake, input.steering, int(world.touched())) + "," + std::exchange(contacts_, {});
     for (const float value : {frame.curve.adaptation, frame.curve.cone_sigma, frame.eye.cones.pigment, frame.eye.cones.fast, frame.eye.cones.slow, frame.curve.log_average}) line += format(",%.9g", double(value));
     if (frame.scene.empty()) {
         const std::string columns = heading(probes_).substr(heading({}).find(",minimum"));

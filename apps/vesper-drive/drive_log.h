@@ -22,17 +22,17 @@ class DriveLog {
 public:
     DriveLog(const std::string& file, std::vector<LogProbe> probes);
 
+    /// What the next row says was met.
+    void add(const Contact&);
     /// `frame` must have its luminances; without them (the ldr operator) the columns that need them are empty.
     void add(const Session&, const View&, const Frame& frame);
     void complete() { file_.complete(); }
 
 private:
-    std::string contacts_since(const World&);
-
     GrowingFile file_;
     std::vector<LogProbe> probes_;
     unsigned rows_ = 0;
-    size_t contacts_ = 0;  // of the world that were there at the last row
+    std::string contacts_;  // since the last row, as the next has them
 };
 
 }  // namespace vesper

@@ -24,9 +24,10 @@ namespace vesper {
 namespace {
 
 // Steps of time with frames at an even rate among them.
-std::vector<DriveEvent> evenly(const std::vector<DriveEvent>& events, double time_step, double fps) {
+DriveEvents evenly(const DriveEvents& events, double time_step, double fps) {
     const DriveEvent frame{.kind = DriveEvent::Kind::Frame, .pose = {}, .name = {}, .value = {}};
-    std::vector<DriveEvent> made{frame};
+    DriveEvents made;
+    made.push_back(frame);
     uint64_t steps = 0, frames = 1;
     for (const DriveEvent& event : events) {
         if (event.kind == DriveEvent::Kind::Frame) continue;
@@ -40,7 +41,7 @@ std::vector<DriveEvent> evenly(const std::vector<DriveEvent>& events, double tim
 }
 
 // Frames a second that a film of recorded frames plays with.
-double rate_of(const std::vector<DriveEvent>& events, double time_step) {
+double rate_of(const DriveEvents& events, double time_step) {
     std::vector<unsigned> strides;
     unsigned steps = 0;
     for (const DriveEvent& event : events) {
@@ -62,21 +63,29 @@ public:
             if (!film_ && !exr_ && !a.video.ends_with(".png")) throw Error("--video " + one_line(a.video) + ": .mp4, .png or .exr is expected");
             if (!film_) names_ = numbered_name("--video", a.video);
             if (!film_ && !names_) throw Error("--video " + one_line(a.video) + ": one file a frame needs a number in the name, such as %05d");
-            Files files;
-            files.writes("--video", film_ ? a.video : names_->at(0));
+            Files().writes("--video", film_ ? a.video : names_->at(0));
         }
     }
     bool wanted() const { return film_ || names_ || !arguments_.log.empty(); }
-    /// Once everything is read, and before anything is written.
-    void open(const FilesRead& read) {
+    /// Throws Error if pictures with these settings cannot go there, in a film that begins with those of `first`.
+    void check(const DriveSettings& settings, const DriveSettings& first) const {
+        const Display &display = settings.render().display, &before = first.render().display;
+        if (exr_ && settings.render().tone_operator == Operator::Ldr) throw Error("--video " + one_line(arguments_.video) + ": the ldr operator has no luminances to write");
+        if (film_ && (display.bits != before.bits || display.eotf != before.eotf || display.primaries != before.primaries))
+            throw Error("--video " + one_line(arguments_.video) + ": a film has codes of one kind, and those of this display are others");
+    }
+    /// Once everything is read, and before anything is written: no name of so many frames may be another file's.
+    void open(const FilesRead& read, size_t frames) {
         check_outputs(arguments_, read);
-        read_ = &read;
-        if (film_) check_free(arguments_.video);
+        if (film_) check_free(arguments_.video, read);
+        for (size_t i = 0; names_ && i < frames; ++i) check_free(names_->at(unsigned(i)), read);
         if (!arguments_.log.empty()) log_.emplace(arguments_.log, probes_);
+    }
+    void add(const Contact& contact) {
+        if (log_) log_->add(contact);
     }
     Outputs outputs(const Session& session) const {
         const bool ldr = session.settings().render().tone_operator == Operator::Ldr;
-        if (ldr && exr_) throw Error("--video " + arguments_.video + ": the ldr operator has no luminances to write");
         return {.display = film_ || (names_ && !exr_), .scene = exr_ || (log_ && !ldr)};
     }
     /// `shown`: the picture; `logged`: what the log says of it, seen by `view`.
@@ -84,7 +93,6 @@ public:
         const Display& display = session.settings().render().display;
         if (film_ && !video_) video_ = std::make_unique<Video>(arguments_.video, extent_.width, extent_.height, fps, display);
         if (video_) video_->add(shown.display);
-        if (names_) check_free(names_->at(index));
         if (names_ && !exr_) write_codes(names_->at(index), shown, display);
         if (names_ && exr_) write_exr(names_->at(index), extent_.width, extent_.height, shown.scene, header(session, shown, logged.lights));
         if (log_) log_->add(session, view, logged);
@@ -95,11 +103,11 @@ public:
     }
 
 private:
-    void check_free(const std::string& file) const {
+    void check_free(const std::string& file, const FilesRead& read) const {
         Files others;
         for (const auto& [option, other] : growing_outputs(arguments_)) others.writes(option, other);
         others.writes("--video", file);
-        if (read_->contains(file)) throw Error("--video " + one_line(file) + ": would replace what is read");
+        if (read.contains(file)) throw Error("--video " + one_line(file) + ": would replace what is read");
     }
     Header header(const Session& session, const ToneMapped& frame, uint32_t lights) const {
         Header made{{"vesper:version", VESPER_VERSION},
@@ -117,7 +125,6 @@ private:
     std::vector<LogProbe> probes_;
     bool film_ = false, exr_ = false;
     std::optional<NumberedName> names_;
-    const FilesRead* read_ = nullptr;  // what no frame may replace
     std::unique_ptr<Video> video_;
     std::optional<DriveLog> log_;
 };
@@ -143,32 +150,33 @@ void run_headless(const DriveArguments& a) {
     if (!a.channels.empty()) channels = read_channels(a.channels);
     const VkExtent2D extent = channels ? extent_of(*channels) : parse_size(a.size);
     Outlet outlet(a, extent);
-    std::optional<Drive> replayed;
-    if (!a.replay.empty()) replayed = read_drive(a.replay);
-    const DriveStart options = start_of(a, replayed);
-    std::vector<DriveEvent> events;
-    if (replayed) {
-        if (!replayed->complete) std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", one_line(a.replay).c_str());
-        events = std::move(replayed->events);
-    } else {
-        DriverInput input{.autopilot = a.autopilot};
-        events.assign(size_t(std::lround(a.seconds / options.time_step)), {.kind = DriveEvent::Kind::Step, .input = input, .pose = {}, .name = {}, .value = {}});
-    }
-    const bool own_frames = frames_in(events) > 0 && a.fps == 0;
-    if (outlet.wanted() && !own_frames) events = evenly(events, options.time_step, a.fps > 0 ? a.fps : 30);
-    const double fps = own_frames ? rate_of(events, options.time_step) : std::min(a.fps > 0 ? a.fps : 30, 1 / options.time_step);
+    Drive drive;
+    const bool replays = !a.replay.empty();
+    if (replays) drive = read_drive(a.replay);
+    const DriveStart options = start_of(a, drive.start);
+    if (!drive.complete) std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", one_line(a.replay).c_str());
+    const DriveEvent step{.kind = DriveEvent::Kind::Step, .input = {.autopilot = a.autopilot}, .pose = {}, .name = {}, .value = {}};
+    for (long left = replays ? 0 : std::lround(a.seconds / options.time_step); left > 0; --left) drive.events.push_back(step);
+    const bool own_frames = drive.events.frames() > 0 && a.fps == 0;
+    if (outlet.wanted() && !own_frames) drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : 30);
+    const double fps = own_frames ? rate_of(drive.events, options.time_step) : std::min(a.fps > 0 ? a.fps : 30, 1 / options.time_step);
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
 
     Device device({.select = a.device});
     Session session(device, options);
-    outlet.open(read);
+    const DriveSettings first = session.settings();
+    const auto usable = [&](const DriveSettings& settings) { outlet.check(session.scenery().check(settings), first); };
+    usable(first);
+    check_settings(drive, a.settings, usable);
+    Playback playback(std::move(drive.events), a.settings);
+    outlet.open(read, playback.frames());
+    session.on_contact = [&](const Contact& contact) { outlet.add(contact); };
     for (const std::string& note : session.scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
     if (!a.record.empty()) session.record(a.record);
-    Playback playback(std::move(events), a.settings);
-    Progress progress(a.replay.empty() ? "driving" : "replaying", unsigned(std::max<size_t>(1, playback.frames())));
+    Progress progress(replays ? "replaying" : "driving", unsigned(std::max<size_t>(1, playback.frames())));
     unsigned index = 0;
-    while (const DriveEvent* event = playback.next(session)) {
-        if (event->kind != DriveEvent::Kind::Frame || !outlet.wanted()) continue;
+    while (const auto kind = playback.next(session)) {
+        if (kind != DriveEvent::Kind::Frame || !outlet.wanted()) continue;
         if (channels) {
             take_wall(outlet, index++, session, *channels, fps);
         } else {

@@ -1,16 +1,11 @@
 #include "playback.h"
 
-#include <algorithm>
-
 namespace vesper {
 
-size_t frames_in(const std::vector<DriveEvent>& events) {
-    return size_t(std::count_if(events.begin(), events.end(), [](const DriveEvent& e) { return e.kind == DriveEvent::Kind::Frame; }));
-}
-
-const DriveEvent* Playback::next(Session& session) {
-    if (next_ == events_.size()) return nullptr;
-    const DriveEvent& event = events_[next_++];
+std::optional<DriveEvent::Kind> Playback::next(Session& session) {
+    if (next_ == events_.end()) return std::nullopt;
+    const DriveEvent& event = *next_;
+    const DriveEvent::Kind kind = event.kind;
     switch (event.kind) {
         case DriveEvent::Kind::Step: {
             session.step(event.input);
@@ -24,12 +19,13 @@ const DriveEvent* Playback::next(Session& session) {
         case DriveEvent::Kind::Restart: session.restart(); break;
         case DriveEvent::Kind::Frame: break;
     }
-    return &event;
+    ++next_;
+    return kind;
 }
 
 void Playback::rewind(Session& session) {
     session.rewind();
-    next_ = 0, strayed_ = false;
+    next_ = events_.begin(), strayed_ = false;
 }
 
 }  // namespace vesper

@@ -22,8 +22,10 @@ DriveStart Session::start() const {
 
 void Session::step(const DriverInput& input) {
     input_ = input;
+    const size_t met = world_->contacts().size();
     world_->step(input, options_.time_step);
     actors_ = world_->actors();
+    for (size_t i = met; on_contact && i < world_->contacts().size(); ++i) on_contact(world_->contacts()[i]);
     const VehicleState& me = world_->driver();
     recorder_->add({.kind = DriveEvent::Kind::Step, .input = input, .pose = glm::dvec4(me.position, me.yaw, me.speed), .name = {}, .value = {}});
 }

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ public:
 
     // The world.
     void step(const DriverInput&);
+    /// Called in step() for everything that the car meets.
+    std::function<void(const Contact&)> on_contact;
     /// Back to the start, with the eye adapted anew. A recording goes on; what was not recorded is forgotten.
     void restart();
     /// The same, with the settings of the start.

@@ -50,16 +50,17 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
       hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
     const FilesRead read;
     if (!a.channels.empty()) channels_ = read_channels(a.channels);
-    std::optional<Drive> drive;
+    Drive drive;
     if (!a.replay.empty()) {
         drive = read_drive(a.replay);
-        arguments_.scene = drive->start.scene.string();
-        arguments_.run = drive->start.run.string(), arguments_.scenario = drive->start.scenario.string();
-        if (!drive->complete) say(a.replay + " breaks off; what there is of it is shown");
+        arguments_.scene = drive.start.scene.string();
+        arguments_.run = drive.start.run.string(), arguments_.scenario = drive.start.scenario.string();
+        if (!drive.complete) say(a.replay + " breaks off; what there is of it is shown");
     }
-    open_session(start_of(a, drive));
+    open_session(start_of(a, drive.start));
+    check_settings(drive, a.settings, [this](const DriveSettings& settings) { check_display(session_->scenery().check(settings)); });
     check_outputs(a, read);
-    if (drive) replay_.emplace(std::move(drive->events), a.settings);
+    if (!a.replay.empty()) replay_.emplace(std::move(drive.events), a.settings);
     if (!a.record.empty()) session_->record(a.record), recording_ = a.record;
     if (a.autopilot) hands_.press(Action::Autopilot);
     if (!a.log.empty()) log_.emplace(a.log, probes_of(a.probes));
@@ -89,9 +90,14 @@ void WindowedDrive::recover(const DeviceLost& error) {
     say(std::string(error.what()) + "; it was opened anew", true);
 }
 
+void WindowedDrive::check_display(const DriveSettings& settings) const {
+    if (!screen_->shows(settings.render().display)) throw Error("--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
+}
+
 void WindowedDrive::open_session(const DriveStart& options) {
-    if (!screen_->shows(DriveSettings(options.settings).render().display)) throw Error("--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
+    check_display(DriveSettings(options.settings));
     session_ = std::make_unique<Session>(*device_, options);
+    watch_contacts();
     for (const std::string& note : session_->scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
@@ -104,6 +110,7 @@ void WindowedDrive::reload(const std::string& scene) {
         auto made = std::make_unique<Session>(*device_, DriveStart{.scene = scene, .run = same ? arguments_.run : "", .scenario = same ? arguments_.scenario : "", .seed = arguments_.seed, .settings = settings});
         if (!recording_.empty()) session_->stop_recording();
         session_ = std::move(made);
+        watch_contacts();
     } catch (const Error& error) {
         return say(error.what(), true);
     }
@@ -166,12 +173,12 @@ void WindowedDrive::move_camera(double seconds) {
 }
 
 bool WindowedDrive::replay_to_next_frame() {
-    while (const DriveEvent* event = replay_->next(*session_)) {
-        if (event->kind == DriveEvent::Kind::Frame) return true;
-        if (event->kind == DriveEvent::Kind::Restart) instruments_.forget();
-        if (event->kind == DriveEvent::Kind::Step) owed_ -= session_->options().time_step;
+    while (const auto kind = replay_->next(*session_)) {
+        if (kind == DriveEvent::Kind::Frame) return true;
+        if (kind == DriveEvent::Kind::Restart) instruments_.forget();
+        if (kind == DriveEvent::Kind::Step) owed_ -= session_->options().time_step;
         // A drive that was recorded without frames is shown step by step.
-        if (event->kind == DriveEvent::Kind::Step && owed_ <= 0 && replay_->frames() == 0) return true;
+        if (kind == DriveEvent::Kind::Step && owed_ <= 0 && replay_->frames() == 0) return true;
     }
     paused_ = true;
     say(replay_->strayed() ? "the replay is over; the car went another way than when it was recorded" : "the replay is over; Backspace starts it again");
@@ -189,14 +196,14 @@ void WindowedDrive::advance(double seconds) {
     } else {
         for (; owed_ >= step; owed_ -= step, moved = true) session_->step(hands_.next(held(), session_->world().driver().speed, step));
     }
-    say_contacts();
     render(moved);
 }
 
-void WindowedDrive::say_contacts() {
-    const std::vector<Contact>& contacts = session_->world().contacts();
-    if (contacts.size() > contacts_) say(format("collision with %s at %.0f km/h", contacts.back().node.c_str(), contacts.back().speed * 3.6));
-    contacts_ = contacts.size();
+void WindowedDrive::watch_contacts() {
+    session_->on_contact = [this](const Contact& contact) {
+        say(format("collision with %s at %.0f km/h", contact.node.c_str(), contact.speed * 3.6));
+        if (log_) log_->add(contact);
+    };
 }
 
 void WindowedDrive::render(bool moved) {
@@ -273,7 +280,12 @@ void WindowedDrive::run() {
             present();
         } catch (const DeviceLost& error) {
             recover(error);
+        } catch (const Error& error) {
+            // A full disk ends the recording, not the drive.
+            if (recording_.empty() || session_->recording()) throw;
+            say(error.what(), true);
         }
+        if (!session_->recording()) recording_.clear();
         window_.set_title(title());
         const double least = paused_ ? 1.0 / 60 : arguments_.limit > 0 ? 1 / arguments_.limit : 0;
         std::this_thread::sleep_until(now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(least)));

@@ -37,6 +37,7 @@ private:
 
     DeviceOptions device_options() const;
     void recover(const DeviceLost&);
+    void check_display(const DriveSettings&) const;
     void open_session(const DriveStart&);
     void reload(const std::string& scene);
     void press(Action);
@@ -52,7 +53,7 @@ private:
     HeldInput held() const;
     void move_camera(double seconds);
     void advance(double seconds);
-    void say_contacts();
+    void watch_contacts();
     bool replay_to_next_frame();
     void render(bool moved);
     void present();
@@ -88,7 +89,6 @@ private:
     bool alarm_ = false;
     Clock::time_point message_until_{};
     std::optional<DriveLog> log_;
-    size_t contacts_ = 0;  // that were spoken of
 };
 
 /// Opens a window and drives, or replays, in it.

@@ -27,7 +27,7 @@ void WindowedDrive::change(const std::string& name, const std::string& value) {
     try {
         DriveSettings wanted = session_->settings();
         wanted.set(name, value);
-        if (!screen_->shows(wanted.render().display)) return say("this window shows no codes of that display");
+        check_display(wanted);
         session_->set(name, value);
         stale_ = true;
     } catch (const Error& error) {

@@ -197,7 +197,7 @@ std::string JsonValue::text_or(const char* key, const std::string& fallback) con
 }
 
 std::string JsonValue::place() const {
-    const std::string pointer = pointer_to(file_->root, value_).value_or("");
+    const std::string pointer = file_->pointer + pointer_to(file_->root, value_).value_or("");
     return file_->name + ": " + (pointer.empty() ? "/" : one_line(pointer));
 }
 

@@ -15,13 +15,15 @@
 
 namespace vesper {
 
-/// A JSON text in memory and the name of the file it came from.
+/// A JSON text in memory, or a part of one, and the name of the file it came from.
 struct JsonFile {
     std::string name;
     nlohmann::json root;
+    std::string pointer;  ///< JSON pointer of the root in its file; of a whole file empty
 
     JsonFile() = default;
-    JsonFile(std::string name_of_file, nlohmann::json value) : name(std::move(name_of_file)), root(std::move(value)) {}
+    JsonFile(std::string name_of_file, nlohmann::json value, std::string pointer_of_root = {})
+        : name(std::move(name_of_file)), root(std::move(value)), pointer(std::move(pointer_of_root)) {}
     JsonFile(JsonFile&&) = default;
     JsonFile& operator=(JsonFile&&) = default;
     ~JsonFile();

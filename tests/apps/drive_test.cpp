@@ -21,7 +21,8 @@ namespace {
 const std::string kWorld = std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json";
 constexpr VkExtent2D kSize{160, 100};
 
-std::vector<Frame> play(Session& session, const std::vector<DriveEvent>& events) {
+template <class Events>
+std::vector<Frame> play(Session& session, const Events& events) {
     std::vector<Frame> frames;
     for (const DriveEvent& event : events) {
         switch (event.kind) {
@@ -79,9 +80,9 @@ TEST(Drive, AReplayHasTheSameBytes) {
         Session session(device, {.scene = kWorld, .seed = 3, .settings = {{"age", "60"}}});
         const std::vector<DriveEvent> events = adventure();
         // Recording begins in the middle, and the file has the drive from its start.
-        driven = play(session, {events.begin(), events.begin() + 40});
+        driven = play(session, std::vector(events.begin(), events.begin() + 40));
         session.record(scratch / "drive.json");
-        for (Frame& frame : play(session, {events.begin() + 40, events.end()})) driven.push_back(std::move(frame));
+        for (Frame& frame : play(session, std::vector(events.begin() + 40, events.end()))) driven.push_back(std::move(frame));
         EXPECT_FALSE(std::filesystem::exists(scratch / "drive.json"));
         const Drive unfinished = read_drive(scratch / "drive.json.part");
         EXPECT_FALSE(unfinished.complete);
@@ -172,10 +173,12 @@ TEST(Drive, GivenSettingsWinOverRecordedOnes) {
     Device device({.select = ""});
     const DriveSettings::Values given{{"operator", "grave"}};
     Session session(device, {.scene = kWorld, .settings = {{"operator", "grave"}, {"age", "30"}}});
-    std::vector<DriveEvent> events(3);
-    events[0] = {.kind = DriveEvent::Kind::Set, .pose = {}, .name = "operator", .value = "ward"};
-    events[1] = {.kind = DriveEvent::Kind::Set, .pose = {}, .name = "age", .value = "70"};
-    events[2] = {.kind = DriveEvent::Kind::Step, .input = {.throttle = 1}, .pose = {}, .name = {}, .value = {}};
+    DriveEvents events;
+    events.push_back({.kind = DriveEvent::Kind::Set, .pose = {}, .name = "operator", .value = "ward"});
+    events.push_back({.kind = DriveEvent::Kind::Set, .pose = {}, .name = "age", .value = "70"});
+    DriveEvents elsewhere = events;
+    events.push_back({.kind = DriveEvent::Kind::Step, .input = {.throttle = 1}, .pose = {}, .name = {}, .value = {}});
+    elsewhere.push_back({.kind = DriveEvent::Kind::Step, .input = {.throttle = 1}, .pose = glm::dvec4(1, 2, 3, 4), .name = {}, .value = {}});
     Playback playback(events, given);
     while (playback.next(session)) {}
     EXPECT_EQ(session.settings().values().at("operator"), "grave");
@@ -185,9 +188,8 @@ TEST(Drive, GivenSettingsWinOverRecordedOnes) {
     playback.rewind(session);
     EXPECT_EQ(session.settings().values(), (DriveSettings::Values{{"operator", "grave"}, {"age", "30"}}));
     EXPECT_EQ(session.world().steps(), 0u);
-    EXPECT_NE(playback.next(session), nullptr);
-    events[2].pose = glm::dvec4(1, 2, 3, 4);
-    Playback other(events);
+    EXPECT_EQ(playback.next(session), DriveEvent::Kind::Set);
+    Playback other(elsewhere);
     while (other.next(session)) {}
     EXPECT_TRUE(other.strayed());
     EXPECT_EQ(session.settings().values().at("operator"), "ward");
@@ -334,6 +336,16 @@ TEST_F(DriveProgram, SparesWhatItReadsAndWhatIsGood) {
     }
     std::filesystem::create_symlink("s.bin", folder / "00002.exr");
     expect_refused(common + "--video %05d.exr", {"00002.exr", "replace"});
+    expect_refused(common + "--log 00001.exr --video %05d.exr", {"00001.exr", "twice"});
+    EXPECT_FALSE(exists("00000.exr")) << "before the first frame";
+    // A link grows beside what it points at, which may be something that is read.
+    std::filesystem::rename(folder / "s.bin", folder / "t.part");
+    std::filesystem::create_symlink("t.part", folder / "s.bin");
+    folder.write("t", "old");
+    std::filesystem::create_symlink("t", folder / "link");
+    expect_refused(common + "--log link", {"--log", "t.part", "replace"});
+    expect_refused(common + "--record link", {"--record", "t.part", "replace"});
+    EXPECT_EQ(whole("t.part"), std::string(scene.bytes.begin(), scene.bytes.end()));
     EXPECT_EQ(run(common + "--log good.csv"), 0) << said;
     EXPECT_FALSE(exists("good.csv.part"));
     const std::string good = whole("good.csv");
@@ -347,6 +359,44 @@ TEST_F(DriveProgram, SparesWhatItReadsAndWhatIsGood) {
     EXPECT_FALSE(exists("good.json"));
     ASSERT_EQ(run("--headless --replay good.json.part --log replayed.csv --size 16x10"), 0) << said;
     EXPECT_NE(said.find("breaks off"), said.npos);
+}
+
+// What a recording comes to set is tried before the first frame, and named with its place.
+TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
+    std::filesystem::copy(std::string(VESPER_SOURCE_DIR) + "/data", folder / "data", std::filesystem::copy_options::recursive);
+    const auto replay = [&](const std::string& set) {
+        const std::string step = R"({"step":{},"pose":[0,0,0,0]},)";
+        folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[{"frame":true},)" + step + R"({"set":)" + set + "}," + step + R"({"frame":true}]})");
+        return std::string("--headless --size 16x10 --replay d.json ");
+    };
+    expect_refused(replay(R"({"age":"50","lamp:strete lamp":"0"})") + "--log l.csv", {"d.json: /events/2/set: ", "strete lamp"});
+    expect_refused(replay(R"({"operator":"ldr"})") + "--video %d.exr", {"d.json: /events/2/set: ", "--video", "ldr"});
+    expect_refused(replay(R"({"display":"hdr10"})") + "--video v.mp4", {"d.json: /events/2/set: ", "--video", "display"});
+    expect_refused("--headless --size 16x10 --seconds 0.1 --operator ldr --video %d.exr", {"--video", "ldr"});
+    EXPECT_FALSE(exists("l.csv.part") || exists("0.exr") || exists("v.mp4"));
+    // What is given beside the recording stands in its place.
+    EXPECT_EQ(run(replay(R"({"operator":"ldr"})") + "--operator ward --video %d.exr"), 0) << said;
+    EXPECT_TRUE(exists("1.exr"));
+}
+
+// A blow is in the row after it, also where the drive begins again before that, and as often.
+TEST_F(DriveProgram, LogsContactsOfEveryStart) {
+    GltfFile scene;
+    scene.show({{"attributes", {{"POSITION", scene.vec3(kTriangle)}}}});
+    scene.root["nodes"].push_back({{"name", "van"}});
+    folder.write("s.gltf", scene.text());
+    folder.write("w.json", R"({"version": 1, "scene": "s.gltf", "driver": {"lane": "a", "speed_km_h": 50}, "lanes": [{"name": "a", "points": [[0, 0, 0], [0, 0, -500]], "speed_km_h": 1}],
+                               "cars": [{"node": "van", "lane": "a", "at_m": 20, "wish": 0.05}]})");
+    std::string second;
+    for (int i = 0; i < 120; ++i) second += R"({"step":{},"pose":[0,0,0,0]},)";
+    const std::string frame = R"({"frame":true})", restart = R"({"restart":true},)";
+    folder.write("d.json", R"({"vesper_drive":1,"scene":"w.json","events":[)" + frame + "," + second + frame + "," + restart + second + frame + "," + restart + second + restart + frame + "]}");
+    ASSERT_EQ(run("--headless --size 16x10 --replay d.json --log l.csv"), 0) << said;
+    std::istringstream rows(read_text(folder / "l.csv"));
+    std::string row;
+    std::vector<int> blows;
+    while (std::getline(rows, row)) blows.push_back(int(row.find("van@") != row.npos));
+    EXPECT_EQ(blows, (std::vector{0, 0, 1, 1, 1}));
 }
 
 TEST_F(DriveProgram, RefusesWhatItCannotUse) {

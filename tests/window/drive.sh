@@ -169,6 +169,26 @@ wait "$drive" || fail "vesper-drive ended with $?"
 "$program" --headless --replay lost.json --device cpu --size 64x40 --log again.csv >>said.txt 2>&1 || fail "the replay ended with $?"
 grep -q 'another way' said.txt && fail "the replay of the lost device drives another way"
 
+# A disk that takes no more ends the recording, with a message, and not the drive; what was recorded until then can be replayed.
+(
+    trap '' XFSZ
+    exec "$program" "$world" --size 64x40 --window 240x150 --device cpu --record full.json >said.txt 2>&1
+) &
+drive=$!
+started+=("$drive")
+until_true "a window" find_window
+titled recording || fail "is not recorded"
+prlimit --pid "$drive" --fsize=16384
+until_true "a full disk" grep -q "^vesper-drive: the recording ends: full.json: " said.txt
+until_true "the end of the recording" untitled recording
+now=$(seconds)
+until_true "time after that" beyond "$(awk -v t="$now" 'BEGIN { print t + 0.3 }')"
+key ctrl+q
+wait "$drive" || fail "vesper-drive ended with $?"
+[[ -s full.json.part && ! -e full.json ]] || fail "what was recorded is not beside its place"
+"$program" --headless --replay full.json.part --device cpu --size 64x40 --log full.csv >said.txt 2>&1 || fail "the replay ended with $?"
+grep -q 'breaks off' said.txt || fail "the replay says nothing of its end"
+
 # What was recorded, twice again: the same bytes, and the last frame is what the window showed.
 for run in a b; do
     mkdir $run

@@ -132,7 +132,7 @@ private:
 
     bool take(int depth, json::parse_event_t at, json& value) {
         using Event = json::parse_event_t;
-        if (depth > kMostDepth || ++values_ > kMostValues) throw Error(name_ + ": /" + key_ + ": has more in it than a drive has");
+        if (depth > kMostDepth || ++values_ > kMostValues) throw Error(name_ + ": /" + one_line(key_) + ": has more in it than a drive has");
         if (depth == 1 && at == Event::key) key_ = value.get<std::string>();
         const bool ends = at == Event::value || at == Event::object_end || at == Event::array_end;
         if (depth == 1 && ends) rest_[key_] = std::move(value);

@@ -54,7 +54,7 @@ bool map_reaches(int light) {
     const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
     const vec4 d = texelFetch(lights, light * int(kTexelsPerLight) + 3);
     const vec4 e = texelFetch(lights, light * int(kTexelsPerLight) + 4);
-    const float largest = a.w * largest_map(a.xyz, d, e, centre, radius);
+    const float largest = a.w * largest_map(centre - a.xyz, cosines_to(a.xyz, e.xyz, centre, radius), d, e, radius);
     return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
 }
 

@@ -33,12 +33,11 @@ int window_of(int first, int more, int count) {
     return (level > 0 ? 3 * count - (4 * count >> level) : 0) + (first >> max(level - 1, 0));
 }
 
-// Nothing of a map is brighter towards the sphere. `start_map` and `pole_last`: texels 3 and 4 of the light.
-float largest_map(vec3 position, vec4 start_map, vec4 pole_last, vec3 centre, float radius) {
+// Nothing of a map is brighter towards the sphere around the end of `to`, which it sees at `cosines` to its pole. `start_map` and
+// `pole_last`: texels 3 and 4 of the light.
+float largest_map(vec3 to, vec2 cosines, vec4 start_map, vec4 pole_last, float radius) {
     const float kBlur = 1e-4;  // rad, of azimuth where it is known that well
-    const vec3 to = centre - position;
-    const vec2 polar = cosines_to(position, pole_last.xyz, centre, radius);
-    const vec2 rings = min(sqrt(max(0.5 - 0.5 * polar, 0.0)) * float(kRings), float(kRings) - 0.5);
+    const vec2 rings = min(sqrt(max(0.5 - 0.5 * cosines, 0.0)) * float(kRings), float(kRings) - 0.5);
     const vec2 d = vec2(dot(start_map.xyz, to), dot(turn_of(start_map.xyz, pole_last.xyz, pole_last.w), to));
     const float across = length(d), away = length(to);
     // Near the pole it may have any azimuth.

@@ -75,10 +75,10 @@ bool lights_block(uint light) {
     const vec3 centre = 0.5 * (position_low + position_high);
     const float radius = kSlack * 0.5 * distance(position_low, position_high);
     const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
-    const float cosine = cosines_to(a.xyz, b.xyz, centre, radius).x;
-    float relative = largest_cone(b.w, c.w, cosine);
-    if (kPowers != 0u && light >= push.view.lights.cones) relative = largest_power(b.w, cosine);
-    if (kMaps != 0u) relative = map ? largest_map(a.xyz, b, c, centre, radius) : relative;
+    const vec2 cosines = cosines_to(a.xyz, map ? c.xyz : b.xyz, centre, radius);
+    float relative = largest_cone(b.w, c.w, cosines.x);
+    if (kPowers != 0u && light >= push.view.lights.cones) relative = largest_power(b.w, cosines.x);
+    if (kMaps != 0u) relative = map ? largest_map(centre - a.xyz, cosines, b, c, radius) : relative;
     const float largest = a.w * relative;
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);

@@ -9,6 +9,8 @@
 #include "shared/cluster.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
+layout(constant_id = 1) const uint kMaps = 1u;    // measured distributions
 
 layout(binding = 0) uniform samplerBuffer lights;
 layout(binding = 1) uniform usamplerBuffer parent_counts;
@@ -42,27 +44,11 @@ void bound_cell(uvec3 cell) {
     radius *= kSlack;
 }
 
-bool cone_reaches(int light) {
-    const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
-    const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
-    const float lobe_b = texelFetch(lights, light * int(kTexelsPerLight) + 2).w;
-    const float largest = a.w * largest_cone(b.w, lobe_b, cosines_to(a.xyz, b.xyz, centre, radius).x);
-    return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
-}
-
-bool map_reaches(int light) {
-    const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
-    const vec4 d = texelFetch(lights, light * int(kTexelsPerLight) + 3);
-    const vec4 e = texelFetch(lights, light * int(kTexelsPerLight) + 4);
-    const float largest = a.w * largest_map(centre - a.xyz, cosines_to(a.xyz, e.xyz, centre, radius), d, e, radius);
-    return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
-}
-
-bool power_reaches(int light) {
-    const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
-    const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
-    const float largest = a.w * largest_power(b.w, cosines_to(a.xyz, b.xyz, centre, radius).x);
-    return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
+bool light_reaches(uint light, bool cone) {
+    const int at = int(light * kTexelsPerLight);
+    const vec4 a = texelFetch(lights, at);
+    const bool map = !cone && kMaps != 0u && (kPowers == 0u || light >= push.view.lights.cones + push.view.lights.powers);
+    return reaches(largest_intensity(at, a, cone, map, centre, radius), distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
 void main() {
@@ -86,15 +72,14 @@ void main() {
     uint count = 0u;
     for (uint i = 0u; i < cones; ++i) {
         const uint light = all_of_them ? i : texelFetch(parent_indices, int(list + i)).r;
-        if (!cone_reaches(int(light))) continue;
+        if (!light_reaches(light, true)) continue;
         if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
         ++count;
     }
     const uint kept_cones = count;
     for (uint i = 0u; i < others; ++i) {
         const uint light = all_of_them ? cones + i : texelFetch(parent_indices, int(list + cones + i)).r;
-        const bool map = light >= push.view.lights.cones + push.view.lights.powers;
-        if (map ? !map_reaches(int(light)) : !power_reaches(int(light))) continue;
+        if (!light_reaches(light, false)) continue;
         if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
         ++count;
     }

@@ -1,8 +1,9 @@
 // Whether a light may give the threshold somewhere in a volume: what may be said without looking at single points. Needs
-// `samplerBuffer maps`.
+// `samplerBuffer lights`, `samplerBuffer maps` and the constants kPowers and kMaps.
 
 #include "maps.glsl"
 #include "shared/cluster.h"
+#include "shared/light.h"
 
 const float kSlack = 1.001;  // float rounding never costs a light
 
@@ -51,6 +52,16 @@ float largest_map(vec3 to, vec2 cosines, vec4 start_map, vec4 pole_last, float r
     const vec4 four = texelFetch(maps, int(start_map.w) - int(kWindowTexels) + (value >> 2));
     const float even = (value & 2) == 0 ? four.x : four.z, odd = (value & 2) == 0 ? four.y : four.w;
     return (value & 1) == 0 ? even : odd;
+}
+
+// Largest intensity towards the sphere, cd, of the light that begins with texel `at`, which is `a`.
+float largest_intensity(int at, vec4 a, bool cone, bool map, vec3 centre, float radius) {
+    const vec4 b = texelFetch(lights, at + (map ? 3 : 1)), c = texelFetch(lights, at + (map ? 4 : 2));
+    const vec2 cosines = cosines_to(a.xyz, map ? c.xyz : b.xyz, centre, radius);
+    float relative = largest_cone(b.w, c.w, cosines.x);
+    if (kPowers != 0u) relative = cone ? relative : largest_power(b.w, cosines.x);
+    if (kMaps != 0u) relative = map ? largest_map(centre - a.xyz, cosines, b, c, radius) : relative;
+    return a.w * relative;
 }
 
 // Whether an intensity still gives the threshold at a distance, m.

@@ -70,16 +70,12 @@ vec3 largest_product(vec3 a_low, vec3 a_high, vec3 b_low, vec3 b_high) {
 
 bool lights_block(uint light) {
     const bool map = kMaps != 0u && light >= push.view.lights.cones + push.view.lights.powers;
-    const int texel = int(light * kTexelsPerLight);
-    const vec4 a = texelFetch(lights, texel), b = texelFetch(lights, texel + (map ? 3 : 1)), c = texelFetch(lights, texel + (map ? 4 : 2));
+    const int at = int(light * kTexelsPerLight);
+    const vec4 a = texelFetch(lights, at);
     const vec3 centre = 0.5 * (position_low + position_high);
     const float radius = kSlack * 0.5 * distance(position_low, position_high);
     const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
-    const vec2 cosines = cosines_to(a.xyz, map ? c.xyz : b.xyz, centre, radius);
-    float relative = largest_cone(b.w, c.w, cosines.x);
-    if (kPowers != 0u && light >= push.view.lights.cones) relative = largest_power(b.w, cosines.x);
-    if (kMaps != 0u) relative = map ? largest_map(centre - a.xyz, cosines, b, c, radius) : relative;
-    const float largest = a.w * relative;
+    const float largest = largest_intensity(at, a, light < push.view.lights.cones, map, centre, radius);
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);
     const float slack = 1e-5 * (abs(facing.x) + abs(facing.y) + abs(facing.z));

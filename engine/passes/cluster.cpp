@@ -75,14 +75,15 @@ Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList
     clusters.report = graph.transient("cluster report", buffer_shape(sizeof(shared::ClusterReport)));
     graph.clear("clear cluster report", clusters.report);
 
+    const Kernel& kernel = kernels.cluster(frame_variant(clusters));
     const auto add_level = [&](const char* name, const Lists& parents, shared::ClusterLevelPush push) {
         push.view = clusters.push;
         const uint32_t cells = push.cells_x * push.cells_y * push.cells_z;
         const Lists lists{graph.transient(std::string(name) + " counts", buffer_shape(uint64_t(cells) * 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT)),
                           graph.transient(std::string(name) + " indices", buffer_shape(uint64_t(cells) * push.capacity * sizeof(uint32_t), VK_FORMAT_R32_UINT))};
-        graph.dispatch(name, kernels.cluster,
+        graph.dispatch(name, kernel,
                        {sample(clusters.lights), sample(parents.counts), sample(parents.indices), store(lists.counts), store(lists.indices), update(clusters.report), sample(maps.texels)},
-                       push, cover(cells, 1, kernels.cluster.group[0], 1));
+                       push, cover(cells, 1, kernel.group[0], 1));
         return lists;
     };
 

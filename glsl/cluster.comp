@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-// Light clustering, one cell per invocation. A light is listed unless its illuminance stays under the threshold all over
+// Light clustering, one cell per invocation. Where nothing is drawn no light is listed. Elsewhere, a light is listed unless its illuminance stays under the threshold all over
 // the sphere around the cell: the largest intensity in the cone of directions that the sphere subtends, over the square
 // of the nearest distance. Lights are tried in ascending order, so lists are ascending and the same on every run.
 
@@ -19,6 +19,7 @@ layout(binding = 3, r32ui) writeonly uniform uimageBuffer counts;
 layout(binding = 4, r32ui) writeonly uniform uimageBuffer indices;
 layout(binding = 5, scalar) buffer Report { ClusterReport report; };
 layout(binding = 6) uniform samplerBuffer maps;
+layout(binding = 7) uniform usamplerBuffer tile_slices;
 layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
 
 #include "reach.glsl"
@@ -44,6 +45,16 @@ void bound_cell(uvec3 cell) {
     radius *= kSlack;
 }
 
+// Whether anything is drawn in some of its froxels.
+bool is_occupied(uvec3 cell) {
+    const ClusterGrid grid = push.view.grid;
+    const uvec2 first = cell.xy * push.tiles_per_cell, end = min(first + push.tiles_per_cell, uvec2(grid.tiles_x, grid.tiles_y));
+    uint slices = 0u;
+    for (uint y = first.y; y < end.y; ++y)
+        for (uint x = first.x; x < end.x; ++x) slices |= texelFetch(tile_slices, int(y * grid.tiles_x + x)).r;
+    return (slices >> cell.z * push.slices_per_cell & (1u << push.slices_per_cell) - 1u) != 0u;
+}
+
 bool light_reaches(uint light, bool cone) {
     const int at = int(light * kTexelsPerLight);
     const vec4 a = texelFetch(lights, at);
@@ -64,8 +75,9 @@ void main() {
     const uint listed_cones = texelFetch(parent_counts, int(2u * parent_index)).r;
     const uint listed_others = texelFetch(parent_counts, int(2u * parent_index + 1u)).r;
     const bool all_of_them = listed_cones == kAllLights;
-    const uint cones = all_of_them ? push.view.lights.cones : listed_cones;
-    const uint others = all_of_them ? push.view.lights.powers + push.view.lights.maps : listed_others;
+    const bool occupied = is_occupied(cell);
+    const uint cones = !occupied ? 0u : all_of_them ? push.view.lights.cones : listed_cones;
+    const uint others = !occupied ? 0u : all_of_them ? push.view.lights.powers + push.view.lights.maps : listed_others;
     const uint list = all_of_them ? 0u : parent_index * push.parent_capacity;
 
     const uint base = index * push.capacity;

@@ -23,6 +23,7 @@ layout(binding = 3) uniform usamplerBuffer indices;
 layout(binding = 4, r32ui) writeonly uniform uimageBuffer block_counts;
 layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
 layout(binding = 6) uniform samplerBuffer maps;
+layout(binding = 7) uniform usamplerBuffer block_slices;
 layout(push_constant, scalar) uniform Push { SelectPush push; };
 
 #include "reach.glsl"
@@ -32,15 +33,6 @@ const uint kTogether = 3u;     // slices that share a box
 
 vec3 position_low, position_high, normal_low, normal_high;
 bool matt;  // all of what is drawn in the slices
-
-// Bits of all slices that the block has pixels in.
-uint occupied_slices(uvec2 corner) {
-    const uvec2 end = min(corner + kBlockSize, push.size);
-    uint occupied = 0u;
-    for (uint y = corner.y; y < end.y; ++y)
-        for (uint x = corner.x; x < end.x; ++x) occupied |= slice_bit(push.view.grid, imageLoad(surface_image, ivec2(x, y)).z);
-    return occupied;
-}
 
 // Boxes around what is drawn in some of the block's slices.
 void bound_slices(uvec2 corner, uint slices) {
@@ -130,7 +122,7 @@ void main() {
     const uint base = block * push.capacity;
     uint cones = 0u, others = 0u, turns = 0u;
     bool fits = true;
-    uint left = occupied_slices(corner);
+    uint left = texelFetch(block_slices, int(block)).r;
     while (fits && left != 0u) {
         const uint slices = open_lists(corner / kTileSize, left);
         fits = slices != 0u;

@@ -11,6 +11,7 @@ namespace vesper {
 
 /// Every compute shader, specialized for the device.
 struct Kernels {
+    Kernel occupancy;
     VkExtent2D shade_group;  ///< invocations per workgroup of the shading kernels: shared::kBlocksPerGroup blocks wide
     uint32_t shade_rows;     ///< pixels of a column that one invocation shades; divides shared::kBlockSize
     /// Bits of a clustering, selecting, gathering or shading kernel: what it has code for. Clustering and selection know kPowers and kMaps,

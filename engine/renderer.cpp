@@ -57,7 +57,7 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
 
     const GBuffer surfaces = add_gbuffer(graph, scene_->resident, frame, view);
     const MapTexels maps{scene_->map_texels.in(graph, "maps"), scene_->maps.roads.empty() ? 0 : scene_->maps.roads.front(), !scene_->maps.roads.empty()};
-    const Clusters clusters = add_clusters(graph, kernels_, lights, maps, view, clustering);
+    const Clusters clusters = add_clusters(graph, kernels_, surfaces.surface, lights, maps, view, clustering);
     if (scene_->retro && !ldr) shading.retro = scene_->retro.in(graph, "retroreflection");
     Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
     if (!frame.tunnels.empty() && !ldr) scene = add_daylight(graph, kernels_, surfaces, scene, frame.tunnels, view, ambient.illuminance, shading.lambert);

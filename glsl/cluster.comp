@@ -2,13 +2,15 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-// Light clustering, one cell per invocation. A light is listed unless its illuminance stays under the threshold all over
+// Light clustering, one cell per invocation. Where nothing is drawn no light is listed. Elsewhere, a light is listed unless its illuminance stays under the threshold all over
 // the sphere around the cell: the largest intensity in the cone of directions that the sphere subtends, over the square
 // of the nearest distance. Lights are tried in ascending order, so lists are ascending and the same on every run.
 
 #include "shared/cluster.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
+layout(constant_id = 1) const uint kMaps = 1u;    // measured distributions
 
 layout(binding = 0) uniform samplerBuffer lights;
 layout(binding = 1) uniform usamplerBuffer parent_counts;
@@ -17,6 +19,7 @@ layout(binding = 3, r32ui) writeonly uniform uimageBuffer counts;
 layout(binding = 4, r32ui) writeonly uniform uimageBuffer indices;
 layout(binding = 5, scalar) buffer Report { ClusterReport report; };
 layout(binding = 6) uniform samplerBuffer maps;
+layout(binding = 7) uniform usamplerBuffer tile_slices;
 layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
 
 #include "reach.glsl"
@@ -42,27 +45,21 @@ void bound_cell(uvec3 cell) {
     radius *= kSlack;
 }
 
-bool cone_reaches(int light) {
-    const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
-    const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
-    const float lobe_b = texelFetch(lights, light * int(kTexelsPerLight) + 2).w;
-    const float largest = a.w * largest_cone(b.w, lobe_b, cosines_to(a.xyz, b.xyz, centre, radius).x);
-    return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
+// Whether anything is drawn in some of its froxels.
+bool is_occupied(uvec3 cell) {
+    const ClusterGrid grid = push.view.grid;
+    const uvec2 first = cell.xy * push.tiles_per_cell, end = min(first + push.tiles_per_cell, uvec2(grid.tiles_x, grid.tiles_y));
+    uint slices = 0u;
+    for (uint y = first.y; y < end.y; ++y)
+        for (uint x = first.x; x < end.x; ++x) slices |= texelFetch(tile_slices, int(y * grid.tiles_x + x)).r;
+    return (slices >> cell.z * push.slices_per_cell & (1u << push.slices_per_cell) - 1u) != 0u;
 }
 
-bool map_reaches(int light) {
-    const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
-    const vec4 d = texelFetch(lights, light * int(kTexelsPerLight) + 3);
-    const vec4 e = texelFetch(lights, light * int(kTexelsPerLight) + 4);
-    const float largest = a.w * largest_map(a.xyz, d, e, centre, radius);
-    return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
-}
-
-bool power_reaches(int light) {
-    const vec4 a = texelFetch(lights, light * int(kTexelsPerLight));
-    const vec4 b = texelFetch(lights, light * int(kTexelsPerLight) + 1);
-    const float largest = a.w * largest_power(b.w, cosines_to(a.xyz, b.xyz, centre, radius).x);
-    return reaches(largest, distance(centre, a.xyz) - radius, push.view.threshold);
+bool light_reaches(uint light, bool cone) {
+    const int at = int(light * kTexelsPerLight);
+    const vec4 a = texelFetch(lights, at);
+    const bool map = !cone && kMaps != 0u && (kPowers == 0u || light >= push.view.lights.cones + push.view.lights.powers);
+    return reaches(largest_intensity(at, a, cone, map, centre, radius), distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
 void main() {
@@ -78,23 +75,23 @@ void main() {
     const uint listed_cones = texelFetch(parent_counts, int(2u * parent_index)).r;
     const uint listed_others = texelFetch(parent_counts, int(2u * parent_index + 1u)).r;
     const bool all_of_them = listed_cones == kAllLights;
-    const uint cones = all_of_them ? push.view.lights.cones : listed_cones;
-    const uint others = all_of_them ? push.view.lights.powers + push.view.lights.maps : listed_others;
+    const bool occupied = is_occupied(cell);
+    const uint cones = !occupied ? 0u : all_of_them ? push.view.lights.cones : listed_cones;
+    const uint others = !occupied ? 0u : all_of_them ? push.view.lights.powers + push.view.lights.maps : listed_others;
     const uint list = all_of_them ? 0u : parent_index * push.parent_capacity;
 
     const uint base = index * push.capacity;
     uint count = 0u;
     for (uint i = 0u; i < cones; ++i) {
         const uint light = all_of_them ? i : texelFetch(parent_indices, int(list + i)).r;
-        if (!cone_reaches(int(light))) continue;
+        if (!light_reaches(light, true)) continue;
         if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
         ++count;
     }
     const uint kept_cones = count;
     for (uint i = 0u; i < others; ++i) {
         const uint light = all_of_them ? cones + i : texelFetch(parent_indices, int(list + cones + i)).r;
-        const bool map = light >= push.view.lights.cones + push.view.lights.powers;
-        if (map ? !map_reaches(int(light)) : !power_reaches(int(light))) continue;
+        if (!light_reaches(light, false)) continue;
         if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
         ++count;
     }

@@ -1,8 +1,9 @@
 // Whether a light may give the threshold somewhere in a volume: what may be said without looking at single points. Needs
-// `samplerBuffer maps`.
+// `samplerBuffer lights`, `samplerBuffer maps` and the constants kPowers and kMaps.
 
 #include "maps.glsl"
 #include "shared/cluster.h"
+#include "shared/light.h"
 
 const float kSlack = 1.001;  // float rounding never costs a light
 
@@ -33,12 +34,11 @@ int window_of(int first, int more, int count) {
     return (level > 0 ? 3 * count - (4 * count >> level) : 0) + (first >> max(level - 1, 0));
 }
 
-// Nothing of a map is brighter towards the sphere. `start_map` and `pole_last`: texels 3 and 4 of the light.
-float largest_map(vec3 position, vec4 start_map, vec4 pole_last, vec3 centre, float radius) {
+// Nothing of a map is brighter towards the sphere around the end of `to`, which it sees at `cosines` to its pole. `start_map` and
+// `pole_last`: texels 3 and 4 of the light.
+float largest_map(vec3 to, vec2 cosines, vec4 start_map, vec4 pole_last, float radius) {
     const float kBlur = 1e-4;  // rad, of azimuth where it is known that well
-    const vec3 to = centre - position;
-    const vec2 polar = cosines_to(position, pole_last.xyz, centre, radius);
-    const vec2 rings = min(sqrt(max(0.5 - 0.5 * polar, 0.0)) * float(kRings), float(kRings) - 0.5);
+    const vec2 rings = min(sqrt(max(0.5 - 0.5 * cosines, 0.0)) * float(kRings), float(kRings) - 0.5);
     const vec2 d = vec2(dot(start_map.xyz, to), dot(turn_of(start_map.xyz, pole_last.xyz, pole_last.w), to));
     const float across = length(d), away = length(to);
     // Near the pole it may have any azimuth.
@@ -52,6 +52,16 @@ float largest_map(vec3 position, vec4 start_map, vec4 pole_last, vec3 centre, fl
     const vec4 four = texelFetch(maps, int(start_map.w) - int(kWindowTexels) + (value >> 2));
     const float even = (value & 2) == 0 ? four.x : four.z, odd = (value & 2) == 0 ? four.y : four.w;
     return (value & 1) == 0 ? even : odd;
+}
+
+// Largest intensity towards the sphere, cd, of the light that begins with texel `at`, which is `a`.
+float largest_intensity(int at, vec4 a, bool cone, bool map, vec3 centre, float radius) {
+    const vec4 b = texelFetch(lights, at + (map ? 3 : 1)), c = texelFetch(lights, at + (map ? 4 : 2));
+    const vec2 cosines = cosines_to(a.xyz, map ? c.xyz : b.xyz, centre, radius);
+    float relative = largest_cone(b.w, c.w, cosines.x);
+    if (kPowers != 0u) relative = cone ? relative : largest_power(b.w, cosines.x);
+    if (kMaps != 0u) relative = map ? largest_map(centre - a.xyz, cosines, b, c, radius) : relative;
+    return a.w * relative;
 }
 
 // Whether an intensity still gives the threshold at a distance, m.

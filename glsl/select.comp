@@ -23,6 +23,7 @@ layout(binding = 3) uniform usamplerBuffer indices;
 layout(binding = 4, r32ui) writeonly uniform uimageBuffer block_counts;
 layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
 layout(binding = 6) uniform samplerBuffer maps;
+layout(binding = 7) uniform usamplerBuffer block_slices;
 layout(push_constant, scalar) uniform Push { SelectPush push; };
 
 #include "reach.glsl"
@@ -32,15 +33,6 @@ const uint kTogether = 3u;     // slices that share a box
 
 vec3 position_low, position_high, normal_low, normal_high;
 bool matt;  // all of what is drawn in the slices
-
-// Bits of all slices that the block has pixels in.
-uint occupied_slices(uvec2 corner) {
-    const uvec2 end = min(corner + kBlockSize, push.size);
-    uint occupied = 0u;
-    for (uint y = corner.y; y < end.y; ++y)
-        for (uint x = corner.x; x < end.x; ++x) occupied |= slice_bit(push.view.grid, imageLoad(surface_image, ivec2(x, y)).z);
-    return occupied;
-}
 
 // Boxes around what is drawn in some of the block's slices.
 void bound_slices(uvec2 corner, uint slices) {
@@ -70,16 +62,12 @@ vec3 largest_product(vec3 a_low, vec3 a_high, vec3 b_low, vec3 b_high) {
 
 bool lights_block(uint light) {
     const bool map = kMaps != 0u && light >= push.view.lights.cones + push.view.lights.powers;
-    const int texel = int(light * kTexelsPerLight);
-    const vec4 a = texelFetch(lights, texel), b = texelFetch(lights, texel + (map ? 3 : 1)), c = texelFetch(lights, texel + (map ? 4 : 2));
+    const int at = int(light * kTexelsPerLight);
+    const vec4 a = texelFetch(lights, at);
     const vec3 centre = 0.5 * (position_low + position_high);
     const float radius = kSlack * 0.5 * distance(position_low, position_high);
     const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
-    const float cosine = cosines_to(a.xyz, b.xyz, centre, radius).x;
-    float relative = largest_cone(b.w, c.w, cosine);
-    if (kPowers != 0u && light >= push.view.lights.cones) relative = largest_power(b.w, cosine);
-    if (kMaps != 0u) relative = map ? largest_map(a.xyz, b, c, centre, radius) : relative;
-    const float largest = a.w * relative;
+    const float largest = largest_intensity(at, a, light < push.view.lights.cones, map, centre, radius);
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);
     const float slack = 1e-5 * (abs(facing.x) + abs(facing.y) + abs(facing.z));
@@ -134,7 +122,7 @@ void main() {
     const uint base = block * push.capacity;
     uint cones = 0u, others = 0u, turns = 0u;
     bool fits = true;
-    uint left = occupied_slices(corner);
+    uint left = texelFetch(block_slices, int(block)).r;
     while (fits && left != 0u) {
         const uint slices = open_lists(corner / kTileSize, left);
         fits = slices != 0u;

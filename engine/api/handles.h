@@ -20,8 +20,9 @@ struct VesperDevice {
 };
 
 struct VesperToneMapper {
-    explicit VesperToneMapper(vesper::Device& device) : mapper(device) {}
-    vesper::ToneMapper mapper;
+    static constexpr const char* kNone = "no tone mapper";
+    explicit VesperToneMapper(vesper::Device& device) : engine(device) {}
+    vesper::ToneMapper engine;
     vesper::shared::EyeState eye{};  // what the last picture left
 };
 
@@ -32,10 +33,11 @@ struct VesperScene {
 };
 
 struct VesperRenderer {
-    VesperRenderer(vesper::Device& device, const VesperScene& drawn) : scene(drawn), version(drawn.version), renderer(device, drawn.scene) {}
+    static constexpr const char* kNone = "no renderer";
+    VesperRenderer(vesper::Device& device, const VesperScene& drawn) : scene(drawn), version(drawn.version), engine(device, drawn.scene) {}
     const VesperScene& scene;
     uint64_t version;  // of the scene on the device
-    vesper::Renderer renderer;
+    vesper::Renderer engine;
     std::map<uint32_t, glm::mat4> places;  // of nodes that were put somewhere: node frame to world
     std::map<uint32_t, float> dimming;     // of lamps at nodes
     vesper::shared::EyeState eye{};        // what the last frame left
@@ -89,6 +91,54 @@ void give(const ToneMapped* frame, VesperFrameReport* report);
 /// What the eye remembers, as bytes.
 void give_eye(const shared::EyeState& eye, void* bytes);
 shared::EyeState eye_of(const void* bytes, size_t size);
+
+/// What the last frame of a tone mapper or renderer left; nothing where it is known already.
+template <class Handle>
+auto finish(Handle& handle) {
+    auto frame = handle.engine.finish();
+    if (frame) handle.eye = frame->eye;
+    return frame;
+}
+template <class Handle>
+VesperResult finish(Handle* handle, VesperFrameReport* report, VesperError* error) {
+    return guarded(error, [&] {
+        require(handle, Handle::kNone);
+        check_report(report);
+        const auto frame = finish(*handle);
+        give(frame ? &*frame : nullptr, report);
+    });
+}
+
+/// The eye of a tone mapper or renderer: forgotten, read, replaced.
+template <class Handle>
+VesperResult reset_eye(Handle* handle, VesperError* error) {
+    return guarded(error, [&] {
+        require(handle, Handle::kNone);
+        handle->engine.finish();
+        handle->engine.reset_adaptation();
+        handle->eye = {};
+    });
+}
+template <class Handle>
+VesperResult read_eye(Handle* handle, void* bytes, VesperError* error) {
+    return guarded(error, [&] {
+        require(handle, Handle::kNone);
+        require(bytes, "no place for what the eye remembers");
+        finish(*handle);
+        give_eye(handle->eye, bytes);
+    });
+}
+template <class Handle>
+VesperResult set_eye(Handle* handle, const void* bytes, size_t size, VesperError* error) {
+    return guarded(error, [&] {
+        require(handle, Handle::kNone);
+        require(bytes, "nothing to remember");
+        const shared::EyeState eye = eye_of(bytes, size);
+        handle->engine.finish();
+        handle->eye = eye;
+        handle->engine.set_eye(eye);
+    });
+}
 
 /// Images of the host's.
 ForeignImage picture_image(const VesperImage* given);

@@ -45,17 +45,10 @@ Seen see(VesperRenderer& renderer, const VesperView* view) {
     Seen seen{frame_of(renderer, v.scene_seconds), {}};
     seen.view = view_of(v, renderer.scene.scene, seen.frame);
     if (renderer.version != renderer.scene.version) {
-        renderer.renderer.set_scene(renderer.scene.scene);
+        renderer.engine.set_scene(renderer.scene.scene);
         renderer.version = renderer.scene.version;
     }
     return seen;
-}
-
-/// What the last frame left; nothing where it is known already.
-std::optional<Frame> finish(VesperRenderer& renderer) {
-    std::optional<Frame> frame = renderer.renderer.finish();
-    if (frame) renderer.eye = frame->eye;
-    return frame;
 }
 
 void require_node(const VesperRenderer& renderer, uint32_t node) { require(node < renderer.scene.scene.nodes.size(), "the scene has no such node"); }
@@ -80,7 +73,7 @@ VesperResult vesper_renderer_place(VesperRenderer* renderer, uint32_t node, cons
 
 VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float factor, VesperError* error) {
     return guarded(error, [&] {
-        require(renderer, "no renderer");
+        require(renderer, VesperRenderer::kNone);
         require_node(*renderer, node);
         require(factor >= 0 && factor <= 1e6f, "a lamp is dimmed by a factor of 0 to 1e6");
         renderer->dimming[node] = factor;
@@ -89,13 +82,13 @@ VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float 
 
 VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view, float seconds, const VesperOutputs* outputs, VesperError* error) {
     return guarded(error, [&] {
-        require(renderer, "no renderer");
+        require(renderer, VesperRenderer::kNone);
         const VesperOutputs to = outputs_of(outputs);
         const RenderSettings how = settings_of(settings);
         const float passed = seconds_of(seconds);
         const Seen seen = see(*renderer, view);
         finish(*renderer);  // its eye stays should this frame fail
-        const Frame frame = renderer->renderer.render(how, seen.view, seen.frame, passed, wanted(to));
+        const Frame frame = renderer->engine.render(how, seen.view, seen.frame, passed, wanted(to));
         renderer->eye = frame.eye;
         give(frame, to);
     });
@@ -104,47 +97,16 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
 VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view, float seconds, const VesperImage* shown,
                                  const VesperHandover* handover, VesperError* error) {
     return guarded(error, [&] {
-        require(renderer, "no renderer");
+        require(renderer, VesperRenderer::kNone);
         const RenderSettings how = settings_of(settings);
         const float passed = seconds_of(seconds);
         const Handover semaphores = handover_of(handover);
         const Seen seen = see(*renderer, view);
-        renderer->renderer.submit(how, seen.view, seen.frame, passed, {.display = false, .shown = shown_image(shown, seen.view.extent)}, semaphores);
+        renderer->engine.submit(how, seen.view, seen.frame, passed, {.display = false, .shown = shown_image(shown, seen.view.extent)}, semaphores);
     });
 }
 
-VesperResult vesper_renderer_finish(VesperRenderer* renderer, VesperFrameReport* report, VesperError* error) {
-    return guarded(error, [&] {
-        require(renderer, "no renderer");
-        check_report(report);
-        const std::optional<Frame> frame = finish(*renderer);
-        give(frame ? &*frame : nullptr, report);
-    });
-}
-
-VesperResult vesper_renderer_reset(VesperRenderer* renderer, VesperError* error) {
-    return guarded(error, [&] {
-        require(renderer, "no renderer");
-        renderer->renderer.finish();
-        renderer->renderer.reset_adaptation();
-        renderer->eye = {};
-    });
-}
-
-VesperResult vesper_renderer_eye(VesperRenderer* renderer, void* bytes, VesperError* error) {
-    return guarded(error, [&] {
-        require(renderer && bytes, "no renderer, or no place for what its eye remembers");
-        finish(*renderer);
-        give_eye(renderer->eye, bytes);
-    });
-}
-
-VesperResult vesper_renderer_set_eye(VesperRenderer* renderer, const void* bytes, size_t size, VesperError* error) {
-    return guarded(error, [&] {
-        require(renderer && bytes, "no renderer, or nothing to remember");
-        const shared::EyeState eye = eye_of(bytes, size);
-        renderer->renderer.finish();
-        renderer->eye = eye;
-        renderer->renderer.set_eye(eye);
-    });
-}
+VesperResult vesper_renderer_finish(VesperRenderer* renderer, VesperFrameReport* report, VesperError* error) { return finish(renderer, report, error); }
+VesperResult vesper_renderer_reset(VesperRenderer* renderer, VesperError* error) { return reset_eye(renderer, error); }
+VesperResult vesper_renderer_eye(VesperRenderer* renderer, void* bytes, VesperError* error) { return read_eye(renderer, bytes, error); }
+VesperResult vesper_renderer_set_eye(VesperRenderer* renderer, const void* bytes, size_t size, VesperError* error) { return set_eye(renderer, bytes, size, error); }

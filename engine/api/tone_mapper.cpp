@@ -11,13 +11,6 @@ void check_picture(float scale, float vertical_fov) {
     require(vertical_fov > 0 && vertical_fov < 3.1f, "a picture covers 0 to 3.1 rad in height");
 }
 
-/// What the last picture left; nothing where it is known already.
-std::optional<ToneMapped> finish(VesperToneMapper& mapper) {
-    std::optional<ToneMapped> shown = mapper.mapper.finish();
-    if (shown) mapper.eye = shown->eye;
-    return shown;
-}
-
 }  // namespace
 
 VesperResult vesper_tone_mapper_create(VesperDevice* device, VesperToneMapper** mapper, VesperError* error) {
@@ -31,7 +24,7 @@ void vesper_tone_mapper_destroy(VesperToneMapper* mapper) { delete mapper; }
 VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings* settings, const VesperPicture* picture, float seconds, const VesperOutputs* outputs,
                              VesperError* error) {
     return guarded(error, [&] {
-        require(mapper, "no tone mapper");
+        require(mapper, VesperToneMapper::kNone);
         const VesperPicture p = known(picture, "a picture without its size");
         const VesperOutputs to = outputs_of(outputs);
         const VkExtent2D extent = extent_of(p.width, p.height);
@@ -39,7 +32,7 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
         check_picture(p.scale, p.vertical_fov);
         const HostPicture host{.extent = extent, .values = {p.values, size_t{p.width} * p.height * p.channels}, .channels = p.channels, .scale = p.scale, .vertical_fov = double(p.vertical_fov)};
         finish(*mapper);  // its eye stays should this picture fail
-        const ToneMapped shown = mapper->mapper.map(settings_of(settings), host, seconds_of(seconds), wanted(to));
+        const ToneMapped shown = mapper->engine.map(settings_of(settings), host, seconds_of(seconds), wanted(to));
         mapper->eye = shown.eye;
         give(shown, to);
     });
@@ -48,48 +41,17 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
 VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSettings* settings, const VesperImagePicture* picture, float seconds, const VesperImage* shown,
                                    const VesperHandover* handover, VesperError* error) {
     return guarded(error, [&] {
-        require(mapper, "no tone mapper");
+        require(mapper, VesperToneMapper::kNone);
         const VesperImagePicture p = known(picture, "a picture without its size");
         check_picture(p.scale, p.vertical_fov);
         const DevicePicture given{picture_image(p.image), p.scale, double(p.vertical_fov)};
         const ForeignImage to = shown_image(shown, given.image.extent);
         require(to.image != given.image.image, "a picture is shown in another image");
-        mapper->mapper.submit(settings_of(settings), given, to, seconds_of(seconds), handover_of(handover));
+        mapper->engine.submit(settings_of(settings), given, to, seconds_of(seconds), handover_of(handover));
     });
 }
 
-VesperResult vesper_tone_mapper_finish(VesperToneMapper* mapper, VesperFrameReport* report, VesperError* error) {
-    return guarded(error, [&] {
-        require(mapper, "no tone mapper");
-        check_report(report);
-        const std::optional<ToneMapped> shown = finish(*mapper);
-        give(shown ? &*shown : nullptr, report);
-    });
-}
-
-VesperResult vesper_tone_mapper_reset(VesperToneMapper* mapper, VesperError* error) {
-    return guarded(error, [&] {
-        require(mapper, "no tone mapper");
-        mapper->mapper.finish();
-        mapper->mapper.reset_adaptation();
-        mapper->eye = {};
-    });
-}
-
-VesperResult vesper_tone_mapper_eye(VesperToneMapper* mapper, void* bytes, VesperError* error) {
-    return guarded(error, [&] {
-        require(mapper && bytes, "no tone mapper, or no place for what its eye remembers");
-        finish(*mapper);
-        give_eye(mapper->eye, bytes);
-    });
-}
-
-VesperResult vesper_tone_mapper_set_eye(VesperToneMapper* mapper, const void* bytes, size_t size, VesperError* error) {
-    return guarded(error, [&] {
-        require(mapper && bytes, "no tone mapper, or nothing to remember");
-        const shared::EyeState eye = eye_of(bytes, size);
-        mapper->mapper.finish();
-        mapper->eye = eye;
-        mapper->mapper.set_eye(eye);
-    });
-}
+VesperResult vesper_tone_mapper_finish(VesperToneMapper* mapper, VesperFrameReport* report, VesperError* error) { return finish(mapper, report, error); }
+VesperResult vesper_tone_mapper_reset(VesperToneMapper* mapper, VesperError* error) { return reset_eye(mapper, error); }
+VesperResult vesper_tone_mapper_eye(VesperToneMapper* mapper, void* bytes, VesperError* error) { return read_eye(mapper, bytes, error); }
+VesperResult vesper_tone_mapper_set_eye(VesperToneMapper* mapper, const void* bytes, size_t size, VesperError* error) { return set_eye(mapper, bytes, size, error); }

@@ -8,8 +8,8 @@
 #include <optional>
 #include <span>
 
+#include "gpu/commands.h"
 #include "gpu/requirements.h"
-
 
 namespace vesper {
 namespace {
@@ -296,21 +296,8 @@ bool Device::is_coherent(uint32_t memory_type) const {
 }
 
 void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const {
-    const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                            .queueFamilyIndex = queue_family_};
-    VkCommandPool raw = VK_NULL_HANDLE;
-    check(vkCreateCommandPool(device_, &pool_info, nullptr, &raw), "making a command pool");
-    const Owned<VkCommandPool, vkDestroyCommandPool> pool(device_, raw);
-    const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                               .commandPool = raw,
-                                               .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                               .commandBufferCount = 1};
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    check(vkAllocateCommandBuffers(device_, &allocate, &commands), "making a command buffer");
-    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands, &begin), "recording");
+    const CommandBuffer commands(*this, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT);
+    commands.begin();
     record(commands);
     check(vkEndCommandBuffer(commands), "recording");
     const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
@@ -337,8 +324,8 @@ void Device::wait(VkFence fence) const {
     check(waited, "waiting for the device");
 }
 
-OwnedFence make_fence(const Device& device) {
-    const VkFenceCreateInfo info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+OwnedFence make_fence(const Device& device, VkFenceCreateFlags flags) {
+    const VkFenceCreateInfo info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .flags = flags};
     VkFence fence = VK_NULL_HANDLE;
     check(vkCreateFence(device.handle(), &info, nullptr, &fence), "making a fence");
     return {device.handle(), fence};

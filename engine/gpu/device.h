@@ -151,6 +151,6 @@ private:
 };
 
 using OwnedFence = Owned<VkFence, vkDestroyFence>;
-OwnedFence make_fence(const Device& device);
+OwnedFence make_fence(const Device& device, VkFenceCreateFlags flags = 0);
 
 }  // namespace vesper

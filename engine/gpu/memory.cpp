@@ -5,7 +5,7 @@
 namespace vesper {
 namespace {
 
-constexpr uint64_t kBlockBytes = 64ull << 20;
+constexpr uint64_t kBlockBytes = 16ull << 20;
 
 uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
 

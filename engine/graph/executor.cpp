@@ -65,19 +65,11 @@ struct Executor::Past {
                     vkCmdFillBuffer(commands, buffers[half].get(), 0, VK_WHOLE_SIZE, 0);
                     continue;
                 }
-                const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-                const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                                    .dstStageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT,
-                                                    .dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                                    .newLayout = VK_IMAGE_LAYOUT_GENERAL,
-                                                    .image = images[half].get(),
-                                                    .subresourceRange = all};
-                const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                                  .imageMemoryBarrierCount = 1,
-                                                  .pImageMemoryBarriers = &barrier};
-                vkCmdPipelineBarrier2(commands, &dependency);
+                const VkImageMemoryBarrier2 barrier = image_barrier(images[half].get(), {}, {VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+                                                                    VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+                pipeline_barrier(commands, {&barrier, 1});
                 const VkClearColorValue black{};
-                vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1, &all);
+                vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1, &barrier.subresourceRange);
             }
         });
         forgotten = false;

@@ -2,23 +2,10 @@
 
 namespace vesper {
 
-FrameSlot::FrameSlot(const Device& d) : device(d), fence(make_fence(d)) {
-    const VkCommandPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = d.queue_family()};
-    VkCommandPool raw = VK_NULL_HANDLE;
-    check(vkCreateCommandPool(d.handle(), &info, nullptr, &raw), "making a command pool");
-    pool = {d.handle(), raw};
-    const VkCommandBufferAllocateInfo allocate_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                    .commandPool = raw,
-                                                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                    .commandBufferCount = 1};
-    check(vkAllocateCommandBuffers(d.handle(), &allocate_info, &commands), "making a command buffer");
-}
+FrameSlot::FrameSlot(const Device& d) : device(d), commands(d), fence(make_fence(d)) {}
 
 void FrameSlot::begin(uint32_t timestamps) {
-    check(vkResetCommandPool(device.handle(), pool.get(), 0), "recording");
-    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands, &begin), "recording");
+    commands.begin();
     if (query_capacity < timestamps) {
         const VkQueryPoolCreateInfo info{
             .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = VK_QUERY_TYPE_TIMESTAMP, .queryCount = timestamps};

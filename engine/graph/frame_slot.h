@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu/commands.h"
 #include "gpu/memory.h"
 
 namespace vesper {
@@ -25,8 +26,7 @@ struct FrameSlot {
     HostBuffer uploads, readbacks;
     std::vector<OwnedBufferView> texels;
     std::vector<OwnedImageView> views;
-    Owned<VkCommandPool, vkDestroyCommandPool> pool;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
+    CommandBuffer commands;
     Owned<VkQueryPool, vkDestroyQueryPool> queries;
     uint32_t query_capacity = 0;
     OwnedFence fence;

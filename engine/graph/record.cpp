@@ -59,26 +59,11 @@ void Executor::record_border(const FrameGraph& graph, Border border) const {
         const VkImageLayout from = border == Border::Enter ? image.before : VK_IMAGE_LAYOUT_GENERAL;
         const VkImageLayout to = border == Border::Enter ? VK_IMAGE_LAYOUT_GENERAL : image.after;
         if (image.image && from != to)
-            images.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                              .srcStageMask = all,
-                              .srcAccessMask = written,
-                              .dstStageMask = all,
-                              .dstAccessMask = used,
-                              .oldLayout = from,
-                              .newLayout = to,
-                              .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                              .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                              .image = image.image,
-                              .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}});
+            images.push_back(image_barrier(image.image, {all, written}, {all, used}, from, to));
     }
     const VkMemoryBarrier2 memory{
         .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, .srcStageMask = all, .srcAccessMask = written, .dstStageMask = all, .dstAccessMask = used};
-    const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                      .memoryBarrierCount = 1,
-                                      .pMemoryBarriers = &memory,
-                                      .imageMemoryBarrierCount = uint32_t(images.size()),
-                                      .pImageMemoryBarriers = images.data()};
-    vkCmdPipelineBarrier2(slot_->commands, &dependency);
+    pipeline_barrier(slot_->commands, images, &memory);
 }
 
 void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const {
@@ -87,29 +72,14 @@ void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const
     for (const Plan::Barrier& b : barriers) {
         const Realized& r = resources_[b.resource];
         if (r.image && b.old_layout != b.new_layout)
-            images.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                              .srcStageMask = b.from.stages(),
-                              .srcAccessMask = b.from.accesses(),
-                              .dstStageMask = b.to.stages(),
-                              .dstAccessMask = b.to.accesses(),
-                              .oldLayout = b.old_layout,
-                              .newLayout = b.new_layout,
-                              .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                              .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                              .image = r.image,
-                              .subresourceRange = {r.aspect, 0, 1, 0, 1}});
+            images.push_back(image_barrier(r.image, {b.from.stages(), b.from.accesses()}, {b.to.stages(), b.to.accesses()}, b.old_layout, b.new_layout, r.aspect));
         // The bytes of a new transient may have belonged to something else, which an image barrier does not speak of.
         if (!b.from.empty() && (b.discard || b.old_layout == b.new_layout)) {
             memory.srcStageMask |= b.from.stages(), memory.srcAccessMask |= b.from.accesses();
             memory.dstStageMask |= b.to.stages(), memory.dstAccessMask |= b.to.accesses();
         }
     }
-    const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                      .memoryBarrierCount = memory.srcStageMask ? 1u : 0u,
-                                      .pMemoryBarriers = &memory,
-                                      .imageMemoryBarrierCount = uint32_t(images.size()),
-                                      .pImageMemoryBarriers = images.data()};
-    if (memory.srcStageMask || !images.empty()) vkCmdPipelineBarrier2(slot_->commands, &dependency);
+    if (memory.srcStageMask || !images.empty()) pipeline_barrier(slot_->commands, images, memory.srcStageMask ? &memory : nullptr);
 }
 
 void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {

@@ -47,7 +47,8 @@ Blocks add_blocks(FrameGraph& graph, const Kernels& kernels, const GBuffer& g, c
 
     const Kernel& select = kernels.select(variant);
     graph.dispatch("select", select,
-                   {load(g.surface), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(blocks.counts), store(blocks.entries), sample(clusters.maps.texels)},
+                   {load(g.surface), sample(clusters.lights), sample(clusters.counts), sample(clusters.indices), store(blocks.counts), store(blocks.entries), sample(clusters.maps.texels),
+                    sample(clusters.block_slices)},
                    shared::SelectPush{clusters.push, pixels, grid.x, kBlockCapacity}, cover(grid.x, grid.y, select.group[0], select.group[1]));
 
     graph.copy("begin classes", graph.upload("no blocks", empty_classes(), kWords), blocks.class_counts);

@@ -41,7 +41,7 @@ struct Lists {
 
 }  // namespace
 
-Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList& list, const MapTexels& maps, const View& view, const ClusterSettings& settings) {
+Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, Resource surface, const LightList& list, const MapTexels& maps, const View& view, const ClusterSettings& settings) {
     const uint32_t lights = list.lamps();
     check_limits(lights, settings);
     float far = lit_depth(list, settings.threshold);
@@ -66,6 +66,15 @@ Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList
     if (padded.empty()) padded.emplace_back();  // an upload is never empty
     clusters.lights = graph.upload("lights", padded, VK_FORMAT_R32G32B32A32_SFLOAT);
 
+    const shared::ClusterGrid& grid = clusters.push.grid;
+    const Groups blocks = cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
+    const auto words = [&](const char* name, uint32_t number) { return graph.transient(name, buffer_shape(uint64_t(number) * sizeof(uint32_t), VK_FORMAT_R32_UINT)); };
+    clusters.block_slices = words("block slices", blocks.x * blocks.y);
+    const Resource tile_slices = words("tile slices", grid.tiles_x * grid.tiles_y);
+    graph.clear("clear tile slices", tile_slices);
+    graph.dispatch("occupancy", kernels.occupancy, {load(surface), store(clusters.block_slices), update(tile_slices)},
+                   shared::OccupancyPush{grid, {view.extent.width, view.extent.height}, blocks.x}, cover(blocks.x, blocks.y, kernels.occupancy.group[0], kernels.occupancy.group[1]));
+
     // The root is one cell that lists every light; coarse cells choose from it, froxels from coarse cells.
     std::vector<uint32_t> every_light(std::max(1u, lights));
     std::iota(every_light.begin(), every_light.end(), 0u);
@@ -75,18 +84,19 @@ Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, const LightList
     clusters.report = graph.transient("cluster report", buffer_shape(sizeof(shared::ClusterReport)));
     graph.clear("clear cluster report", clusters.report);
 
+    const Kernel& kernel = kernels.cluster(frame_variant(clusters));
     const auto add_level = [&](const char* name, const Lists& parents, shared::ClusterLevelPush push) {
         push.view = clusters.push;
         const uint32_t cells = push.cells_x * push.cells_y * push.cells_z;
         const Lists lists{graph.transient(std::string(name) + " counts", buffer_shape(uint64_t(cells) * 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT)),
                           graph.transient(std::string(name) + " indices", buffer_shape(uint64_t(cells) * push.capacity * sizeof(uint32_t), VK_FORMAT_R32_UINT))};
-        graph.dispatch(name, kernels.cluster,
-                       {sample(clusters.lights), sample(parents.counts), sample(parents.indices), store(lists.counts), store(lists.indices), update(clusters.report), sample(maps.texels)},
-                       push, cover(cells, 1, kernels.cluster.group[0], 1));
+        graph.dispatch(name, kernel,
+                       {sample(clusters.lights), sample(parents.counts), sample(parents.indices), store(lists.counts), store(lists.indices), update(clusters.report), sample(maps.texels),
+                        sample(tile_slices)},
+                       push, cover(cells, 1, kernel.group[0], 1));
         return lists;
     };
 
-    const shared::ClusterGrid& grid = clusters.push.grid;
     const uint32_t coarse_x = divide_up(grid.tiles_x, kCoarseTiles), coarse_y = divide_up(grid.tiles_y, kCoarseTiles);
     const uint32_t coarse_z = divide_up(grid.slices, kCoarseSlices);
     const uint32_t coarse_capacity = uint32_t(std::clamp<uint64_t>(lights, 1, kCoarseIndices / (coarse_x * coarse_y * coarse_z)));

@@ -61,13 +61,14 @@ struct Clusters {
     Resource counts;   ///< r32ui, two per froxel: cones, then cosine powers and maps; kAllLights if they did not fit
     Resource indices;  ///< r32ui, grid.capacity per froxel: indices of cones, then of the others, each ascending
     Resource report;   ///< shared::ClusterReport
+    Resource block_slices;     ///< r32ui, for every block of shared::kBlockSize pixels the slices that something is drawn in, a bit for each
     shared::ClusterPush push;  ///< grid, counts, threshold and far
 };
 
-/// Lists for every froxel all cone and cosine-power lights that may give `threshold` lx somewhere in it. Exact or more,
-/// never less. Slices are of equal ratio from the nearest metre to the farthest depth any lamp reaches with `threshold`
+/// Lists for every froxel in which something is drawn (`surface`: GBuffer::surface) all lamps that may give `threshold` lx somewhere in it. Exact
+/// or more, never less. Slices are of equal ratio from the nearest metre to the farthest depth any lamp reaches with `threshold`
 /// (d = sqrt(I / threshold)), or to `far` if that is nearer.
-Clusters add_clusters(FrameGraph&, const Kernels&, const LightList&, const MapTexels&, const View&, const ClusterSettings&);
+Clusters add_clusters(FrameGraph&, const Kernels&, Resource surface, const LightList&, const MapTexels&, const View&, const ClusterSettings&);
 
 struct ShadeSettings {
     float lambert = 1 / std::numbers::pi_v<float>;  ///< sr^-1: L = E reflectance / pi; 1: the paper's L = E R

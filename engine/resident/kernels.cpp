@@ -17,6 +17,7 @@
 #include "shaders/display_light.comp.inc"
 #include "shaders/gather.comp.inc"
 #include "shaders/histogram.comp.inc"
+#include "shaders/occupancy.comp.inc"
 #include "shaders/picture.comp.inc"
 #include "shaders/pyramid.comp.inc"
 #include "shaders/scatter_down.comp.inc"
@@ -42,7 +43,7 @@ const Kernel& once(std::map<Variant, Kernel>& made, const Variant& variant, cons
 
 // A CPU device fetches a light once for eight pixels and works on rows of 32; a GPU on squares, a pixel each.
 Kernels::Kernels(const Device& device)
-    : cluster(device, "cluster.comp", cluster_comp),
+    : occupancy(device, "occupancy.comp", occupancy_comp),
       shade_group(device.is_cpu() ? VkExtent2D{32, 1} : VkExtent2D{32, 8}),
       shade_rows(device.is_cpu() ? 8 : 1),
       picture(device, "picture.comp", picture_comp),
@@ -73,6 +74,11 @@ Kernels::Kernels(const Device& device)
       device_(device) {}
 
 uint32_t Kernels::most_groups() const { return device_.limits().maxComputeWorkGroupCount[0]; }
+
+const Kernel& Kernels::cluster(uint32_t variant) const {
+    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
+    return once(cluster_, variant & (kPowers | kMaps), [&] { return Kernel(device_, "cluster.comp", cluster_comp, {has(kPowers), has(kMaps)}); });
+}
 
 const Kernel& Kernels::select(uint32_t variant) const {
     const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };

@@ -11,15 +11,16 @@ namespace vesper {
 
 /// Every compute shader, specialized for the device.
 struct Kernels {
-    Kernel cluster;
+    Kernel occupancy;
     VkExtent2D shade_group;  ///< invocations per workgroup of the shading kernels: shared::kBlocksPerGroup blocks wide
     uint32_t shade_rows;     ///< pixels of a column that one invocation shades; divides shared::kBlockSize
-    /// Bits of a selecting, gathering or shading kernel: what it has code for. Selection knows kPowers and kMaps, gathering these,
-    /// kCones and kRoads.
+    /// Bits of a clustering, selecting, gathering or shading kernel: what it has code for. Clustering and selection know kPowers and kMaps,
+    /// gathering these, kCones and kRoads.
     enum ShadeVariant : uint32_t {
         kEveryLight = 1, kCones = 2, kPowers = 4, kMaps = 8, kListed = 16, kGathered = 32, kGlossy = 64, kRoads = 128, kRetro = 256
     };
     /// Made when it is first asked for.
+    const Kernel& cluster(uint32_t variant) const;
     const Kernel& select(uint32_t variant) const;
     const Kernel& gather(uint32_t variant) const;
     const Kernel& shade(uint32_t variant) const;
@@ -65,7 +66,7 @@ struct Kernels {
 
 private:
     const Device& device_;
-    mutable std::map<uint32_t, Kernel> shade_, select_, gather_, adapt_, bright_;
+    mutable std::map<uint32_t, Kernel> shade_, cluster_, select_, gather_, adapt_, bright_;
     mutable std::map<BandsVariant, Kernel> bands_;
     mutable std::map<CompositeVariant, Kernel> composite_;
 };

@@ -6,6 +6,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "gpu/commands.h"
 #include "scene/reflectance.h"
 
 namespace vesper {
@@ -155,29 +156,11 @@ TextureStore::Texture TextureStore::upload(const std::vector<Level>& levels, VkF
     staging.flush();
 
     Texture texture;
-    const uint32_t count = uint32_t(levels.size());
-    texture.image = make_image(*device_, image_info(format, {levels[0].width, levels[0].height}, count,
+    texture.image = make_image(*device_, image_info(format, {levels[0].width, levels[0].height}, uint32_t(levels.size()),
                                                     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
     arena_->bind(texture.image.get());
     device_->run_once([&](VkCommandBuffer commands) {
-        VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                      .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                      .dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                      .newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                                      .image = texture.image.get(),
-                                      .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, count, 0, 1}};
-        const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                          .imageMemoryBarrierCount = 1,
-                                          .pImageMemoryBarriers = &barrier};
-        vkCmdPipelineBarrier2(commands, &dependency);
-        vkCmdCopyBufferToImage(commands, staging.buffer(), texture.image.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                               uint32_t(copies.size()), copies.data());
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT, barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-        barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-        barrier.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-        vkCmdPipelineBarrier2(commands, &dependency);
+        record_upload(commands, staging.buffer(), texture.image.get(), copies);
     });
     texture.view = make_view(*device_, texture.image.get(), format);
     return texture;

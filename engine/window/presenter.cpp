@@ -117,22 +117,8 @@ void Presenter::upload_coverage(VkExtent2D extent, std::span<const uint8_t> cove
     std::memcpy(staging.data(), coverage.data(), coverage.size());
     staging.flush();
     device_.run_once([&](VkCommandBuffer commands) {
-        VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                      .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                      .dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                      .newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                                      .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                      .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                      .image = coverage_.get(),
-                                      .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-        const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
-        vkCmdPipelineBarrier2(commands, &dependency);
         const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {extent.width, extent.height, 1}};
-        vkCmdCopyBufferToImage(commands, staging.buffer(), coverage_.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT, barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, barrier.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-        barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, barrier.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-        vkCmdPipelineBarrier2(commands, &dependency);
+        record_upload(commands, staging.buffer(), coverage_.get(), {&copy, 1});
     });
 }
 

@@ -39,19 +39,9 @@ Owned<VkSemaphore, vkDestroySemaphore> make_semaphore(VkDevice device) {
 }
 
 void change_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags2 before, VkAccessFlags2 after) {
-    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                        .srcStageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                                        .srcAccessMask = before,
-                                        .dstStageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                                        .dstAccessMask = after,
-                                        .oldLayout = from,
-                                        .newLayout = to,
-                                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .image = image,
-                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(commands, &dependency);
+    constexpr VkPipelineStageFlags2 drawing = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkImageMemoryBarrier2 barrier = image_barrier(image, {drawing, before}, {drawing, after}, from, to);
+    pipeline_barrier(commands, {&barrier, 1});
 }
 
 }  // namespace
@@ -59,19 +49,8 @@ void change_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, 
 Swapchain::Swapchain(Device& device, MakeSurface make_surface) : device_(device), make_surface_(std::move(make_surface)) {
     open_surface();
     for (Slot& slot : slots_) {
-        const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = device_.queue_family()};
-        VkCommandPool raw = VK_NULL_HANDLE;
-        check(vkCreateCommandPool(device_.handle(), &pool, nullptr, &raw), "making a command pool");
-        slot.pool = {device_.handle(), raw};
-        const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                   .commandPool = raw,
-                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                   .commandBufferCount = 1};
-        check(vkAllocateCommandBuffers(device_.handle(), &allocate, &slot.commands), "making a command buffer");
-        const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, .flags = VK_FENCE_CREATE_SIGNALED_BIT};
-        VkFence done = VK_NULL_HANDLE;
-        check(vkCreateFence(device_.handle(), &fence, nullptr, &done), "making a fence");
-        slot.done = {device_.handle(), done};
+        slot.commands = CommandBuffer(device_);
+        slot.done = make_fence(device_, VK_FENCE_CREATE_SIGNALED_BIT);
         slot.acquired = make_semaphore(device_.handle());
     }
 }
@@ -215,10 +194,7 @@ bool Swapchain::show(const SwapchainSettings& settings, const Draw& draw) {
 }
 
 void Swapchain::record(const Slot& slot, const Image& image, const Draw& draw, uint32_t index) const {
-    check(vkResetCommandPool(device_.handle(), slot.pool.get(), 0), "recording");
-    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(slot.commands, &begin), "recording");
+    slot.commands.begin();
     change_layout(slot.commands, image.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, 0,
                   VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT);
     draw(slot.commands, {image.view.get(), extent_, format_.format, format_.colorSpace == VK_COLOR_SPACE_HDR10_ST2084_EXT, index});

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/device.h"
+#include "gpu/commands.h"
 
 namespace vesper {
 
@@ -64,9 +64,8 @@ public:
 
 private:
     struct Slot {
-        Owned<VkCommandPool, vkDestroyCommandPool> pool;
-        VkCommandBuffer commands = VK_NULL_HANDLE;
-        Owned<VkFence, vkDestroyFence> done;
+        CommandBuffer commands;
+        OwnedFence done;
         Owned<VkSemaphore, vkDestroySemaphore> acquired;
     };
     struct Image {

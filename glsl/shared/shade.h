@@ -16,6 +16,13 @@ const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of
 const uint kFirstSliceShift = 22u;
 const uint kLastSliceShift = 27u;
 
+struct OccupancyPush {
+    ClusterGrid grid;
+    uvec2 size;      // px
+    uint blocks_x;   // blocks in a row
+};
+SHARED_SIZE(OccupancyPush, 52)
+
 struct SelectPush {
     ClusterPush view;
     uvec2 size;      // px

@@ -26,18 +26,6 @@ void every_fault(uint64_t calls, std::span<const VkResult> faults, const Try& at
             }
 }
 
-/// A lit wall.
-Scene small_scene() {
-    Scene scene;
-    scene.materials = {Material{}};
-    add_mesh(scene, rectangle({-5, -5, -10}, {10, 0, 0}, {0, 10, 0}), kRectangle, 0);
-    scene.lights = {Light{.name = "lamp", .kind = Light::Kind::Point, .intensity = 500}};
-    Node node;
-    node.light = 0;
-    scene.nodes.push_back(node);
-    return scene;
-}
-
 std::vector<uint8_t> render(Renderer& renderer, const Scene& scene, VkExtent2D extent = {16, 8}, float seconds = 0) {
     RenderSettings settings;
     settings.glare = Glare::Scatter;
@@ -58,7 +46,7 @@ void expect_line(const Error& error) {
 }
 
 TEST(VulkanFaults, EveryCallThatFailsEndsInALine) {
-    const Scene scene = small_scene();
+    const Scene scene = wall_with_a_lamp();
     std::string complaints;
     std::vector<uint8_t> good;
     const auto from_start = [&] {
@@ -91,7 +79,7 @@ TEST(VulkanFaults, EveryCallThatFailsEndsInALine) {
 }
 
 TEST(VulkanFaults, AFrameThatFailedIsFollowedByAGoodOne) {
-    const Scene scene = small_scene();
+    const Scene scene = wall_with_a_lamp();
     std::string complaints;
     Device device({.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
     Renderer renderer(device, scene);

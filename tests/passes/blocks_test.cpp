@@ -79,7 +79,7 @@ Gathered gather(PassRig& rig, const Surfaces& s, const LightList& list, float to
     FrameGraph graph;
     const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
     const GBuffer g = upload(graph, s);
-    const Clusters c = add_clusters(graph, rig.kernels(), list, no_maps(graph), view, {.far = far});
+    const Clusters c = add_clusters(graph, rig.kernels(), g.surface, list, no_maps(graph), view, {.far = far});
     Gathered got;
     got.blocks = add_blocks(graph, rig.kernels(), g, c, view, tolerance);
     got.cluster = c.push;

@@ -75,6 +75,24 @@ inline uint32_t froxel_index(const shared::ClusterGrid& grid, uint32_t tile_x, u
 
 inline uint32_t tile_of(uint32_t pixel) { return pixel / shared::kTileSize; }
 
+/// Whether anything is drawn in a froxel; float logarithms may put what lies at its border on either side.
+enum class Drawn { Nothing, AtItsBorder, Something };
+
+/// Of every froxel, given the depths of all pixels, m; 0: nothing is drawn.
+inline std::vector<Drawn> drawn_in(const shared::ClusterGrid& grid, shared::uvec2 size, std::span<const float> depths) {
+    std::vector<Drawn> drawn(size_t(grid.tiles_x) * grid.tiles_y * grid.slices, Drawn::Nothing);
+    for (size_t i = 0; i < depths.size(); ++i) {
+        if (!(depths[i] > 0)) continue;
+        const uint32_t x = tile_of(uint32_t(i % size.x)), y = tile_of(uint32_t(i / size.x));
+        const uint32_t low = slice_of(grid, 0.99999 * depths[i]), high = slice_of(grid, 1.00001 * depths[i]);
+        for (const uint32_t slice : {low, high}) {
+            Drawn& here = drawn[froxel_index(grid, x, y, slice)];
+            here = std::max(here, low == high ? Drawn::Something : Drawn::AtItsBorder);
+        }
+    }
+    return drawn;
+}
+
 /// View-frame position of pixel coordinates (0.5 is the middle of the first) at a depth, m.
 inline dvec3 view_position(const shared::ClusterGrid& grid, dvec2 pixel, double depth) {
     const dvec2 ray = dvec2(grid.ray_scale) * pixel + dvec2(grid.ray_offset);

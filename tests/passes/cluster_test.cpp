@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "support/lights.h"
+#include "support/noise.h"
 #include "support/texels.h"
 
 namespace vesper::test {
@@ -18,17 +19,39 @@ struct Lists {
     std::vector<std::vector<uint32_t>> lights;  ///< cones, then powers; of an overflowed froxel: empty
     std::vector<bool> overflowed;
     std::vector<uint32_t> cones;
+    std::vector<reference::Drawn> drawn;        ///< what is drawn in a froxel
 };
+
+/// Depths of all sizes, m, and pixels without any: nothing is drawn in every third column of tiles beyond 30 m, nor above tile 1 of every fifth.
+std::vector<float> depths(VkExtent2D extent) {
+    Noise random(extent.width);
+    std::vector<float> depths;
+    for (uint32_t y = 0; y < extent.height; ++y)
+        for (uint32_t x = 0; x < extent.width; ++x) {
+            const uint32_t column = reference::tile_of(x);
+            const float depth = 0.3f * std::pow(1e5f, random.unit());
+            const bool nothing = (column % 5 == 4 && reference::tile_of(y) < 1) || random.unit() < 0.1f;
+            depths.push_back(nothing ? 0 : column % 3 == 2 ? std::min(depth, 30.0f) : depth);
+        }
+    return depths;
+}
+
+Resource surface_of(FrameGraph& graph, VkExtent2D extent) {
+    std::vector<glm::vec4> texels;
+    for (const float depth : depths(extent)) texels.emplace_back(0, 0, depth, 1);
+    return PassRig::image(graph, "surface", kSurfaceFormat, extent, texels);
+}
 
 Lists cluster(PassRig& rig, const LightList& list, const View& view, const ClusterSettings& settings) {
     FrameGraph graph;
-    const Clusters clusters = add_clusters(graph, rig.kernels(), list, no_maps(graph), view, settings);
+    const Clusters clusters = add_clusters(graph, rig.kernels(), surface_of(graph, view.extent), list, no_maps(graph), view, settings);
     const Resource counts = keep<uint32_t>(graph, clusters.counts), indices = keep<uint32_t>(graph, clusters.indices),
                    report = keep<shared::ClusterReport>(graph, clusters.report);
     rig.run(graph);
 
     Lists out;
     out.push = clusters.push;
+    out.drawn = reference::drawn_in(out.push.grid, {view.extent.width, view.extent.height}, depths(view.extent));
     out.report = rig.got<shared::ClusterReport>(report).at(0);
     const auto count = rig.got<uint32_t>(counts), index = rig.got<uint32_t>(indices);
     const uint32_t capacity = out.push.grid.capacity;
@@ -51,6 +74,9 @@ void expect_well_formed(const Lists& lists, const LightList& list) {
     uint64_t listed = 0, longest = 0, overflowed = 0;
     for (size_t i = 0; i < lists.lights.size(); ++i) {
         const auto& l = lists.lights[i];
+        if (lists.drawn[i] == reference::Drawn::Nothing) {
+            EXPECT_TRUE(l.empty() && !lists.overflowed[i]) << "froxel " << i;
+        }
         const auto powers = l.begin() + lists.cones[i];
         EXPECT_TRUE(std::is_sorted(l.begin(), l.end())) << "froxel " << i;
         EXPECT_EQ(std::adjacent_find(l.begin(), l.end()), l.end()) << "froxel " << i << " has a light twice";
@@ -76,7 +102,7 @@ std::pair<uint64_t, uint64_t> expect_superset(const Lists& lists, const LightLis
     uint64_t found = 0, listed = 0, missed = 0;
     std::string first;
     for (size_t i = 0; i < want.size(); ++i) {
-        if (lists.overflowed[i]) continue;
+        if (lists.overflowed[i] || lists.drawn[i] != reference::Drawn::Something) continue;
         const auto& got = lists.lights[i];
         found += want[i].size(), listed += got.size();
         for (uint32_t light : want[i])
@@ -210,7 +236,7 @@ TEST(Cluster, ALampDarkerThanTheThresholdEverywhereIsNotListed) {
         const double begin = reference::slice_depth(lists.push.grid, slice),
                      end = reference::slice_depth(lists.push.grid, slice + 1);
         const auto& got = lists.lights[reference::froxel_index(lists.push.grid, 0, 0, slice)];
-        if (begin < 50 && end > 50) {
+        if (begin < 50 && end > 50 && lists.drawn[reference::froxel_index(lists.push.grid, 0, 0, slice)] == reference::Drawn::Something) {
             EXPECT_EQ(got.size(), 1u);
         }
         if (end < 10) {
@@ -224,7 +250,7 @@ TEST(Cluster, GridMapsDepthsFromAMetreToTheEnd) {
     PassRig rig;
     FrameGraph graph;
     const Clusters c =
-        add_clusters(graph, rig.kernels(), street_lamps({3, 0, 0}, 100), no_maps(graph), view_of({1680, 1050}), {.far = 400});
+        add_clusters(graph, rig.kernels(), surface_of(graph, {1680, 1050}), street_lamps({3, 0, 0}, 100), no_maps(graph), view_of({1680, 1050}), {.far = 400});
     EXPECT_EQ(c.push.grid.tiles_x, 27u);
     EXPECT_EQ(c.push.grid.tiles_y, 17u);
     EXPECT_EQ(reference::slice_of(c.push.grid, 0.01), 0u);
@@ -239,12 +265,13 @@ TEST(Cluster, RefusesImpossibleSettings) {
     FrameGraph graph;
     const LightList list = street_lamps({3, 0, 0}, 100);
     const MapTexels maps = no_maps(graph);
+    const Resource surface = surface_of(graph, {64, 64});
     for (const ClusterSettings& settings : {ClusterSettings{.slices = 0}, ClusterSettings{.slices = 1},
                                             ClusterSettings{.slices = 33}, ClusterSettings{.capacity = 0}})
-        EXPECT_THROW(add_clusters(graph, rig.kernels(), list, maps, view_of({64, 64}), settings), Error);
+        EXPECT_THROW(add_clusters(graph, rig.kernels(), surface, list, maps, view_of({64, 64}), settings), Error);
     LightList crowd;
     crowd.counts.cones = 1u << 20, crowd.lights.resize(1u << 20);
-    EXPECT_THROW(add_clusters(graph, rig.kernels(), crowd, maps, view_of({64, 64}), {}), Error);
+    EXPECT_THROW(add_clusters(graph, rig.kernels(), surface, crowd, maps, view_of({64, 64}), {}), Error);
 }
 
 }  // namespace

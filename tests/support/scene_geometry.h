@@ -113,4 +113,16 @@ inline std::vector<Vertex> rectangle(glm::vec3 corner, glm::vec3 u, glm::vec3 v)
 }
 const std::vector<uint32_t> kRectangle{0, 1, 2, 0, 2, 3};
 
+/// A wall of 10 m by 10 m, 10 m in front of the origin, and a lamp of 500 cd there.
+inline Scene wall_with_a_lamp() {
+    Scene scene;
+    scene.materials = {Material{}};
+    add_mesh(scene, rectangle({-5, -5, -10}, {10, 0, 0}, {0, 10, 0}), kRectangle, 0);
+    scene.lights = {Light{.name = "lamp", .kind = Light::Kind::Point, .intensity = 500}};
+    Node node;
+    node.light = 0;
+    scene.nodes.push_back(node);
+    return scene;
+}
+
 }  // namespace vesper::test

@@ -49,7 +49,7 @@ inline Shot shade(PassRig& rig, const Surfaces& s, const LightList& list, const 
     const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
     const GBuffer g = upload(graph, s);
     if (!sheets.empty()) settings.retro = graph.upload("retro", retro_texels(sheets), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Clusters c = add_clusters(graph, rig.kernels(), list, upload(graph, maps), view, clusters);
+    const Clusters c = add_clusters(graph, rig.kernels(), g.surface, list, upload(graph, maps), view, clusters);
     const Resource scene = keep<glm::vec4>(graph, add_shading(graph, rig.kernels(), g, c, view, settings)),
                    report = keep<shared::ClusterReport>(graph, c.report);
     rig.run(graph);

@@ -32,17 +32,6 @@ void at_once(const Work& work) {
     for (std::thread& thread : threads) thread.join();
 }
 
-Scene lit_wall() {
-    Scene scene;
-    scene.materials = {Material{}};
-    add_mesh(scene, rectangle({-5, -5, -10}, {10, 0, 0}, {0, 10, 0}), kRectangle, 0);
-    scene.lights = {Light{.name = "lamp", .kind = Light::Kind::Point, .intensity = 500}};
-    Node node;
-    node.light = 0;
-    scene.nodes.push_back(node);
-    return scene;
-}
-
 /// What an engine of its own shows of a scene that others read too, after some frames; each of the threads in another way.
 std::vector<uint8_t> shown(const Scene& scene, size_t which) {
     Device device;
@@ -63,7 +52,7 @@ std::vector<uint8_t> shown(const Scene& scene, size_t which) {
 }
 
 TEST(Threads, EnginesShowWhatEachShowsAlone) {
-    const Scene scene = lit_wall();
+    const Scene scene = wall_with_a_lamp();
     std::vector<uint8_t> alone[kThreads], together[kThreads];
     for (size_t i = 0; i < kThreads; ++i) alone[i] = shown(scene, i);
     at_once([&](size_t i) { together[i] = shown(scene, i); });
@@ -73,7 +62,7 @@ TEST(Threads, EnginesShowWhatEachShowsAlone) {
 
 // An engine belongs to one thread at a time, not to the one that made it.
 TEST(Threads, AnEngineMayGoFromThreadToThread) {
-    const Scene scene = lit_wall();
+    const Scene scene = wall_with_a_lamp();
     std::unique_ptr<Device> device;
     std::unique_ptr<Renderer> renderer;
     const auto elsewhere = [](const auto& work) { std::thread(work).join(); };

@@ -175,7 +175,8 @@ std::vector<LampGroup> Scenery::lamp_groups() const {
 }
 
 const DriveSettings& Scenery::check(const DriveSettings& settings) const {
-    for (const auto& [name, factor] : settings.lamps()) {
+    for (const auto& dimmed : settings.lamps()) {
+        const std::string& name = dimmed.first;
         if (std::any_of(lamps_.begin(), lamps_.end(), [&](const Lamp& lamp) { return lamp.name == name; })) continue;
         std::string names;
         for (const LampGroup& group : lamp_groups()) names += (names.empty() ? "" : ", ") + group.name;

@@ -7,7 +7,7 @@ using namespace vesper::api;
 
 void vesper_version(uint32_t version[3]) {
     constexpr uint32_t parts[3]{VESPER_VERSION_MAJOR, VESPER_VERSION_MINOR, VESPER_VERSION_PATCH};
-    std::copy(parts, parts + 3, version);
+    if (version) std::copy(parts, parts + 3, version);
 }
 
 VesperResult vesper_device_open(const VesperDeviceOptions* options, VesperDevice** device, VesperError* error) {

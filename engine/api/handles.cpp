@@ -6,6 +6,8 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gpu/out_of_memory.h"
+
 namespace vesper::api {
 namespace {
 
@@ -48,6 +50,9 @@ VesperResult result_of(VesperError* error, void (*call)(const void*), const void
         return VESPER_BAD_ARGUMENT;
     } catch (const std::bad_alloc&) {
         say(error, "out of memory");
+        return VESPER_OUT_OF_MEMORY;
+    } catch (const OutOfHostMemory& out) {
+        say(error, out.what());
         return VESPER_OUT_OF_MEMORY;
     } catch (const DeviceLost& lost) {
         say(error, lost.what());

@@ -73,6 +73,12 @@ bool finite(const float (&values)[n]) {
     return std::all_of(values, values + n, [](float v) { return std::isfinite(v); });
 }
 inline glm::vec3 vector(const float v[3]) { return {v[0], v[1], v[2]}; }
+/// The direction of a vector of any length but zero. In double, where no square of a float is too large or too small.
+inline glm::dvec3 direction(const float v[3], const char* otherwise) {
+    const glm::dvec3 d(vector(v));
+    require(d != glm::dvec3(0), otherwise);
+    return glm::normalize(d);
+}
 /// 16 values, column by column. Throws BadArgument unless they are affine and can be inverted.
 glm::mat4 place_of(const float* node_to_world);
 
@@ -98,6 +104,11 @@ auto finish(Handle& handle) {
     auto frame = handle.engine.finish();
     if (frame) handle.eye = frame->eye;
     return frame;
+}
+/// Before a frame that is handed over: where its settings wait for the one before, what that left stays known should this one fail.
+template <class Handle>
+void look_back(Handle& handle, const ToneChainSettings& settings) {
+    if (EyeKeeper::looks_back(settings)) finish(handle);
 }
 template <class Handle>
 VesperResult finish(Handle* handle, VesperFrameReport* report, VesperError* error) {

@@ -2,6 +2,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "api/handles.h"
+#include "scene/placement.h"
 
 using namespace vesper;
 using namespace vesper::api;
@@ -11,13 +12,7 @@ namespace {
 // Everything where it stands at a time, but for what was put elsewhere, and what hangs on that.
 SceneFrame frame_of(const VesperRenderer& renderer, double seconds) {
     const Scene& scene = renderer.scene.scene;
-    SceneFrame frame{world_transforms(scene, seconds)};
-    std::vector<glm::mat4> moved(renderer.places.empty() ? 0 : scene.nodes.size(), glm::mat4(1));
-    for (uint32_t i = 0; i < moved.size(); ++i) {
-        if (scene.nodes[i].parent != kNone) moved[i] = moved[scene.nodes[i].parent];
-        if (const auto place = renderer.places.find(i); place != renderer.places.end()) moved[i] = place->second * glm::inverse(frame.world[i]);
-        frame.world[i] = moved[i] * frame.world[i];
-    }
+    SceneFrame frame{placed_transforms(scene, seconds, renderer.places)};
     if (renderer.dimming.empty()) return frame;
     frame.dimming.assign(scene.nodes.size(), 1);
     for (const auto& [node, factor] : renderer.dimming) frame.dimming[node] = factor;
@@ -29,9 +24,10 @@ View view_of(const VesperView& v, const Scene& scene, const SceneFrame& frame) {
     if (v.camera) return camera_view(scene, frame, v.camera, extent);
     require(finite(v.eye) && finite(v.forward) && finite(v.up) && v.vertical_fov > 0 && v.vertical_fov < 3.1f && v.near_plane > 0 && v.near_plane < 1e6f,
             "a view has an eye, a vertical angle of 0 to 3.1 rad and a near plane beyond 0 m");
-    const glm::vec3 forward = vector(v.forward), side = glm::cross(forward, vector(v.up));
-    require(glm::length(side) > 1e-6f * glm::length(forward) * glm::length(vector(v.up)), "a view's forward and up are two directions");
-    return View::symmetric(extent, v.vertical_fov, glm::lookAt(vector(v.eye), vector(v.eye) + glm::normalize(forward), glm::normalize(vector(v.up))), v.near_plane);
+    constexpr const char* kTwo = "a view's forward and up are two directions";
+    const glm::dvec3 eye(vector(v.eye)), forward = direction(v.forward, kTwo), up = direction(v.up, kTwo);
+    require(glm::length(glm::cross(forward, up)) > 1e-6, kTwo);
+    return View::symmetric(extent, v.vertical_fov, glm::mat4(glm::lookAt(eye, eye + forward, up)), v.near_plane);
 }
 
 /// What is drawn and from where, with all that changed in the scene.
@@ -102,6 +98,7 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
         const float passed = seconds_of(seconds);
         const Handover semaphores = handover_of(handover);
         const Seen seen = see(*renderer, view);
+        look_back(*renderer, how);
         renderer->engine.submit(how, seen.view, seen.frame, passed, {.display = false, .shown = shown_image(shown, seen.view.extent)}, semaphores);
     });
 }

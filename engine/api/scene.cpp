@@ -51,12 +51,13 @@ Primitive primitive_of(const Scene& scene, const VesperMesh& m) {
 
 /// The lamp's frame: -z along its axis, +y as near to `up` as can be.
 glm::quat turned(const VesperLamp& lamp) {
-    const glm::vec3 axis = vector(lamp.axis), up = vector(lamp.up);
-    require(glm::length(axis) > 1e-6f, "a lamp's axis has a direction");
-    if (up == glm::vec3(0)) return glm::quat(glm::vec3(0, 0, -1), glm::normalize(axis));
-    const glm::vec3 z = -glm::normalize(axis), x = glm::cross(up, z);
-    require(glm::length(x) > 1e-6f * glm::length(up), "a lamp's axis and up are two directions");
-    return glm::quat_cast(glm::mat3(glm::normalize(x), glm::cross(z, glm::normalize(x)), z));
+    const glm::dvec3 axis = direction(lamp.axis, "a lamp's axis has a direction");
+    if (vector(lamp.up) == glm::vec3(0)) return glm::quat(glm::vec3(0, 0, -1), glm::vec3(axis));
+    constexpr const char* kTwo = "a lamp's axis and up are two directions";
+    const glm::dvec3 x = glm::cross(direction(lamp.up, kTwo), -axis);
+    require(glm::length(x) > 1e-6, kTwo);
+    const glm::dvec3 right = glm::normalize(x);
+    return glm::quat_cast(glm::mat3(right, glm::cross(-axis, right), -axis));
 }
 
 /// The number of the distribution of a file, which is read once.

@@ -47,7 +47,9 @@ VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSet
         const DevicePicture given{picture_image(p.image), p.scale, double(p.vertical_fov)};
         const ForeignImage to = shown_image(shown, given.image.extent);
         require(to.image != given.image.image, "a picture is shown in another image");
-        mapper->engine.submit(settings_of(settings), given, to, seconds_of(seconds), handover_of(handover));
+        const RenderSettings how = settings_of(settings);
+        look_back(*mapper, how);
+        mapper->engine.submit(how, given, to, seconds_of(seconds), handover_of(handover));
     });
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "gpu/commands.h"
+#include "gpu/out_of_memory.h"
 #include "gpu/requirements.h"
 
 namespace vesper {
@@ -124,6 +125,7 @@ void check(VkResult result, std::string_view what) {
     const std::string message = std::string(what) + ": " + text_of(result);
     if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(message);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) throw OutOfDeviceMemory(message);
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY) throw OutOfHostMemory(message);
     throw Error(message);
 }
 

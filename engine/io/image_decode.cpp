@@ -21,6 +21,7 @@ struct Job {
     std::span<const uint8_t> bytes;
     uint32_t max_side;
     uint64_t max_texels;
+    bool header_only = false;
     size_t read = 0;
     Image image;
     std::vector<uint8_t> row;
@@ -89,6 +90,7 @@ bool decode_png(Job& job, const PngReading& reading) {
     const png_uint_32 width = png_get_image_width(png, header), height = png_get_image_height(png, header);
     // Deflate packs at most 1032 : 1, and a texel may be a single bit.
     if (!acceptable(job, width, height, 1040 * 8)) return false;
+    if (job.header_only) return true;
     png_set_expand(png);
     png_set_scale_16(png);
     png_set_gray_to_rgb(png);
@@ -163,6 +165,7 @@ bool decode_jpeg(Job& job, JpegReading& reading) {
     jpeg_read_header(&jpeg, TRUE);
     // At least one bit for each block of 64 texels, of which subsampling may make sixteen.
     if (!acceptable(job, jpeg.image_width, jpeg.image_height, 64 * 16 * 8)) return false;
+    if (job.header_only) return true;
     // Four inks come as CMYK (libjpeg undoes YCCK); Adobe's files hold them inverted.
     jpeg.out_color_space = jpeg.num_components == 4 ? JCS_CMYK : JCS_RGB;
     jpeg_start_decompress(&jpeg);
@@ -202,12 +205,11 @@ std::string media_type(std::span<const uint8_t> bytes) {
     return "";
 }
 
-Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels) {
-    Job job{};
-    job.bytes = bytes;
-    job.max_side = max_side;
-    job.max_texels = max_texels;
-    const std::string type = media_type(bytes);
+namespace {
+
+/// Does the job. Throws Error.
+void run(Job& job) {
+    const std::string type = media_type(job.bytes);
     bool done = false;
     if (type == "image/png") {
         done = decode_png(job, PngReading(job));
@@ -220,6 +222,18 @@ Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t m
     if (!done)
         throw Error(one_line(std::string(type == "image/png" ? "PNG: " : "JPEG: ") +
                              (job.reason[0] ? job.reason : "out of memory")));
+}
+
+}  // namespace
+
+void check_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels) {
+    Job job{.bytes = bytes, .max_side = max_side, .max_texels = max_texels, .header_only = true};
+    run(job);
+}
+
+Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels) {
+    Job job{.bytes = bytes, .max_side = max_side, .max_texels = max_texels};
+    run(job);
     return std::move(job.image);
 }
 

@@ -69,7 +69,7 @@ View camera_view(const Scene& scene, const SceneFrame& frame, const std::string&
     if (name.empty()) return framing_view(scene, frame, extent);
     std::string known;
     for (const std::string& n : camera_names(scene)) known += (known.empty() ? "" : ", ") + n;
-    throw Error(scene.name + ": no camera '" + name + "'; there is " + (known.empty() ? "none" : known));
+    throw Error((scene.name.empty() ? "the scene" : scene.name) + ": no camera '" + name + "'; there is " + (known.empty() ? "none" : known));
 }
 
 }  // namespace vesper

@@ -10,8 +10,6 @@
 namespace vesper {
 namespace {
 
-constexpr uint32_t kUnread = kNone - 1;  ///< not looked at yet; kNone: a format we do not read
-
 uint32_t read_image(GltfReader& reader, const JsonValue& reference) {
     const JsonValue entry = reader.document.element("images", reference);
     const uint32_t index = reference.index(UINT32_MAX, "images");

@@ -33,6 +33,9 @@ struct UvMapping {
     bool operator==(const UvMapping&) const = default;
 };
 
+/// In `image_of`: not looked at. kNone there: a format we do not read.
+constexpr uint32_t kUnread = kNone - 1;
+
 /// State of one reading. The index of a thing in the file is `*_of[...]` in the scene, or kNone.
 struct GltfReader {
     GltfDocument& document;

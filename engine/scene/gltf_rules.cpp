@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/image_file.h"
 #include "scene/gltf_reader.h"
+#include "scene/gltf_rules.h"
 
 namespace vesper {
 namespace {
@@ -45,7 +46,9 @@ public:
     void check() {
         for (const std::string& broken : reader_.document.broken_rules()) note("", broken);
         walk(root_, "");
+        objects();
         needed();
+        check_required_extensions(root_, take_note_);
         each("buffers", [&](const json& b, const std::string& at, uint32_t) {
             if (b.contains("byteLength") && b["byteLength"] == 0) note(at, "is empty");
             uri(b, at, {"application/octet-stream", "application/gltf-buffer"});
@@ -75,7 +78,7 @@ private:
     bool extended_pictures() const {
         const json used = root_.value("extensionsUsed", json::array());
         return used.is_array() && std::any_of(used.begin(), used.end(), [](const json& e) {
-            return e.is_string() && (e.get_ref<const std::string&>().starts_with("EXT_texture_") || e.get_ref<const std::string&>().starts_with("KHR_texture_"));
+            return e == "KHR_texture_basisu" || e == "MSFT_texture_dds" || (e.is_string() && e.get_ref<const std::string&>().starts_with("EXT_texture_"));
         });
     }
     /// The element of a list that a key names, if there is one.
@@ -84,12 +87,21 @@ private:
         return i < count(list) && root_[list][i].is_object() ? &root_[list][i] : nullptr;
     }
 
-    // Empty lists, and references to what is not there, wherever they are.
-    void walk(const json& value, const std::string& at) {
-        if (value.is_array() && value.empty()) return note(at, "is empty");
+    // Extensions, empty lists, and references to what is not there, wherever they are.
+    void walk(const json& value, const std::string& at, bool inside_extension = false) {
+        if (value.is_array() && value.empty() && !inside_extension) return note(at, "is empty");
         for (const auto& [key, member] : value.items()) {
-            if (key == "extensions" || key == "extras") continue;
+            if (key == "extras") continue;
             const std::string here = at + "/" + key;
+            if (key == "extensions" && value.is_object()) {
+                if (member.is_object()) check_extensions(root_, member, at, take_note_);
+                walk(member, here, true);
+                continue;
+            }
+            if (inside_extension) {  // whose members have meanings of their own
+                if (member.is_structured()) walk(member, here, true);
+                continue;
+            }
             if (const auto reference = kReferences.find(key); value.is_object() && reference != kReferences.end()) refer(member, here, reference->second);
             if (member.is_structured()) walk(member, here);
         }
@@ -98,6 +110,11 @@ private:
         if (to.is_number() && whole_number(to).value_or(UINT64_MAX) >= count(list)) note(at, "names none of the " + std::to_string(count(list)) + " " + list);
         if (to.is_array() && list == std::string_view("nodes"))
             for (size_t i = 0; i < to.size(); ++i) refer(to[i], at + "/" + std::to_string(i), list);
+    }
+    void objects() {
+        for (const char* list : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"})
+            for (size_t i = 0; i < count(list); ++i)
+                if (!root_[list][i].is_object()) note("/" + std::string(list) + "/" + std::to_string(i), "is no object");
     }
     void needed() {
         for (const Needed& rule : kNeeded)
@@ -112,11 +129,18 @@ private:
         if (found == holder.end() || !found->is_string()) return;
         const std::string& text = found->get_ref<const std::string&>();
         if (text.starts_with("data:")) {
-            const std::string_view type = std::string_view(text).substr(5, std::min(text.find_first_of(";,"), text.size()) - 5);
+            const std::string_view head = std::string_view(text).substr(0, text.find(','));
+            const std::string_view type = head.substr(5, head.find(';') - 5);
+            for (size_t i = head.find(';'); i != head.npos;) {  // parameters have values, but for the last
+                const size_t next = head.find(';', i + 1);
+                const std::string_view parameter = head.substr(i + 1, next - i - 1);
+                if (parameter.find('=') == parameter.npos && !(parameter == "base64" && next == head.npos)) note(at + "/uri", "has a type with a parameter that has no value");
+                i = next;
+            }
             if (std::find(types.begin(), types.end(), type) == types.end() && !(type.starts_with("image/") && extended_pictures())) note(at + "/uri", "has data of the type '" + std::string(type) + "'");
             if (const size_t comma = text.find(','); comma != text.npos && text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=", comma + 1) != text.npos)
                 note(at + "/uri", "has data that are not base64");
-        } else if (text.find("://") != text.npos || text.find_first_of(" \\<>\"^`{|}") != text.npos || text.starts_with('/')) {
+        } else if (text.find(':') < text.find('/') || text.find_first_of(" \\<>\"^`{|}") != text.npos || text.starts_with('/')) {
             note(at + "/uri", "is no relative URI");
         }
     }
@@ -143,7 +167,8 @@ private:
         if (offset % (matrix ? 4 : size->second) != 0 || (offset + whole(*view, "byteOffset")) % size->second != 0) note(at, "does not begin at a multiple of the size of its numbers");
         if (stride < padded || (view->contains("byteStride") && (stride % 4 != 0 || stride > 252))) note(at, "lies in a buffer view with a stride of " + std::to_string(stride) + " bytes");
         if (elements > 0 && elements < UINT32_MAX && stride <= UINT32_MAX && offset <= bytes && (elements - 1) * stride + padded - (matrix ? (4 - column % 4) % 4 : 0) > bytes - offset) note(at, "reaches beyond its buffer view");
-        if (!matrix) limits(a, at, index, type->first, elements * type->second);
+        const uint64_t buffer = whole(*view, "buffer", UINT64_MAX);
+        if (!matrix && buffer < count("buffers") && reader_.document.has_bytes(uint32_t(buffer))) limits(a, at, index, type->first, elements * type->second);
     }
 
     // What is stated of the numbers of an accessor, and that they are numbers.
@@ -172,9 +197,11 @@ private:
         if (i.contains("uri") == i.contains("bufferView")) note(at, "has not either a uri or a buffer view");
         uri(i, at, {"image/png", "image/jpeg"});
         if (const json* view = named(i, "bufferView", "bufferViews"); view && view->contains("byteStride")) note(at, "lies in a buffer view with a stride");
-        if (index < reader_.image_of.size() && reader_.image_of[index] != kNone) return;
+        if (index < reader_.image_of.size() && reader_.image_of[index] != kUnread) return;
         try {
-            decode_image(reader_.document.image(index), reader_.limits.image_side, reader_.limits.texels);
+            const std::vector<uint8_t> bytes = reader_.document.image(index);
+            const std::string type = media_type(bytes);
+            if (type == "image/png" || type == "image/jpeg" || !extended_pictures()) check_image(bytes, reader_.limits.image_side, reader_.limits.texels);
         } catch (const Error& error) {
             note(at, error.what());
         }
@@ -215,6 +242,7 @@ private:
 
     GltfReader& reader_;
     const json& root_;
+    const RuleNote take_note_ = [this](const std::string& at, const std::string& what) { note(at, what); };
     size_t notes_ = 0;
     uint64_t numbers_ = 0;
 };

@@ -7,6 +7,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/placement.h"
+
 namespace vesper {
 namespace {
 
@@ -72,7 +74,9 @@ glm::mat4 local_transform(const Node& node) {
 
 }  // namespace
 
-std::vector<glm::mat4> world_transforms(const Scene& scene, double seconds) {
+std::vector<glm::mat4> world_transforms(const Scene& scene, double seconds) { return placed_transforms(scene, seconds, {}); }
+
+std::vector<glm::mat4> placed_transforms(const Scene& scene, double seconds, const std::map<uint32_t, glm::mat4>& places) {
     std::vector<glm::mat4> world(scene.nodes.size());
     for (size_t i = 0; i < scene.nodes.size(); ++i) world[i] = local_transform(scene.nodes[i]);
 
@@ -89,8 +93,12 @@ std::vector<glm::mat4> world_transforms(const Scene& scene, double seconds) {
     }
     for (const auto& [index, node] : moved) world[index] = local_transform(node);
 
-    for (size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].parent != kNone) world[i] = world[scene.nodes[i].parent] * world[i];
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
+        if (const auto put = places.find(i); put != places.end())
+            world[i] = put->second;
+        else if (scene.nodes[i].parent != kNone)
+            world[i] = world[scene.nodes[i].parent] * world[i];
+    }
     return world;
 }
 

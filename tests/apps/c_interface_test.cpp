@@ -280,6 +280,7 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     EXPECT_EQ(vesper_scene_read("/nothing.gltf", &scene, &error), VESPER_FAILED);
     EXPECT_NE(std::string(error.message).find("/nothing.gltf"), std::string::npos);
     vesper_tone_mapper_destroy(mapper);
+    vesper_version(nullptr);
     vesper_tone_mapper_destroy(nullptr), vesper_renderer_destroy(nullptr), vesper_scene_destroy(nullptr), vesper_device_close(nullptr);
 }
 

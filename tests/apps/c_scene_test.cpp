@@ -131,6 +131,37 @@ TEST_F(CScene, WhatHangsOnANodeMovesWithIt) {
     EXPECT_EQ(vesper_scene_attach(scene, 99, car, &error), VESPER_BAD_ARGUMENT);
 }
 
+// Where a node is put is exact, however far away it was, and so is what hangs on it: 1 m there, not the difference of large numbers.
+TEST_F(CScene, NodesComeBackFromFarAway) {
+    const float c = std::cos(0.5f), s = std::sin(0.5f), far = 4e6f;
+    const std::vector<float> away{c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, far, 0, far, 1};
+    uint32_t car = 0;
+    expect(vesper_scene_add_node(scene, "car", VESPER_NONE, away.data(), &car, &error));
+    const uint32_t lamp = add(candle());
+    expect(vesper_scene_attach(scene, lamp, car, &error));
+    EXPECT_LT(lux(), 1e-6f);
+    expect(vesper_renderer_place(renderer, car, at(0, 0, 0).data(), &error));
+    EXPECT_NEAR(lux(), 1, 2e-3);
+}
+
+// Directions have no length: a spot and a view with vectors whose squares no float holds.
+TEST_F(CScene, DirectionsAreOfAnyLength) {
+    VesperLamp spot = candle();
+    spot.outer_cone = 0.5f, spot.inner_cone = 0.4f, spot.axis[1] = -1, spot.up[2] = 1;
+    const uint32_t one = add(spot);
+    EXPECT_NEAR(lux(), 1, 2e-3);
+    for (const float length : {1e-30f, 1e30f}) {
+        spot.axis[1] = -length, spot.up[2] = length;
+        const uint32_t other = add(spot);
+        expect(vesper_renderer_dim(renderer, one, 0, &error));
+        EXPECT_NEAR(lux(), 1, 2e-3) << length;
+        VesperView view = down();
+        view.forward[1] *= length, view.up[2] *= length;
+        EXPECT_EQ(render(view), render(down())) << length;
+        expect(vesper_scene_remove(scene, other, &error));
+    }
+}
+
 // A measured lamp gives what its file says towards the ground, along its axis and off it, as it is turned.
 TEST_F(CScene, MeasuredLampsShineAsTheirFile) {
     const std::string file = VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies";
@@ -258,6 +289,11 @@ TEST_F(CScene, RefusesWhatCannotBe) {
                                       vesper_renderer_finish(nullptr, nullptr, &error), vesper_renderer_reset(nullptr, &error), vesper_renderer_eye(nullptr, nullptr, &error)})
         EXPECT_EQ(result, VESPER_BAD_ARGUMENT);
     EXPECT_EQ(lux(), 0) << "none of that is in the scene";
+    VesperView view = down();
+    view.camera = "driver";
+    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, &outputs, &error), VESPER_FAILED);
+    EXPECT_TRUE(std::string(error.message).starts_with("the scene: no camera 'driver'")) << error.message;
     EXPECT_EQ(vesper_renderer_dim(renderer, 99, 1, &error), VESPER_BAD_ARGUMENT);
     EXPECT_EQ(vesper_renderer_dim(renderer, ground, -1, &error), VESPER_BAD_ARGUMENT);
 }

@@ -68,6 +68,10 @@ endif()
 add_executable(stranger ../examples/tone-mapper/main.cpp)
 target_link_libraries(stranger PRIVATE vesper::vesper)
 CMAKE
+mkdir asks
+printf 'cmake_minimum_required(VERSION 3.24)\nproject(asks LANGUAGES CXX)\nfind_package(vesper CONFIG REQUIRED COMPONENTS shared opengl)\n' >asks/CMakeLists.txt
+if cmake -S asks -B built-asks -DCMAKE_PREFIX_PATH="$work/installed" >/dev/null 2>message; then echo "a component that is not there is found"; exit 1; fi
+grep -q "no component 'opengl'" message
 cmake -S stranger -B built-static -DCMAKE_PREFIX_PATH="$work/installed" -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build built-static >/dev/null
 built-static/stranger | diff - tone.txt

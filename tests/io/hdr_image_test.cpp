@@ -8,10 +8,13 @@
 #include <ImfChannelList.h>
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineOutputFile.h>
+#include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
+#include <ImfPreviewImage.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfTiledOutputFile.h>
@@ -317,6 +320,34 @@ TEST(HdrExr, RefusesDeepPicturesOtherFilesAndLargeOnes) {
     EXPECT_TRUE(contains(refusal(folder / "x.exr", {19, 200}), "limit for one side"));
     EXPECT_TRUE(contains(refusal(folder / "x.exr", {20, 199}), "more pixels"));
     EXPECT_THROW(read_radiance(folder / "x.exr"), Error);
+}
+
+// OpenEXR reads a value by its type and goes on after that, wherever the file says that it ends: what it then takes for the next one's size
+// may be gigabytes.
+TEST(HdrExr, ValuesInHeadersAreAsLongAsTheirTypes) {
+    const TempFolder folder;
+    Imf::Header header(9, 5);
+    header.insert("of one", Imf::IntAttribute(1));
+    header.insert("of more", Imf::M44fAttribute(Imath::M44f()));
+    header.insert("of texts", Imf::StringVectorAttribute({"a", "", "bcd"}));
+    header.insert("of floats", Imf::FloatVectorAttribute({1, 2, 3}));
+    header.insert("of a text", Imf::StringAttribute("as long as it says"));
+    const Imf::PreviewRgba pixels[6];
+    header.setPreviewImage(Imf::PreviewImage(3, 2, pixels));
+    write(folder / "x.exr", header, ramp(9, 5));
+    EXPECT_EQ(refusal(folder / "x.exr"), "");
+    const std::vector<uint8_t> whole = read_file(folder / "x.exr", 1 << 20);
+    for (const std::string type : {"int", "m44f", "stringvector", "floatvector", "preview", "chlist", "compression", "box2i", "v2f", "float", "lineOrder"}) {
+        const std::string mark = '\0' + type + '\0';
+        const auto found = std::find_end(whole.begin(), whole.end(), mark.begin(), mark.end());
+        ASSERT_NE(found, whole.end()) << type;
+        std::vector<uint8_t> longer = whole;
+        const size_t at = size_t(found - whole.begin()) + mark.size(), size = longer[at] + 256 * longer[at + 1];
+        ++longer[at];
+        longer.insert(longer.begin() + std::ptrdiff_t(at + 4 + size), 0);
+        replace_file(folder / "longer.exr", longer);
+        EXPECT_TRUE(contains(refusal(folder / "longer.exr"), "has not the size of a " + type)) << type;
+    }
 }
 
 /// Every shorter file, and every file with one byte changed, gives a picture or an Error.

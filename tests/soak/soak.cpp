@@ -1,6 +1,7 @@
 // Renders for as long as is asked, with sizes, operators, glare and lamps changing, and sees whether memory stays and validation is silent.
 //     vesper-soak [FRAMES]
 // SPDX-License-Identifier: MIT
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -63,9 +64,16 @@ double resident_mib() {
     return double(resident) * double(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
+/// Allocated and not given back, by anybody in the process. Resident memory holds the gaps between that as well, and the code of the programs.
+double used_mib() {
+    const struct mallinfo2 heap = ::mallinfo2();
+    return double(heap.uordblks + heap.hblkhd) / (1 << 20);
+}
+
 struct Memory {
-    double host = 0, device = 0;  // MiB, at most
-    void see(const Device& d) { host = std::max(host, resident_mib()), device = std::max(device, double(d.use().bytes) / (1 << 20)); }
+    double resident = 0, used = 0, device = 0;  // MiB
+    static Memory now(const Device& d) { return {resident_mib(), used_mib(), double(d.use().bytes) / (1 << 20)}; }
+    void see(const Memory& m) { resident = std::max(resident, m.resident), used = std::max(used, m.used), device = std::max(device, m.device); }
 };
 
 class Soak {
@@ -73,18 +81,20 @@ public:
     int run(uint64_t frames) {
         const uint64_t rounds = std::max<uint64_t>(frames / kRound, 2), warm_up = std::max<uint64_t>(rounds / 10, 1);
         Memory warm, after;
-        std::printf("%9s %12s %14s %9s\n", "frames", "host, MiB", "device, MiB", "messages");
+        std::printf("%9s %14s %12s %12s %9s\n", "frames", "resident, MiB", "used, MiB", "device, MiB", "messages");
         for (uint64_t round = 0; round < rounds; ++round) {
             if (round % kRoundsOfARenderer == 0) renderer_.reset(), renderer_ = std::make_unique<Renderer>(device_, scene_);
             for (uint64_t i = 0; i < kRound; ++i) frame(round * kRound + i);
-            (round < warm_up ? warm : after).see(device_);
+            const Memory now = Memory::now(device_);
+            (round < warm_up ? warm : after).see(now);
             if (round + 1 == warm_up || (round + 1) % std::max<uint64_t>(rounds / 10, 1) == 0) {
-                std::printf("%9llu %12.1f %14.2f %9llu\n", static_cast<unsigned long long>((round + 1) * kRound), resident_mib(), double(device_.use().bytes) / (1 << 20), static_cast<unsigned long long>(messages_));
+                std::printf("%9llu %14.1f %12.2f %12.2f %9llu\n", static_cast<unsigned long long>((round + 1) * kRound), now.resident, now.used, now.device, static_cast<unsigned long long>(messages_));
                 std::fflush(stdout);
             }
         }
-        std::printf("after the warm-up: host %+.2f %%, device %+.2f %%\n", 100 * (after.host / warm.host - 1), 100 * (after.device / warm.device - 1));
-        const bool host_stays = rounds < kJudgedRounds || after.host <= kMostGrowth * warm.host;
+        const auto grown = [](double before, double then) { return 100 * (then / before - 1); };
+        std::printf("after the warm-up: resident %+.2f %%, used %+.2f %%, device %+.2f %%\n", grown(warm.resident, after.resident), grown(warm.used, after.used), grown(warm.device, after.device));
+        const bool host_stays = rounds < kJudgedRounds || after.used <= kMostGrowth * warm.used;
         return messages_ == 0 && host_stays && after.device <= kMostGrowth * warm.device ? 0 : 1;
     }
 

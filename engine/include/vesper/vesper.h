@@ -32,7 +32,7 @@ extern "C" {
 #define VESPER_VERSION_PATCH 0 /**< changes when something works better */
 /** @} */
 
-/** Major, minor and patch number of the library that is linked. */
+/** Major, minor and patch number of the library that is linked; null is passed over. */
 void vesper_version(uint32_t version[3]);
 
 /** What came of a call. */

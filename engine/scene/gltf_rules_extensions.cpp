@@ -1,0 +1,100 @@
+// Rules for extensions of glTF 2.0: listed where they are used, standing where they may, lamps as KHR_lights_punctual has them. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "scene/gltf_rules.h"
+
+namespace vesper {
+namespace {
+
+using nlohmann::json;
+
+/// Places of an extension's objects, with # for numbers. (Khronos' registry of extensions; those of others may stand anywhere.)
+const std::multimap<std::string, std::string, std::less<>> kPlaces{
+    {"KHR_lights_punctual", ""},
+    {"KHR_lights_punctual", "/nodes/#"},
+    {"EXT_lights_ies", ""},
+    {"EXT_lights_ies", "/nodes/#"},
+    {"EXT_lights_image_based", ""},
+    {"EXT_lights_image_based", "/scenes/#"},
+    {"EXT_mesh_gpu_instancing", "/nodes/#"},
+    {"KHR_node_visibility", "/nodes/#"},
+    {"KHR_draco_mesh_compression", "/meshes/#/primitives/#"},
+    {"KHR_materials_variants", ""},
+    {"KHR_materials_variants", "/meshes/#/primitives/#"},
+    {"EXT_meshopt_compression", "/buffers/#"},
+    {"EXT_meshopt_compression", "/bufferViews/#"},
+    {"KHR_texture_basisu", "/textures/#"},
+    {"EXT_texture_webp", "/textures/#"},
+    {"EXT_texture_avif", "/textures/#"},
+    {"KHR_animation_pointer", "/animations/#/channels/#/target"},
+};
+
+/// A place with its numbers as #.
+std::string kind_of(const std::string& at) {
+    std::string kind;
+    for (size_t i = 0; i < at.size();) {
+        const size_t next = std::min(at.find('/', i + 1), at.size());
+        const std::string_view step = std::string_view(at).substr(i, next - i);
+        const bool number = step.size() > 1 && std::all_of(step.begin() + 1, step.end(), [](unsigned char c) { return std::isdigit(c); });
+        kind += number ? "/#" : step;
+        i = next;
+    }
+    return kind;
+}
+
+bool may_stand(const std::string& extension, const std::string& kind) {
+    if (extension == "KHR_texture_transform") return kind.ends_with("Texture");
+    const auto [first, last] = kPlaces.equal_range(extension);
+    if (first == last) return !extension.starts_with("KHR_materials_") || kind == "/materials/#";
+    return std::any_of(first, last, [&](const auto& place) { return place.second == kind; });
+}
+
+bool lists(const json& root, const char* key, const std::string& extension) {
+    const auto list = root.find(key);
+    return list != root.end() && list->is_array() && std::find(list->begin(), list->end(), extension) != list->end();
+}
+
+void check_lights(const json& punctual, const RuleNote& note) {
+    const std::string lights = "/extensions/KHR_lights_punctual/lights";
+    const auto list = punctual.find("lights");
+    if (list == punctual.end()) return note("/extensions/KHR_lights_punctual", "has no lights");
+    if (!list->is_array()) return;
+    if (list->empty()) return note(lights, "is empty");
+    for (size_t i = 0; i < list->size(); ++i) {
+        const json& light = (*list)[i];
+        if (!light.is_object() || light.value("type", json()) != "spot") continue;
+        const std::string at = lights + "/" + std::to_string(i);
+        const auto spot = light.find("spot");
+        if (spot == light.end()) {
+            note(at, "has no spot to its type");
+        } else if (spot->is_object()) {
+            const json inner = spot->value("innerConeAngle", json(0.0)), outer = spot->value("outerConeAngle", json(0.785398163397448));  // the defaults
+            if (inner.is_number() && outer.is_number() && outer.get<double>() <= inner.get<double>()) note(at + "/spot", "has an outer cone that is no wider than its inner one");
+        }
+    }
+}
+
+}  // namespace
+
+void check_extensions(const json& root, const json& extensions, const std::string& at, const RuleNote& note) {
+    const std::string kind = kind_of(at);
+    for (const auto& [name, value] : extensions.items()) {
+        const std::string here = at + "/extensions/" + name;
+        if (!lists(root, "extensionsUsed", name)) note(here, "is not listed in extensionsUsed");
+        if (!may_stand(name, kind)) note(here, "is an extension that has no place there");
+        if (!value.is_object()) note(here, "is no object");
+        if (at.empty() && name == "KHR_lights_punctual" && value.is_object()) check_lights(value, note);
+    }
+}
+
+void check_required_extensions(const json& root, const RuleNote& note) {
+    const auto required = root.find("extensionsRequired");
+    if (required == root.end() || !required->is_array()) return;
+    for (size_t i = 0; i < required->size(); ++i)
+        if (const json& name = (*required)[i]; name.is_string() && !lists(root, "extensionsUsed", name.get<std::string>()))
+            note("/extensionsRequired/" + std::to_string(i), "is not listed in extensionsUsed");
+}
+
+}  // namespace vesper

@@ -1,0 +1,14 @@
+// Nodes put elsewhere than their scene has them. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vesper {
+
+/// world_transforms() with some nodes, and what hangs on them, put somewhere: node frame to world, by node.
+std::vector<glm::mat4> placed_transforms(const Scene&, double seconds, const std::map<uint32_t, glm::mat4>& places);
+
+}  // namespace vesper

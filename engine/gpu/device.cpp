@@ -9,7 +9,6 @@
 #include <span>
 
 #include "gpu/commands.h"
-#include "gpu/out_of_memory.h"
 #include "gpu/requirements.h"
 
 namespace vesper {

@@ -1,6 +1,7 @@
 // Reading XML with complaints that name file and line. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

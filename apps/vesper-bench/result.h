@@ -1,6 +1,7 @@
 // What a benchmark found out. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <array>
 #include <string>
 #include <vector>

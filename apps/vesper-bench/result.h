@@ -1,8 +1,8 @@
 // What a benchmark found out. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 

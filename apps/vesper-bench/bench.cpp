@@ -22,7 +22,7 @@ namespace {
 
 struct BenchArguments {
     std::vector<std::string> scenes{"rivoli"}, sizes{"1680x1050"}, luminaires, operators, glares;
-    std::vector<uint32_t> lamps{0}, channels{1};
+    std::vector<uint32_t> lamps{kOwnLamps}, channels{1};
     uint32_t triangles = 10000;
     RunPlan run{.settings = {.frames = 48, .laps = 3, .warm_up = 4}, .render = {}, .camera = {}, .device = {}};
     ToneArguments tone;
@@ -145,11 +145,11 @@ void run(BenchArguments& a) {
         }
         measured.starts = starts;
         result.runs.push_back(std::move(measured));
+        if (!a.json.empty()) write_text(a.json, json_of(result));  // kept should a later run fail
         std::printf("%s\n", title(result.runs.back()).c_str());
         std::fflush(stdout);
     }
     for (const RunResult& measured : result.runs) std::printf("\n%s%s", planned.size() > 1 ? (title(measured) + "\n").c_str() : "", text_of(result, measured).c_str());
-    if (!a.json.empty()) write_text(a.json, json_of(result));
     if (!a.picture.empty()) write_codes(a.picture, last, planned.back().plan.render.display);
     if (!a.growth.empty())
         for (const std::string& file : save_growth(a.growth, result)) std::printf("%s\n", file.c_str());
@@ -178,7 +178,7 @@ void add_bench(CLI::App& program) {
     program.add_option("--scene", a->scenes, "rivoli: the night street; rivoli-measured: with measured lamps and road; street: generated; or a .gltf or .glb")->delimiter(',')->capture_default_str();
     program.add_option("--camera,-c", a->run.camera, "Name of a camera of the scene (default: the first)");
     program.add_option("--size,-s", a->sizes, "WIDTHxHEIGHT of a channel, px")->delimiter(',')->capture_default_str();
-    program.add_option("--lamps", a->lamps, "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")->delimiter(',')->check(CLI::Range(0u, 32000u));
+    program.add_option("--lamps", a->lamps, "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")->delimiter(',')->check(CLI::Range(0u, 21000u));
     program.add_option("--luminaire", a->luminaires, "Of the street, in place of its spots of 1,500 cd: point (1,500 cd), none, or a file of a distribution (.ies, .ldt, .csv, .exr), scaled to the flux that the point sends down")->delimiter(',');
     program.add_option("--triangles", a->triangles, "Of the street: at least so many")->check(CLI::Range(0u, 100'000'000u))->capture_default_str();
     program.add_option("--channels", a->channels, "Views in every frame, side by side")->delimiter(',')->check(CLI::Range(1u, 16u))->capture_default_str();
@@ -187,12 +187,12 @@ void add_bench(CLI::App& program) {
     program.add_option("--warm-up", s.warm_up, "Frames from all along the path before the first lap, not counted")->check(CLI::Range(0u, 10000u))->capture_default_str();
     program.add_option("--threshold", a->run.render.clusters.threshold, "Illuminance below which a lamp counts as dark, lx")->check(between(1e-9, 1e3))->capture_default_str();
     program.add_option("--device", a->run.device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
-    program.add_option("--json", a->json, "Write everything that was measured to a file");
-    program.add_option("--picture", a->picture, "Write the last frame to a .png file");
+    CLI::Option* json = program.add_option("--json", a->json, "Write everything that was measured to a file");
+    CLI::Option* picture = program.add_option("--picture", a->picture, "Write the last frame to a .png file");
     program.add_flag("--no-start", a->no_start, "Do not time starts with a cold and a warm cache of shaders");
     CLI::Option* matrix = program.add_option("--matrix", a->growth, "Drive the street with 64 to 4096 lamps at several sizes with several operators, and draw how time grows into a folder");
-    CLI::Option* compare = program.add_option("--compare", a->compared, "A.json B.json: print what B takes relative to A")->expected(2)->excludes(matrix);
-    program.add_option("--tables", a->tables, "FILE.json: print what was measured as tables of Markdown")->excludes(matrix)->excludes(compare);
+    CLI::Option* compare = program.add_option("--compare", a->compared, "A.json B.json: print what B takes relative to A")->expected(2)->excludes(matrix)->excludes(json)->excludes(picture);
+    program.add_option("--tables", a->tables, "FILE.json: print what was measured as tables of Markdown")->excludes(matrix)->excludes(compare)->excludes(json)->excludes(picture);
     add_tone_options(program, a->tone);
     take_list(program, "--operator", a->operators);
     take_list(program, "--glare", a->glares);

@@ -47,7 +47,7 @@ std::string words(const JsonValue& value) { return one_line(value.text()); }
 
 Spread read_spread(const JsonValue& value) {
     const Spread s{amount(value.at("median")), amount(value.at("low")), amount(value.at("high"))};
-    if (s.low > s.high) value.fail("\"low\" is more than \"high\"");
+    if (s.low > s.median || s.median > s.high) value.fail("\"low\", \"median\" and \"high\" do not ascend");
     return s;
 }
 

@@ -51,10 +51,10 @@ void Scenes::prepare(const std::string& name) {
 }
 
 Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire, const std::string& camera) const {
-    if (name == "street") return lamp_street(lamps ? lamps : kStreetLamps, triangles, luminaire);
+    if (name == "street") return lamp_street(lamps != kOwnLamps ? lamps : kStreetLamps, triangles, luminaire);
     Scene scene = read_gltf(files_.at(name)).scene;
     const View view = camera_view(scene, {world_transforms(scene, 0)}, camera, {1, 1});
-    if (lamps) keep_nearest_lamps(scene, glm::vec3(glm::inverse(view.world_to_view)[3]), lamps);
+    if (lamps != kOwnLamps) keep_nearest_lamps(scene, glm::vec3(glm::inverse(view.world_to_view)[3]), lamps);
     return scene;
 }
 

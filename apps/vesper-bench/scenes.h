@@ -9,6 +9,8 @@
 
 namespace vesper {
 
+inline constexpr uint32_t kOwnLamps = ~0u;  ///< as many as a scene has
+
 /// The scenes of a benchmark by name: "rivoli", the night street; "rivoli-measured", the same with measured lamps and road;
 /// "street", generated; or a glTF file. Converted files live as long as this, in a temporary folder.
 class Scenes {
@@ -20,8 +22,8 @@ public:
 
     /// Converts what has to be. Throws Error.
     void prepare(const std::string& name);
-    /// Reads or generates one that was prepared, from its file on. `lamps`: of the street, how many (default 256); of others, those
-    /// nearest the camera at the start of its path, all if 0. `triangles`: of the street, at least; `luminaire`: of the street (street.h).
+    /// Reads or generates one that was prepared, from its file on. `lamps`: of the street, how many, 256 if kOwnLamps; of others, those
+    /// nearest the camera at the start of its path, all if kOwnLamps. `triangles`: of the street, at least; `luminaire`: of the street (street.h).
     /// Throws Error.
     Scene load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire, const std::string& camera) const;
 

@@ -27,16 +27,21 @@ namespace {
 DriveEvents evenly(const DriveEvents& events, double time_step, double fps) {
     const DriveEvent frame{.kind = DriveEvent::Kind::Frame, .pose = {}, .name = {}, .value = {}};
     DriveEvents made;
-    made.push_back(frame);
-    uint64_t steps = 0, frames = 1;
+    uint64_t steps = 0, frames = 0;
+    // The first frame is that before the first step, after what was set until then.
+    const auto begin = [&] {
+        if (frames == 0) made.push_back(frame), frames = 1;
+    };
     for (const DriveEvent& event : events) {
         if (event.kind == DriveEvent::Kind::Frame) continue;
+        if (event.kind == DriveEvent::Kind::Step) begin();
         made.push_back(event);
         // The first step that has reached the frame's time; at most one frame a step.
         if (event.kind != DriveEvent::Kind::Step || double(++steps) * time_step * fps < double(frames) - 1e-6) continue;
         made.push_back(frame);
         frames = std::max(frames + 1, uint64_t(double(steps) * time_step * fps + 1e-6) + 1);
     }
+    begin();
     return made;
 }
 

@@ -241,7 +241,7 @@ void add_render(CLI::App& program) {
     command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")->check(between(1e-9, 1e3))->capture_default_str();
     add_tone_options(*command, a->tone);
     add_glare_options(*command, a->glare);
-    command->add_flag("--all-lights", a->settings.all_lights, "Shade without clusters: the slow way to the same picture");
+    command->add_flag("--all-lights", a->settings.all_lights, "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what is below the threshold");
     command->footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"
                     "  vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");

@@ -109,16 +109,25 @@ std::vector<uint8_t> read_file(const fs::path& file, uint64_t max_bytes) {
     return bytes;
 }
 
+fs::path target_of(const fs::path& file) {
+    constexpr int kMostLinks = 40;  // as of Linux
+    fs::path target = file;
+    std::error_code ignored;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++links) {
+        if (links == kMostLinks) throw Error(one_line(file.string()) + ": is a link that leads nowhere");
+        target = target.parent_path() / fs::read_symlink(target, ignored);
+    }
+    const fs::path resolved = fs::weakly_canonical(target, ignored);
+    return target == file || resolved.empty() ? target : resolved;
+}
+
 void replace_file(const fs::path& file, std::span<const uint8_t> bytes) {
     std::error_code ignored;
     const fs::file_status status = fs::status(file, ignored);
     if (fs::is_directory(status)) throw Error(one_line(file.string()) + ": is a folder");
     if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(file, bytes);
 
-    // A link stays a link: what it points at is replaced.
-    const fs::path resolved =
-        fs::is_symlink(fs::symlink_status(file, ignored)) ? fs::weakly_canonical(file, ignored) : file;
-    const fs::path target = resolved.empty() ? file : resolved;
+    const fs::path target = target_of(file);
     const fs::path temporary = temporary_beside(target);
     Descriptor out(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (out.number() < 0) fail(file, "cannot be written", errno);

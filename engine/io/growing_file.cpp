@@ -18,14 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr unsigned kSafeEvery = 60;  // appends: one or two seconds of a drive
 
-// A link stays a link: what it points at is replaced.
-fs::path target_of(const fs::path& file) {
-    std::error_code ignored;
-    if (!fs::is_symlink(fs::symlink_status(file, ignored))) return file;
-    const fs::path resolved = fs::weakly_canonical(file, ignored);
-    return resolved.empty() ? file : resolved;
-}
-
 }  // namespace
 
 std::string GrowingFile::part_of(const std::string& file) { return file.empty() ? "" : target_of(file).string() + ".part"; }

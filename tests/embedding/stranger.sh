@@ -10,6 +10,7 @@ cmake --install "$build" --prefix "$work/installed" >/dev/null
 cp -r "$source/apps/examples" "$work/examples"
 cd "$work"
 library=$(dirname "$(find installed -name 'libvesper-c.so')")
+export CMAKE_GENERATOR=Ninja  # as this project; there may be no make
 export LD_LIBRARY_PATH=$work/$library PKG_CONFIG_PATH=$work/$library/pkgconfig
 
 echo "== headers: each alone, and without Vulkan where that is promised"

@@ -39,6 +39,12 @@ TEST(AtomicFile, KeepsLinks) {
     replace_file(folder / "link", bytes_of("new"));
     EXPECT_TRUE(fs::is_symlink(folder / "link"));
     EXPECT_EQ(read_text(folder / "target"), "new");
+    fs::create_symlink("not-yet", folder / "ahead");
+    replace_file(folder / "ahead", bytes_of("new"));
+    EXPECT_TRUE(fs::is_symlink(folder / "ahead"));
+    EXPECT_EQ(read_text(folder / "not-yet"), "new");
+    fs::create_symlink("loop", folder / "loop");
+    EXPECT_THROW(replace_file(folder / "loop", bytes_of("x")), Error);
 }
 
 TEST(AtomicFile, SaysWhyItCannot) {

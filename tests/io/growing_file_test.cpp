@@ -48,6 +48,15 @@ TEST(GrowingFile, KeepsLinksAndWritesToWhatIsNoFile) {
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
     EXPECT_THROW(GrowingFile(folder.path()), Error);
     EXPECT_THROW(GrowingFile(folder / "missing/x"), Error);
+    // A link to what is not there yet makes it; one that leads nowhere is refused.
+    fs::create_symlink("new", folder / "ahead");
+    GrowingFile ahead(folder / "ahead");
+    ahead.append("x");
+    ahead.complete();
+    EXPECT_TRUE(fs::is_symlink(folder / "ahead"));
+    EXPECT_EQ(read_text(folder / "new"), "x");
+    fs::create_symlink("loop", folder / "loop");
+    EXPECT_THROW(GrowingFile(folder / "loop"), Error);
 }
 
 // Whatever links lead from the part's name, and whatever the part of a link is: nothing is written through them.

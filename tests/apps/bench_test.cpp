@@ -150,6 +150,18 @@ TEST_F(BenchProgram, RefusesWhatCannotBeRun) {
     expect_refused("--scene street --matrix file", {"file"});
     expect_refused("--scene street --device none --size 8x8", {"none"});
     expect_refused("--compare a b --tables c", {"--"});
+    expect_refused("--compare a b --json c", {"--json"});
+    expect_refused("--tables a --picture c.png", {"--picture"});
+}
+
+// No lamps are none, and what was measured before a run failed is kept.
+TEST_F(BenchProgram, KeepsWhatItMeasuredBeforeAFailure) {
+    put("a.csv", "");
+    EXPECT_NE(run("--scene street --lamps 0,8 --luminaire point,a.csv --triangles 0 --size 8x8 --frames 1 --laps 1 --warm-up 0 --no-start --json a.json"), 0);
+    const BenchResult result = read_result((folder / "a.json").string());
+    ASSERT_EQ(result.runs.size(), 2u) << said;
+    EXPECT_EQ(result.runs[0].settings.lamps, 0u);
+    EXPECT_EQ(result.runs[1].settings.lamps, 8u);
 }
 
 TEST_F(BenchProgram, PrintsTables) {

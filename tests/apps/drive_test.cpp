@@ -379,6 +379,20 @@ TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
     EXPECT_TRUE(exists("1.exr"));
 }
 
+// Frames of a rate of their own begin where those of the recording do: after what is set before them.
+TEST_F(DriveProgram, FramesOfARateBeginAfterWhatIsSet) {
+    std::filesystem::copy(std::string(VESPER_SOURCE_DIR) + "/data", folder / "data", std::filesystem::copy_options::recursive);
+    folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[{"set":{"operator":"ldr"}},{"frame":true},{"step":{},"pose":[0,0,0,0]},{"frame":true}]})");
+    const auto first_row = [&](const std::string& options) {
+        EXPECT_EQ(run("--headless --size 16x10 --replay d.json --log l.csv " + options), 0) << said;
+        const std::string log = read_text(folder / "l.csv");
+        const size_t row = log.find('\n') + 1;
+        return log.substr(row, log.find('\n', row) - row);
+    };
+    EXPECT_NE(first_row("").find("ldr"), std::string::npos);
+    EXPECT_NE(first_row("--fps 30").find("ldr"), std::string::npos);
+}
+
 // A blow is in the row after it, also where the drive begins again before that, and as often.
 TEST_F(DriveProgram, LogsContactsOfEveryStart) {
     GltfFile scene;

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-// Light clustering, one cell per invocation. Where nothing is drawn no light is listed. Elsewhere, a light is listed unless its illuminance stays under the threshold all over
-// the sphere around the cell: the largest intensity in the cone of directions that the sphere subtends, over the square
-// of the nearest distance. Lights are tried in ascending order, so lists are ascending and the same on every run.
+// Light clustering, one cell per invocation. Where nothing is drawn no light is listed. Elsewhere, a light is listed
+// unless its illuminance stays under the threshold all over the sphere around the cell: the largest intensity in the cone
+// of directions that the sphere subtends, over the square of the nearest distance. Lights are tried in ascending order, so lists are ascending and the same on every run.
 
 #include "shared/cluster.h"
 

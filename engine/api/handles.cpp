@@ -6,7 +6,6 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-
 namespace vesper::api {
 namespace {
 

@@ -68,7 +68,7 @@ Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, Resource surfac
 
     const shared::ClusterGrid& grid = clusters.push.grid;
     const Groups blocks = cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
-    const auto words = [&](const char* name, uint32_t number) { return graph.transient(name, buffer_shape(uint64_t(number) * sizeof(uint32_t), VK_FORMAT_R32_UINT)); };
+    const auto words = [&](const std::string& name, uint64_t number) { return graph.transient(name, buffer_shape(number * sizeof(uint32_t), VK_FORMAT_R32_UINT)); };
     clusters.block_slices = words("block slices", blocks.x * blocks.y);
     const Resource tile_slices = words("tile slices", grid.tiles_x * grid.tiles_y);
     graph.clear("clear tile slices", tile_slices);
@@ -88,8 +88,7 @@ Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, Resource surfac
     const auto add_level = [&](const char* name, const Lists& parents, shared::ClusterLevelPush push) {
         push.view = clusters.push;
         const uint32_t cells = push.cells_x * push.cells_y * push.cells_z;
-        const Lists lists{graph.transient(std::string(name) + " counts", buffer_shape(uint64_t(cells) * 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT)),
-                          graph.transient(std::string(name) + " indices", buffer_shape(uint64_t(cells) * push.capacity * sizeof(uint32_t), VK_FORMAT_R32_UINT))};
+        const Lists lists{words(std::string(name) + " counts", uint64_t(cells) * 2), words(std::string(name) + " indices", uint64_t(cells) * push.capacity)};
         graph.dispatch(name, kernel,
                        {sample(clusters.lights), sample(parents.counts), sample(parents.indices), store(lists.counts), store(lists.indices), update(clusters.report), sample(maps.texels),
                         sample(tile_slices)},

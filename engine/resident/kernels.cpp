@@ -39,6 +39,8 @@ const Kernel& once(std::map<Variant, Kernel>& made, const Variant& variant, cons
     return found != made.end() ? found->second : made.emplace(variant, make()).first->second;
 }
 
+uint32_t has(uint32_t variant, Kernels::ShadeVariant bit) { return variant & bit ? 1 : 0; }
+
 }  // namespace
 
 // A CPU device fetches a light once for eight pixels and works on rows of 32; a GPU on squares, a pixel each.
@@ -76,27 +78,23 @@ Kernels::Kernels(const Device& device)
 uint32_t Kernels::most_groups() const { return device_.limits().maxComputeWorkGroupCount[0]; }
 
 const Kernel& Kernels::cluster(uint32_t variant) const {
-    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
-    return once(cluster_, variant & (kPowers | kMaps), [&] { return Kernel(device_, "cluster.comp", cluster_comp, {has(kPowers), has(kMaps)}); });
+    return once(cluster_, variant & (kPowers | kMaps), [&] { return Kernel(device_, "cluster.comp", cluster_comp, {has(variant, kPowers), has(variant, kMaps)}); });
 }
 
 const Kernel& Kernels::select(uint32_t variant) const {
-    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
-    return once(select_, variant & (kPowers | kMaps), [&] { return Kernel(device_, "select.comp", select_comp, {has(kPowers), has(kMaps)}); });
+    return once(select_, variant & (kPowers | kMaps), [&] { return Kernel(device_, "select.comp", select_comp, {has(variant, kPowers), has(variant, kMaps)}); });
 }
 
 const Kernel& Kernels::gather(uint32_t variant) const {
-    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
     return once(gather_, variant & (kCones | kPowers | kMaps | kRoads),
-                [&] { return Kernel(device_, "gather.comp", gather_comp, {has(kCones), has(kPowers), has(kMaps), has(kRoads)}); });
+                [&] { return Kernel(device_, "gather.comp", gather_comp, {has(variant, kCones), has(variant, kPowers), has(variant, kMaps), has(variant, kRoads)}); });
 }
 
 const Kernel& Kernels::shade(uint32_t variant) const {
-    const auto has = [&](ShadeVariant bit) { return variant & bit ? 1u : 0u; };
     return once(shade_, variant, [&] {
         return Kernel(device_, "shade.comp", shade_comp,
-                      {shade_group.width, shade_group.height, shade_rows, has(kEveryLight), has(kCones), has(kPowers), has(kMaps), has(kListed),
-                       has(kGathered), has(kGlossy), has(kRoads), has(kRetro)});
+                      {shade_group.width, shade_group.height, shade_rows, has(variant, kEveryLight), has(variant, kCones), has(variant, kPowers), has(variant, kMaps), has(variant, kListed),
+                       has(variant, kGathered), has(variant, kGlossy), has(variant, kRoads), has(variant, kRetro)});
     });
 }
 

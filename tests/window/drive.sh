@@ -58,6 +58,11 @@ until_true() {
 titled() { [[ $(title) == *"$1"* ]]; }
 untitled() { [[ $(title) != *"$1"* ]]; }
 key() { xdotool key --window "$window" "$1"; }
+# quit WHAT: the window may be gone before the keys are up again, which ends xdotool with an X error.
+quit() {
+    xdotool key --window "$window" ctrl+q 2>/dev/null || true
+    wait "$drive" || fail "$1 ended with $?"
+}
 find_window() { window=$(xdotool search --name ' - Vesper$' | head -n 1) && [[ -n $window ]]; }
 seconds() { title | sed -E 's/.*, ([0-9.]+) s, .*/\1/'; }
 beyond() { awk -v now="$(seconds)" -v than="$1" 'BEGIN { exit !(now > than) }'; }
@@ -124,8 +129,7 @@ until_true "a saved picture" test -s picture-001.png
 plain() { import -silent -window "$window" shown.png && same shown.png picture-001.png; }
 until_true "the plain picture in the window" plain
 
-key ctrl+q
-wait "$drive" || fail "vesper-drive ended with $?"
+quit vesper-drive
 grep -qE 'VUID|SYNC-|Validation' said.txt && fail "the validation layer complains"
 
 # Where there is nothing to show a window or its codes on, a line says so.
@@ -150,8 +154,7 @@ until_true "another operator" untitled grave
 key BackSpace
 until_true "the replay from its start" untitled paused
 titled "grave, " || fail "starting again has not brought back the operator"
-key ctrl+q
-wait "$drive" || fail "the replay ended with $?"
+quit "the replay"
 
 # A device that is lost while driving is opened anew; the drive, and its recording, go on.
 LD_PRELOAD=$lose LOSE_DEVICE_AT=60 "$program" "$world" --size 64x40 --window 240x150 --device cpu --record lost.json --log lost.csv >said.txt 2>&1 &
@@ -163,8 +166,7 @@ now=$(seconds)
 until_true "time after the device is back" beyond "$(awk -v t="$now" 'BEGIN { print t + 0.3 }')"
 titled recording || fail "the recording has ended with the device"
 [[ -s lost.json.part && -s lost.csv.part && ! -e lost.json ]] || fail "what is recorded is not beside its place"
-key ctrl+q
-wait "$drive" || fail "vesper-drive ended with $?"
+quit vesper-drive
 [[ -s lost.json && -s lost.csv && ! -e lost.json.part && ! -e lost.csv.part ]] || fail "what was recorded has not taken its place"
 "$program" --headless --replay lost.json --device cpu --size 64x40 --log again.csv >>said.txt 2>&1 || fail "the replay ended with $?"
 grep -q 'another way' said.txt && fail "the replay of the lost device drives another way"
@@ -183,8 +185,7 @@ until_true "a full disk" grep -q "^vesper-drive: the recording ends: full.json: 
 until_true "the end of the recording" untitled recording
 now=$(seconds)
 until_true "time after that" beyond "$(awk -v t="$now" 'BEGIN { print t + 0.3 }')"
-key ctrl+q
-wait "$drive" || fail "vesper-drive ended with $?"
+quit vesper-drive
 [[ -s full.json.part && ! -e full.json ]] || fail "what was recorded is not beside its place"
 "$program" --headless --replay full.json.part --device cpu --size 64x40 --log full.csv >said.txt 2>&1 || fail "the replay ended with $?"
 grep -q 'breaks off' said.txt || fail "the replay says nothing of its end"

@@ -36,7 +36,7 @@ const uint kNodes = 9u, kPoints = 13u;             // nodes, then the points bet
 const float kBetween = 5.0 / 7.0;                  // of the way from the middle to an outer node: the next pixel
 const float kHalf = 0.5 * float(kBlockSize - 1u);  // px, from the middle of a block to its outer nodes
 const float kWidestCone = 0.35;                    // rad
-const float kOfCell = 0.7;
+const float kOfCell = 0.5;
 const float kMostTilt = 3e-4, kMostLift = 2e-4;    // of a plane's pixels: rad; and of their distance from the eye
 
 bool drawn, paved, glossy, retro;  // whether anything, some road, some specular lobe, some sheet is drawn
@@ -47,7 +47,6 @@ vec3 normal;
 vec3 points[kPoints];              // m
 Road roads[kPoints];
 float radius;                      // of the points around the middle one, m
-float gap;                         // the largest between neighbouring points, m
 vec3 sum[kNodes];                  // see shared/gather.h
 
 // Where a node or point is, from -1 to 1 between the outer nodes.
@@ -89,12 +88,8 @@ void look_at_block(uvec2 corner) {
         points[k] = ray * depth;
         if (kRoads != 0u) roads[k] = road_at(kind, normal, -normalize(points[k]), push.roads);
     }
-    radius = 0.0, gap = 0.0;
-    [[unroll]] for (uint k = 0u; k < 4u; ++k) {  // along the diagonals, from the middle outwards
-        const vec3 on_the_way = points[kNodes + k], outermost = points[2u * (k % 2u) + 6u * (k / 2u)];
-        radius = max(radius, distance(points[4], outermost));
-        gap = max(gap, max(distance(points[4], on_the_way), distance(on_the_way, outermost)));
-    }
+    radius = 0.0;
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) radius = max(radius, distance(points[4], points[2u * (k % 2u) + 6u * (k / 2u)]));
 }
 
 // The value of the polynomial at a point between the nodes.
@@ -116,24 +111,29 @@ float widest_cone(Lamp lamp, bool cone) {
     return min(0.5 * beam, kWidestCone);
 }
 
-// Nor may points be farther apart than this, rad: a good part of a cell of the map where the middle of the block is, so that no node hides between.
-float widest_gap(Lamp lamp) {
-    const vec3 from = points[4] - lamp.position;
-    const float cosine = dot(lamp.pole, from) * inversesqrt(max(dot(from, from), 1e-12)), sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-    return kOfCell * min(sine / lamp.grid.x, 1.0 / lamp.grid.z);
+// Nor may points that follow one another along the diagonals be farther apart than a good part of a cell of the map, so that none of its
+// nodes hides between.
+bool shows_nodes(vec2 at[kPoints]) {
+    float apart2 = 0.0;  // in cells
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+        const vec2 inner = at[kNodes + k] - at[4], outer = at[2u * (k % 2u) + 6u * (k / 2u)] - at[kNodes + k];
+        apart2 = max(apart2, max(dot(inner, inner), dot(outer, outer)));
+    }
+    return apart2 <= kOfCell * kOfCell;
 }
 
 // Adds a lamp if it is smooth over the plane: wrong by at most the tolerance, or by a quarter of the threshold, below which lamps are left out
 // anyway. Such a lamp counts where it gives less than that, too. Returns whether it stays on the list.
 bool remains(Lamp lamp, bool cone) {
     float value[kPoints];
+    vec2 at[kPoints];
     bool lit = true, none_counts = true, even = true;
     float least = 1e30, nearest = 0.0;  // the inverse of a distance
     [[unroll]] for (uint k = 0u; k < kPoints; ++k) {
         const vec3 to = lamp.position - points[k];
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
         const float normal_light = dot(normal, to) * inverse;
-        const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone);
+        const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone, at[k]);
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
         float weight = normal_light;
         if (kRoads != 0u) weight = paved ? road_coefficient(roads[k], to, inverse, normal_light) : weight;
@@ -149,7 +149,7 @@ bool remains(Lamp lamp, bool cone) {
     float error = 0.0;
     [[unroll]] for (uint k = kNodes; k < kPoints; ++k) error = max(error, abs(between(value, k) - value[k]));
     bool resolved = radius * nearest <= widest_cone(lamp, cone);
-    if (!cone && kMaps != 0u) resolved = resolved && (!lamp.measured || gap * nearest <= widest_gap(lamp));
+    if (!cone && kMaps != 0u) resolved = resolved && (!lamp.measured || shows_nodes(at));
     const bool taken = resolved && even && lit && error <= max(push.tolerance * least, 0.25 * push.view.threshold);
     [[unroll]] for (uint k = 0u; k < kNodes; ++k) sum[k] += lamp.colour * (taken ? value[k] : 0.0);
     return !(taken || (resolved && none_counts));

@@ -29,8 +29,9 @@ Lamp fetch(uint index, bool cone, uint maps_from) {
                 d.xyz, turn_of(d.xyz, e.xyz, e.w), e.xyz, d.w, abs(e.w), f);
 }
 
-// Intensity in a direction relative to the largest. `cosine` to the axis; `from` the lamp, of any length.
-float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool cone) {
+// Intensity in a direction relative to the largest. `cosine` to the axis; `from` the lamp, of any length; `at`, of a map, see map_intensity.
+float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool cone, out vec2 at) {
+    at = vec2(0.0);
     if (cone) {
         const float ramp = clamp(lamp.lobe_a * cosine + lamp.lobe_b, 0.0, 1.0);
         return ramp * ramp;
@@ -39,8 +40,12 @@ float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool
     if (kPowers != 0u) relative = cosine > 0.0 ? exp2(lamp.lobe_a * log2(cosine)) : 0.0;
     if (kMaps != 0u) {
         const vec3 d = vec3(dot(lamp.start, from), dot(lamp.turn, from), dot(lamp.pole, from));
-        const float mapped = map_intensity(d, inverse, lamp.grid, lamp.first, vec2(lamp.last_azimuth, lamp.lobe_b));
+        const float mapped = map_intensity(d, inverse, lamp.grid, lamp.first, vec2(lamp.last_azimuth, lamp.lobe_b), at);
         relative = lamp.measured ? mapped : relative;
     }
     return relative;
+}
+float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool cone) {
+    vec2 at;
+    return relative_intensity(lamp, cosine, from, inverse, cone, at);
 }

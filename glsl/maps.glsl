@@ -31,10 +31,9 @@ float azimuth_of(vec2 d) {
 // Azimuth 90 degrees of a measurement.
 vec3 turn_of(vec3 start, vec3 pole, float last_azimuth) { return last_azimuth < 0.0 ? cross(pole, start) : cross(start, pole); }
 
-// Relative intensity in a direction given along azimuth 0, azimuth 90 degrees and the pole, times its `inverse` length.
-float map_intensity(vec3 d, float inverse, vec4 grid, float first, vec2 last) {
-    const vec2 angles = vec2(azimuth_of(d.xy), arccos(d.z * inverse));
-    const vec2 at = angles * grid.xz + grid.yw;
+// Relative intensity in a direction given along azimuth 0, azimuth 90 degrees and the pole, times its `inverse` length; and where that is, `at`, in cells.
+float map_intensity(vec3 d, float inverse, vec4 grid, float first, vec2 last, out vec2 at) {
+    at = vec2(azimuth_of(d.xy), arccos(d.z * inverse)) * grid.xz + grid.yw;
     const vec2 cell = floor(clamp(at, vec2(0.0), last));
     const vec4 corners = texelFetch(maps, int(first + cell.x * (last.y + 1.0) + cell.y));
     return interpolate(corners, at.x - cell.x, at.y - cell.y);

@@ -13,6 +13,12 @@ std::string with_spread(const Spread& s, const char* unit) {
 
 std::string percent(double part) { return part > 0 ? format("%.0f %%", 100 * part) : "-"; }
 
+/// A name in a row of a table.
+std::string cell(std::string name) {
+    for (size_t at = 0; (at = name.find('|', at)) != std::string::npos; at += 2) name.insert(at, 1, '\\');
+    return name;
+}
+
 std::string start_text(const RunResult& run) {
     std::string text;
     for (const Start& start : run.starts) text += (text.empty() ? "" : ", ") + start.cache + format(" %.1f s", start.seconds);
@@ -79,13 +85,13 @@ std::string markdown_of(const BenchResult& result) {
         if (run.passes.empty()) continue;
         text += "\n| pass | ms | MiB moved | of copying |\n| --- | ---: | ---: | ---: |\n";
         for (const PassResult& pass : run.passes)
-            text += "| " + pass.name + format(" | %.2f | %.1f | %s |\n", pass.ms.median, pass.bytes() / kMiB, percent(result.copy_fraction(pass)).c_str());
+            text += "| " + cell(pass.name) + format(" | %.2f | %.1f | %s |\n", pass.ms.median, pass.bytes() / kMiB, percent(result.copy_fraction(pass)).c_str());
         text += format("| sum | %.2f | | |\n", run.passes_ms());
     }
     if (result.runs.size() < 2) return text;
     text += "\n## Growth\n\n| run | lamps | frame | laps | passes |\n| --- | ---: | ---: | ---: | ---: |\n";
     for (const RunResult& run : result.runs)
-        text += "| " + run.settings.title() + format(", glare %s, %u ch. | %u | %.1f ms | %.1f to %.1f | %.1f ms |\n", run.settings.glare.c_str(), run.settings.channels,
+        text += "| " + cell(run.settings.title()) + format(", glare %s, %u ch. | %u | %.1f ms | %.1f to %.1f | %.1f ms |\n", run.settings.glare.c_str(), run.settings.channels,
                                                      run.settings.lamps, run.frame.median, run.frame.low, run.frame.high, run.passes_ms());
     return text;
 }

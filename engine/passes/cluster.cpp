@@ -8,9 +8,7 @@ namespace vesper {
 namespace {
 
 constexpr float kNear = 1;             // m, where slice 1 begins
-// Loops over lights, slices and lists must end by themselves: lavapipe ends them after 65,535 turns of an invocation, and
-// a lamp that a retroreflective pixel returns takes three.
-constexpr uint32_t kMaxLights = 21000, kMaxSlices = 32, kMaxCapacity = 4096;
+constexpr uint32_t kMaxSlices = 32, kMaxCapacity = 4096;
 constexpr uint32_t kCoarseTiles = 4;   // side of a coarse cell
 constexpr uint32_t kCoarseSlices = 4;
 constexpr uint64_t kCoarseIndices = 8u << 20;  // bound on the memory of the coarse lists
@@ -30,7 +28,7 @@ void check_limits(uint32_t lights, const ClusterSettings& settings) {
         if (value < low || value > high)
             throw Error("clusters: " + std::to_string(value) + " " + what + "; " + std::to_string(low) + " to " + std::to_string(high) + " are possible");
     };
-    in_range("lights", lights, 0, kMaxLights);
+    in_range("lights", lights, 0, kMostLights);
     in_range("slices", settings.slices, 2, kMaxSlices);
     in_range("lights in a list", settings.capacity, 1, kMaxCapacity);
 }

@@ -96,6 +96,10 @@ struct Mesh {
     std::vector<Primitive> primitives;
 };
 
+/// Lamps that a frame can have, on every device: loops over them must end by themselves. Lavapipe ends those of an invocation after 65,535 turns in
+/// all, and a lamp that a retroreflective pixel returns takes three.
+inline constexpr uint32_t kMostLights = 21'000;
+
 /// A lamp's distribution of luminous intensity about its axis (local -Z).
 struct Light {
     enum class Kind : uint8_t { Point, Spot, CosinePower, Directional, Measured };

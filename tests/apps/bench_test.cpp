@@ -165,8 +165,11 @@ TEST_F(BenchProgram, KeepsWhatItMeasuredBeforeAFailure) {
 }
 
 TEST_F(BenchProgram, PrintsTables) {
-    put("a.json", made_up({64, 256}));
+    BenchResult named = made_up({64, 256});
+    named.runs[1].settings.scene = "a|b.glb";
+    put("a.json", named);
     ASSERT_EQ(run("--tables a.json"), 0) << said;
+    EXPECT_NE(printed.find(" a\\|b.glb "), std::string::npos) << printed;
     EXPECT_NE(printed.find("\n| shade | 4.00 | 3.8 | 12 % |\n"), std::string::npos) << printed;
     EXPECT_NE(printed.find("| whole frame, median (medians of the laps) | 10.0 ms (9.0 to 12.0) |"), std::string::npos) << printed;
     EXPECT_NE(printed.find("## Growth"), std::string::npos) << printed;

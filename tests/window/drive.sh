@@ -58,9 +58,14 @@ until_true() {
 titled() { [[ $(title) == *"$1"* ]]; }
 untitled() { [[ $(title) != *"$1"* ]]; }
 key() { xdotool key --window "$window" "$1"; }
-# quit WHAT: the window may be gone before the keys are up again, which ends xdotool with an X error.
+# quit WHAT: the window may be gone before the keys are up again, which ends xdotool with an X error; and once in a hundred times they go astray.
 quit() {
-    xdotool key --window "$window" ctrl+q 2>/dev/null || true
+    local presses=0
+    while kill -0 "$drive" 2>/dev/null; do
+        ((++presses <= 20)) || fail "$1 does not end"
+        xdotool key --window "$window" ctrl+q 2>/dev/null || true
+        for ((i = 0; i < 50; ++i)); do kill -0 "$drive" 2>/dev/null || break; sleep 0.1; done
+    done
     wait "$drive" || fail "$1 ended with $?"
 }
 find_window() { window=$(xdotool search --name ' - Vesper$' | head -n 1) && [[ -n $window ]]; }

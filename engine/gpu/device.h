@@ -23,12 +23,8 @@ struct DeviceLost : Error {
 struct OutOfDeviceMemory : Error {
     using Error::Error;
 };
-/// The driver found no memory of the host.
-struct OutOfHostMemory : Error {
-    using Error::Error;
-};
 
-/// Throws Error("<what>: <result>"), or one of the three above, unless the result is VK_SUCCESS.
+/// Throws Error("<what>: <result>"), one of the two above or OutOfHostMemory, unless the result is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 
 /// Sole owner of a Vulkan object that is destroyed through its device.

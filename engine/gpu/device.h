@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -85,6 +86,8 @@ struct DeviceUse {
 /// One line per Vulkan device of the machine, for `--device`.
 std::vector<std::string> list_devices();
 
+class CommandBuffer;
+
 /// An open Vulkan 1.3 device with one queue for graphics and compute. Preferred: discrete, integrated, then CPU.
 class Device {
 public:
@@ -148,6 +151,8 @@ private:
     void open_device();
     void learn(bool filters_along);
     void close() noexcept;
+
+    mutable std::unique_ptr<CommandBuffer> once_;  // of run_once, from the first on. A new one each time leaves 3 KB in the validation layer, for good
 };
 
 using OwnedFence = Owned<VkFence, vkDestroyFence>;

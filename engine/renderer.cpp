@@ -34,7 +34,7 @@ Renderer::TexelBuffer Renderer::Drawn::upload(const Device& device, const std::v
 
 void Renderer::set_scene(const Scene& scene) {
     auto drawn = std::make_unique<const Drawn>(device_, scene);
-    executor_.finish();  // what is under way uses the one that goes
+    executor_.wait();  // what is under way uses the one that goes
     scene_ = std::move(drawn);
 }
 
@@ -96,7 +96,6 @@ void Renderer::submit(const RenderSettings& settings, const View& view, const Sc
     FrameGraph graph;
     pending.declared = declare(graph, settings, view, frame, lights, sources, given, outputs);
     const double declared_after = pending.watch.milliseconds();
-    pending_.reset();  // what the frame before left, and nobody read
     executor_.submit(graph, handover);
     eye_.submitted();
     plan_ = graph.describe(executor_.plan());
@@ -114,7 +113,7 @@ void Renderer::submit(const RenderSettings& settings, const View& view, const Sc
 }
 
 std::optional<Frame> Renderer::finish() {
-    executor_.finish();
+    if (!executor_.finish()) pending_.reset();
     if (!pending_) return std::nullopt;
     Frame result = std::move(pending_->frame);
     const double declared_after = result.host_times.declare;

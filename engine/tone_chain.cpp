@@ -110,7 +110,7 @@ std::optional<ShownFormat> shown_format(VkFormat format) {
 ChainInputs EyeKeeper::inputs(Executor& executor, const ToneChainSettings& settings, const View& view, float seconds) {
     ChainInputs given{.seconds = seconds, .remembered = given_ ? &*given_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = {}};
     if (settings.glare != Glare::Scatter) return given;
-    if (!scatter_.has(settings.scatter, view)) executor.finish();  // what is under way uses the one that goes
+    if (!scatter_.has(settings.scatter, view)) executor.wait();  // what is under way uses the one that goes
     given.scatter = &scatter_.at(settings.scatter, view);
     const shared::EyeState& before = given_ ? *given_ : last_;
     if (settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.adaptation), double(before.seconds + seconds));

@@ -59,7 +59,6 @@ void ToneMapper::submit(FrameGraph& graph, Resource scene, const ToneChainSettin
     pending.result.extent = view.extent;
     if (given.corona) pending.result.pupil = given.corona->pupil, pending.result.pattern_milliseconds = given.corona->milliseconds;
     const double declared_after = watch.milliseconds();
-    pending_.reset();  // what the frame before left, and nobody read
     executor_.submit(graph, handover);
     eye_.submitted();
     plan_ = graph.describe(executor_.plan());
@@ -68,7 +67,7 @@ void ToneMapper::submit(FrameGraph& graph, Resource scene, const ToneChainSettin
 }
 
 std::optional<ToneMapped> ToneMapper::finish() {
-    executor_.finish();
+    if (!executor_.finish()) pending_.reset();
     if (!pending_) return std::nullopt;
     ToneMapped result = std::move(pending_->result);
     const double declared_after = result.host_times.declare;

@@ -1,4 +1,4 @@
-// The one exception type of the library. SPDX-License-Identifier: MIT
+// The exceptions of the library. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <stdexcept>
@@ -11,6 +11,11 @@ namespace vesper {
 class Error : public std::runtime_error {
 public:
     explicit Error(const std::string& message) : std::runtime_error(message) {}
+};
+
+/// There was no memory of the host for a file, or for the driver.
+struct OutOfHostMemory : Error {
+    using Error::Error;
 };
 
 }  // namespace vesper

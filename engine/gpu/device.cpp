@@ -173,6 +173,7 @@ Device::Device(const BorrowedDevice& given)
 Device::~Device() { close(); }
 
 void Device::close() noexcept {
+    once_.reset();
     if (borrowed_) return;
     if (device_) vkDestroyDevice(device_, nullptr);
     if (messenger_)
@@ -297,7 +298,8 @@ bool Device::is_coherent(uint32_t memory_type) const {
 }
 
 void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const {
-    const CommandBuffer commands(*this, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT);
+    if (!once_) once_ = std::make_unique<CommandBuffer>(*this, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT);
+    const CommandBuffer& commands = *once_;
     commands.begin();
     record(commands);
     check(vkEndCommandBuffer(commands), "recording");
@@ -321,7 +323,7 @@ void Device::submit(const VkSubmitInfo2& work, VkFence fence, std::string_view w
 void Device::wait(VkFence fence) const {
     const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
     // What was submitted uses what goes now. A lost device does nothing any more; a borrowed one has other queues, at which others may be.
-    if (waited != VK_SUCCESS && !borrowed_) vkDeviceWaitIdle(device_);
+    if (waited != VK_SUCCESS) borrowed_ ? vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX) : vkDeviceWaitIdle(device_);
     check(waited, "waiting for the device");
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,12 +24,8 @@ struct DeviceLost : Error {
 struct OutOfDeviceMemory : Error {
     using Error::Error;
 };
-/// The driver found no memory of the host.
-struct OutOfHostMemory : Error {
-    using Error::Error;
-};
 
-/// Throws Error("<what>: <result>"), or one of the three above, unless the result is VK_SUCCESS.
+/// Throws Error("<what>: <result>"), one of the two above or OutOfHostMemory, unless the result is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 
 /// Sole owner of a Vulkan object that is destroyed through its device.
@@ -88,6 +85,8 @@ struct DeviceUse {
 
 /// One line per Vulkan device of the machine, for `--device`.
 std::vector<std::string> list_devices();
+
+class CommandBuffer;
 
 /// An open Vulkan 1.3 device with one queue for graphics and compute. Preferred: discrete, integrated, then CPU.
 class Device {
@@ -152,6 +151,8 @@ private:
     void open_device();
     void learn(bool filters_along);
     void close() noexcept;
+
+    mutable std::unique_ptr<CommandBuffer> once_;  // of run_once, from the first on. A new one each time leaves 3 KB in the validation layer, for good
 };
 
 using OwnedFence = Owned<VkFence, vkDestroyFence>;

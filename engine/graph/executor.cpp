@@ -126,42 +126,55 @@ void Executor::submit(const FrameGraph& graph, const Handover& handover) {
     Stopwatch watch;
     const bool foreign = std::ranges::any_of(graph.resources(), [](const auto& r) { return r.foreign.image != VK_NULL_HANDLE; });
     const bool among_others = foreign || !handover.wait.empty() || !handover.signal.empty() || std::ranges::any_of(slots_, &FrameSlot::under_way);
-    plan_ = graph.compile(measure());
-    enter_slot();
-    place(graph);
-    realize_histories(graph);
-    realize_uploads(graph);
-    realize_externals(graph);
-    realize_foreign_images(graph);
-    realize_readbacks(graph);
-    host_times_.plan = watch.lap();
-    record(graph, among_others);
-    host_times_.record = watch.lap();
-    slot_->submit(handover);
+    FrameSlot* const last = slot_;
+    HostTimes times;
+    try {
+        plan_ = graph.compile(measure());
+        enter_slot();
+        place(graph);
+        realize_histories(graph);
+        realize_uploads(graph);
+        realize_externals(graph);
+        realize_foreign_images(graph);
+        realize_readbacks(graph);
+        times.plan = watch.lap();
+        record(graph, among_others);
+        times.record = watch.lap();
+        slot_->submit(handover);
+    } catch (...) {
+        slot_ = last;  // what that frame left can be read
+        throw;
+    }
+    unread_ = true;
     turn_histories(graph);
-    host_times_.submit = watch.lap();
+    times.submit = watch.lap(), times.wait = host_times_.wait;
+    host_times_ = times;
 }
 
-void Executor::finish() {
+void Executor::wait() {
     Stopwatch watch;
     const bool last = slot_ && slot_->under_way;
     try {
         for (const auto& slot : slots_) slot->wait();
         host_times_.wait = last ? watch.lap() : host_times_.wait;
-        if (last) read_timestamps();
     } catch (...) {
         for (Past* past : turned_) past->current ^= 1;  // a frame that failed is nobody's past
         turned_.clear();
+        unread_ = false;
         throw;
     }
     turned_.clear();
 }
 
-// The next one in turn. With nothing under way the first, so that whoever waits for every frame has one.
+bool Executor::finish() {
+    wait();
+    return std::exchange(unread_, false);
+}
+
+// The next one in turn. With nothing left to read the first, so that whoever finishes every frame has one.
 void Executor::enter_slot() {
     const auto last = std::ranges::find(slots_, slot_, &std::unique_ptr<FrameSlot>::get);
-    const bool idle = std::ranges::none_of(slots_, &FrameSlot::under_way);
-    const size_t next = idle ? 0 : (size_t(last - slots_.begin()) + 1) % kFramesUnderWay;
+    const size_t next = !unread_ ? 0 : (size_t(last - slots_.begin()) + 1) % kFramesUnderWay;
     if (next == slots_.size()) slots_.push_back(std::make_unique<FrameSlot>(device_));
     slot_ = slots_[next].get();
     slot_->wait();
@@ -180,7 +193,7 @@ void Executor::place(const FrameGraph& graph) {
     }
     if (key == placed_key_) return;
 
-    finish();  // what is under way uses what goes now
+    wait();  // what is under way uses what goes now
     placed_key_.clear();
     resources_.clear();
     heaps_.clear();
@@ -220,7 +233,7 @@ void Executor::realize_histories(const FrameGraph& graph) {
         usage |= info.shape.is_image() ? uint32_t(VK_IMAGE_USAGE_TRANSFER_DST_BIT) : uint32_t(VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         auto& past = histories_[info.name];
         const bool fits = past && past->shape == info.shape && past->usage == usage;
-        if (!fits || past->forgotten) finish();  // what is under way uses it
+        if (!fits || past->forgotten) wait();  // what is under way uses it
         if (!fits) past = std::make_unique<Past>(device_, info.shape, usage);
         if (past->forgotten) past->zero(device_);
         for (const auto& [index, half] : {std::pair{i, past->current}, std::pair{info.partner, 1 - past->current}}) {
@@ -288,6 +301,7 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
         if (info.origin == FrameGraph::Origin::Readback) total = align_up(total, kSliceAlignment) + info.shape.bytes;
     HostBuffer& readbacks = slot_->readbacks;
     if (readbacks.bytes() < total) readbacks = HostBuffer(device_, total, kHostUsage, HostBuffer::Direction::FromDevice);
+    slot_->places.clear();
     uint64_t offset = 0;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
@@ -295,25 +309,17 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
         offset = align_up(offset, kSliceAlignment);
         Realized& r = resources_[i];
         r.buffer = readbacks.buffer(), r.offset = offset, r.bytes = info.shape.bytes;
+        slot_->places[i] = {r.offset, r.bytes};
         offset += r.bytes;
     }
 }
 
-void Executor::read_timestamps() {
-    if (timings_.empty()) return;
-    std::vector<uint64_t> ticks((timings_.size() + 1) * 2);
-    check(vkGetQueryPoolResults(device_.handle(), slot_->queries.get(), 0, uint32_t(ticks.size()), ticks.size() * sizeof(uint64_t),
-                                ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-          "reading timestamps");
-    for (size_t i = 0; i < timings_.size(); ++i)
-        timings_[i].milliseconds = double(ticks[2 * (i + 1)] - ticks[2 * i]) * double(device_.limits().timestampPeriod) * 1e-6;
-}
-
 std::span<const std::byte> Executor::read(Resource readback) const {
-    const Realized& r = resources_.at(readback.index);
-    if (r.buffer != slot_->readbacks.buffer()) throw Error("a resource that is not a readback cannot be read");
+    if (!slot_) throw Error("there is no frame to be read");
+    const auto place = slot_->places.find(readback.index);
+    if (place == slot_->places.end()) throw Error("a resource that is not a readback cannot be read");
     if (slot_->under_way) throw Error("a frame that is under way cannot be read");
-    return {slot_->readbacks.data() + r.offset, r.bytes};
+    return {slot_->readbacks.data() + place->second.offset, place->second.bytes};
 }
 
 void Executor::reset(const std::string& history) {

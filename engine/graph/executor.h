@@ -14,13 +14,6 @@
 
 namespace vesper {
 
-/// Device time of one pass of the last frame, and what it had to move (Plan::Step).
-struct Timing {
-    std::string pass;
-    double milliseconds = 0;
-    uint64_t bytes_read = 0, bytes_written = 0;
-};
-
 /// Where the host's time went in the last frame, ms.
 struct HostTimes {
     double declare = 0;  ///< lists of lamps, the frame's declaration; of whoever runs the executor
@@ -47,8 +40,10 @@ public:
     /// kFramesUnderWay are on their way.
     void submit(const FrameGraph& graph, const Handover& handover);
     static constexpr size_t kFramesUnderWay = 3;
-    /// Waits for every frame that was submitted.
-    void finish();
+    /// Waits for every frame that was submitted. What the last of them left can be read, and stays until another one is submitted.
+    void wait();
+    /// Waits, and gives up what the last frame left once the next begins. Whether there is anything that no call before this one gave up.
+    bool finish();
     /// What the last frame left in one of its readback resources. It must be finished.
     std::span<const std::byte> read(Resource readback) const;
     template <class T>
@@ -57,9 +52,9 @@ public:
         return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
     }
 
-    const Plan& plan() const { return plan_; }                     ///< of the last frame
-    const std::vector<Timing>& timings() const { return timings_; } ///< of the last frame; empty without timestamps
-    const HostTimes& host_times() const { return host_times_; }    ///< of the last frame
+    const Plan& plan() const { return plan_; }                             ///< of the last frame
+    const std::vector<Timing>& timings() const { return slot_->timings; }  ///< of the last frame, which is finished; empty without timestamps
+    const HostTimes& host_times() const { return host_times_; }            ///< of the last frame
     /// Makes a history zero again for the next frame, as after a camera cut. Unknown names are ignored.
     void reset(const std::string& history);
     uint64_t heap_bytes() const;  ///< device memory behind transients, bytes
@@ -84,11 +79,9 @@ private:
     void record_barriers(const std::vector<Plan::Barrier>& barriers) const;
     void record_dispatch(const FrameGraph::PassInfo& pass) const;
     void record_raster(const FrameGraph& graph, const Plan::Step& step) const;
-    void read_timestamps();
 
     Device& device_;
     Plan plan_;
-    std::vector<Timing> timings_;
     HostTimes host_times_;
     std::vector<Realized> resources_;
     std::map<std::string, std::unique_ptr<Past>> histories_;
@@ -97,7 +90,8 @@ private:
     std::string placed_key_;  // what the transients were made for
     OwnedSampler sampler_;
     std::vector<std::unique_ptr<FrameSlot>> slots_;
-    FrameSlot* slot_ = nullptr;  // of the last frame
+    FrameSlot* slot_ = nullptr;  // of the last frame, or of the one that is being submitted
+    bool unread_ = false;        // what the last frame left was not given up
 };
 
 }  // namespace vesper

@@ -1,7 +1,10 @@
 // One of the frames that may be under way at once. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gpu/commands.h"
@@ -14,16 +17,28 @@ struct Handover {
     std::span<const VkSemaphoreSubmitInfo> wait, signal;
 };
 
+/// Device time of one pass of a frame, and what it had to move (Plan::Step).
+struct Timing {
+    std::string pass;
+    double milliseconds = 0;
+    uint64_t bytes_read = 0, bytes_written = 0;
+};
+
 /// A frame's commands, and what nobody else may touch before they are done.
 struct FrameSlot {
     explicit FrameSlot(const Device& device);
 
     void begin(uint32_t timestamps);  ///< recording; `timestamps`: how many it writes
     void submit(const Handover& handover);
-    void wait();  ///< until its frame, if it has one, is done
+    void wait();  ///< until its frame, if it has one, is done; then there are its timings
 
     const Device& device;
     HostBuffer uploads, readbacks;
+    struct Slice {
+        uint64_t offset = 0, bytes = 0;
+    };
+    std::map<uint32_t, Slice> places;  // in `readbacks`, by resource
+    std::vector<Timing> timings;
     std::vector<OwnedBufferView> texels;
     std::vector<OwnedImageView> views;
     CommandBuffer commands;
@@ -31,6 +46,9 @@ struct FrameSlot {
     uint32_t query_capacity = 0;
     OwnedFence fence;
     bool under_way = false;
+
+private:
+    void read_timestamps();
 };
 
 }  // namespace vesper

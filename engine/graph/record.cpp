@@ -44,9 +44,9 @@ void Executor::record(const FrameGraph& graph, bool among_others) {
     record_barriers(plan_.final_barriers);
     if (among_others) record_border(graph, Border::Leave);
 
-    timings_.clear();
+    slot_->timings.clear();
     for (const Plan::Step& step : plan_.steps)
-        if (timed) timings_.push_back({graph.passes()[step.pass].name, 0, step.bytes_read, step.bytes_written});
+        if (timed) slot_->timings.push_back({graph.passes()[step.pass].name, 0, step.bytes_read, step.bytes_written});
 }
 
 // What a plan says holds within it: at its borders everything waits for everything, and images of others change between their layout and ours.

@@ -130,7 +130,7 @@ EsminiRun read_esmini_run(const std::filesystem::path& table, const std::optiona
     try {
         return read_checked(table, scenario, roads);
     } catch (const std::bad_alloc&) {
-        throw Error(one_line(table.string()) + ": not enough memory");
+        throw OutOfHostMemory(one_line(table.string()) + ": not enough memory");
     }
 }
 

@@ -133,7 +133,7 @@ RoadNetwork parse_opendrive(std::string_view text, const std::string& name, cons
     try {
         return read_checked(XmlFile(text, name), limits);
     } catch (const std::bad_alloc&) {
-        throw Error(one_line(name) + ": not enough memory");
+        throw OutOfHostMemory(one_line(name) + ": not enough memory");
     }
 }
 

@@ -156,7 +156,7 @@ ConversionReport convert(const std::filesystem::path& input, const std::filesyst
     } catch (const json::exception& error) {  // parts of the file that reading it did not look at
         throw Error(one_line(input.string() + ": " + error.what()));
     } catch (const std::bad_alloc&) {
-        throw Error(one_line(input.string()) + ": not enough memory");
+        throw OutOfHostMemory(one_line(input.string()) + ": not enough memory");
     }
 }
 

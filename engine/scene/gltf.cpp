@@ -72,7 +72,7 @@ LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limi
         read_all(reader);
         return {std::move(reader.scene), reader.notes.lines()};
     } catch (const std::bad_alloc&) {
-        throw Error(one_line(file.string()) + ": not enough memory");
+        throw OutOfHostMemory(one_line(file.string()) + ": not enough memory");
     }
 }
 

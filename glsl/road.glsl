@@ -7,18 +7,20 @@ const float kTableSine = 0.0261769, kNoSheenSine = 0.1736482;  // of 1.5 and of 
 // What a point of a road needs: the direction of sight along its plane, what draws beta towards 90 degrees, and its table.
 struct Road {
     vec3 sight;
-    float fade, tan_cells, last_tan, first_cell;  // tan_cells 0: no road
+    float fade, tan_cells, last_tan, beta_cells, first_cell;  // cells per unit of tan(gamma), 0: no road; of beta, per rad
 };
 
 // `metallic` of the G-buffer tells the table. Tables hold for sight at 1 degree to their plane; towards 10 degrees beta is drawn to
 // 90, which takes away the sheen. `roads`: texel of the first cell of the first table.
 Road road_at(float metallic, vec3 normal, vec3 toward_eye, uint roads) {
     const bool paved = metallic <= kRoadKind;
-    const float first_cell = float(roads) + (paved ? -1.0 - metallic : 0.0) * float(kRoadTanCells * kRoadBetaCells + 1u);
+    const vec4 any = texelFetch(maps, int(roads) - 1);
+    const float cells = round(any.x * any.y) * round(any.z * kPi);
+    const float first_cell = float(roads) + (paved ? -1.0 - metallic : 0.0) * (cells + 1.0);
     const vec4 head = texelFetch(maps, int(first_cell) - 1);
     const float sine = dot(normal, toward_eye);
     return Road((normal * sine - toward_eye) * inversesqrt(max(1.0 - sine * sine, 1e-12)), 1.0 - smoothstep(kTableSine, kNoSheenSine, sine),
-                paved ? head.r : 0.0, head.g, first_cell);
+                paved ? head.x : 0.0, head.y, head.z, first_cell);
 }
 
 // L pi lambert / E of a lamp on the plane that faces it, times sr: q cos(gamma) = r / cos^2(gamma) (CIE 144:2001). Beyond
@@ -27,8 +29,9 @@ float road_coefficient(Road road, vec3 to, float inverse, float normal_light) {
     const float cosine = max(normal_light, 1e-6), sine = sqrt(max(1.0 - cosine * cosine, 1e-12));
     const float t = min(sine / cosine, road.last_tan);
     const float cos_beta = clamp(dot(road.sight, to) * inverse / sine, -1.0, 1.0) * road.fade;
-    const vec2 at = vec2(t * road.tan_cells, arccos(cos_beta) * (float(kRoadBetaCells) / kPi));
-    const vec2 cell = min(floor(at), vec2(float(kRoadTanCells) - 1.0, float(kRoadBetaCells) - 1.0));
-    const vec4 corners = texelFetch(maps, int(road.first_cell + cell.x * float(kRoadBetaCells) + cell.y));
+    const vec2 cells = round(vec2(road.last_tan, kPi) * vec2(road.tan_cells, road.beta_cells));
+    const vec2 at = vec2(t * road.tan_cells, arccos(cos_beta) * road.beta_cells);
+    const vec2 cell = min(floor(at), cells - 1.0);
+    const vec4 corners = texelFetch(maps, int(road.first_cell + cell.x * cells.y + cell.y));
     return interpolate(corners, at.x - cell.x, at.y - cell.y) * (1.0 + t * t);
 }

@@ -67,19 +67,27 @@ Groups groups_of(const RoadLayout& road, const std::vector<RoadLuminaire>& lamps
     return groups;
 }
 
-/// The scene with only some of its luminaires.
+/// The scene with only some of its luminaires, and tables as the calculation takes them.
 Scene with_luminaires(Scene scene, const std::vector<bool>& wanted) {
+    scene.beyond_tables = false;
     size_t lamp = 0;
     for (Node& node : scene.nodes)
         if (node.light != kNone && !wanted.at(lamp++)) node.light = kNone;
     return scene;
 }
 
+/// Every lamp counts, as in the calculation, however dim: contributions of 1e-9 lx are left out.
+RenderSettings road_settings() {
+    RenderSettings settings;
+    settings.clusters.threshold = 1e-9f;
+    return settings;
+}
+
 class RoadPictures {
 public:
     RoadPictures(Device& device, const Scene& scene) : frame_{world_transforms(scene, 0)}, renderer_(device, scene) {}
     std::vector<float> render(const View& view) {
-        return renderer_.render({}, view, frame_, 0, {.display = false, .scene = true}).scene;
+        return renderer_.render(road_settings(), view, frame_, 0, {.display = false, .scene = true}).scene;
     }
 
 private:

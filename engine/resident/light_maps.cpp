@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/error.h"
@@ -196,16 +197,38 @@ LightMaps::Intensities add_intensities(const Distribution& d, std::vector<glm::v
     return map;
 }
 
-uint32_t add_road(const ReflectionTable& table, std::vector<glm::vec4>& texels) {
-    const double last = table.tan_gamma.back();
-    const auto value = [&](uint32_t t, uint32_t b) {
-        return float(1e4 * reduced_luminance_coefficient(table, last * t / shared::kRoadTanCells, 180.0 * b / shared::kRoadBetaCells));
+/// The fewest equal cells that have all nodes of all tables among theirs; `most` if even those are too few.
+uint32_t cells_of(const std::vector<ReflectionTable>& tables, std::vector<double> ReflectionTable::*nodes, uint32_t most) {
+    const auto are_among = [&](uint32_t cells) {
+        return std::ranges::all_of(tables, [&](const ReflectionTable& table) {
+            return std::ranges::all_of(table.*nodes, [&](double node) {
+                const double at = node / (table.*nodes).back() * cells;
+                return std::abs(at - std::round(at)) < 1e-6;
+            });
+        });
     };
-    texels.emplace_back(float(shared::kRoadTanCells / last), float(last), 0.0f, 0.0f);
+    for (uint32_t cells = 1; cells < most; ++cells)
+        if (are_among(cells)) return cells;
+    return most;
+}
+
+/// Fewer where many tables would not fit.
+glm::uvec2 road_cells(const std::vector<ReflectionTable>& tables) {
+    glm::uvec2 most = shared::kMostRoadCells, cells;
+    do {
+        cells = {cells_of(tables, &ReflectionTable::tan_gamma, most.x), cells_of(tables, &ReflectionTable::beta, most.y)};
+        most /= 2u;
+    } while (most.x > 30 && tables.size() * cells.x * cells.y > kMostTexels / 2);
+    return cells;
+}
+
+uint32_t add_road(const ReflectionTable& table, glm::uvec2 cells, std::vector<glm::vec4>& texels) {
+    const double last = table.tan_gamma.back();
+    const auto value = [&](uint32_t t, uint32_t b) { return float(1e4 * reduced_luminance_coefficient(table, last * t / cells.x, 180.0 * b / cells.y)); };
+    texels.emplace_back(float(cells.x / last), float(last), float(cells.y / std::numbers::pi), 0.0f);
     const auto first = uint32_t(texels.size());
-    for (uint32_t t = 0; t < shared::kRoadTanCells; ++t)
-        for (uint32_t b = 0; b < shared::kRoadBetaCells; ++b)
-            texels.emplace_back(value(t, b), value(t + 1, b), value(t, b + 1), value(t + 1, b + 1));
+    for (uint32_t t = 0; t < cells.x; ++t)
+        for (uint32_t b = 0; b < cells.y; ++b) texels.emplace_back(value(t, b), value(t + 1, b), value(t, b + 1), value(t + 1, b + 1));
     return first;
 }
 
@@ -218,7 +241,9 @@ LightMaps light_maps(const Scene& scene) {
             throw Error("the scene's light distributions need more than " + std::to_string(kMostTexels) + " texels in all");
     };
     for (const Distribution& d : scene.distributions) maps.intensities.push_back(add_intensities(d, maps.texels)), check_size();
-    for (const ReflectionTable& table : scene.reflection_tables) maps.roads.push_back(add_road(extended(table), maps.texels)), check_size();
+    const glm::uvec2 cells = road_cells(scene.reflection_tables);
+    for (const ReflectionTable& table : scene.reflection_tables)
+        maps.roads.push_back(add_road(scene.beyond_tables ? extended(table) : table, cells, maps.texels)), check_size();
     return maps;
 }
 

@@ -153,7 +153,8 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Light> lights;
     std::vector<Distribution> distributions;
-    std::vector<ReflectionTable> reflection_tables;  ///< as published; extended() is for rendering
+    std::vector<ReflectionTable> reflection_tables;  ///< as published,
+    bool beyond_tables = true;                       ///< and rendered as extended(); false: as they are, for comparison with a calculation of theirs
     std::vector<Retroreflector> retroreflectors;     ///< at most kMaxRetroreflectors
     std::vector<Camera> cameras;
     std::vector<Node> nodes;        ///< parents before children

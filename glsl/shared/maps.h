@@ -17,11 +17,10 @@ SHARED_BEGIN
 const uint kRings = 64u, kSectors = 32u;
 const uint kWindowTexels = 3u * kRings * 3u * kSectors / 4u;
 
-// r x 1e4 (sr^-1) of a road surface over tan(gamma), 0 to that of the table's last row, and beta, a degree a cell; the nodes
-// of the standard tables are among its own. Before the cells one texel: cells per unit of tan(gamma), and the last
-// tan(gamma).
-const uint kRoadTanCells = 48u;
-const uint kRoadBetaCells = 180u;
+// r x 1e4 (sr^-1) of a road surface over tan(gamma), 0 to that of the table's last row, and beta, 0 to 180 degrees. All tables of a scene have
+// as many cells, so many that their nodes are among those of the cells; at most kMostRoadCells, of which a node that is none of theirs lies half a cell off.
+// Before the cells one texel: cells per unit of tan(gamma), the last tan(gamma), and cells of beta per rad.
+const uvec2 kMostRoadCells = uvec2(960u, 360u);
 
 SHARED_END
 #endif

@@ -97,7 +97,9 @@ TEST_F(Road, OtherRoadsAgreeToo) {
     const char* roads[] = {
         R"("carriageway": {"width_m": 3.5, "lanes": 1, "traffic": "left"}, "surface": {"reflection_table": "W3"}, "luminaires": {"arrangement": "left", "spacing_m": 20, "height_m": 5, "tilt_deg": 10, "colour_temperature_K": 2000,)",
         R"("carriageway": {"width_m": 10.5, "lanes": 3}, "surface": {"reflection_table": "R1", "q0": 0.1}, "luminaires": {"arrangement": "staggered", "spacing_m": 55, "height_m": 12, "overhang_m": -1, "maintenance_factor": 0.7, "orientation_deg": 15,)",
-        R"("carriageway": {"width_m": 7, "lanes": 2}, "surface": {"reflection_table": "C2"}, "luminaires": {"arrangement": "central", "reservation_m": 3, "spacing_m": 40, "height_m": 10, "overhang_m": 1, "c0": "street side", "roll_deg": 4,)"};
+        R"("carriageway": {"width_m": 7, "lanes": 2}, "surface": {"reflection_table": "C2"}, "luminaires": {"arrangement": "central", "reservation_m": 3, "spacing_m": 40, "height_m": 10, "overhang_m": 1, "c0": "street side", "roll_deg": 4,)",
+        // Lamps beyond the edge of the table, and so dim that a street would leave them out.
+        R"("carriageway": {"width_m": 10.5, "lanes": 3}, "surface": {"reflection_table": "R1"}, "luminaires": {"arrangement": "right", "spacing_m": 16, "height_m": 5, "overhang_m": 0, "flux_factor": 0.001,)"};
     for (const char* road : roads) {
         std::ofstream(folder / "r.json") << R"({"version": 1, "name": "made", )" << road << "\"file\": \"" << luminaire << "\"}}";
         ASSERT_EQ(run("--render a.png --json a.json", "r.json"), 0) << text_of("err.txt");

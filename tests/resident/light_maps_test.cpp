@@ -190,16 +190,41 @@ TEST(LightMaps, RoadsKeepEveryTabulatedValue) {
     for (size_t k = 0; k < scene.reflection_tables.size(); ++k) {
         const ReflectionTable& table = scene.reflection_tables[k];
         const glm::vec4 head = maps.texels.at(maps.roads[k] - 1);
-        EXPECT_EQ(head.x * head.y, float(shared::kRoadTanCells));
+        EXPECT_EQ(head.x * head.y, 48.0f);
         for (size_t t = 1; t < table.tan_gamma.size(); ++t)
             for (size_t b = 1; b < table.beta.size(); ++b) {
                 if (table.at(t, b) == 0) continue;
                 const double at = table.tan_gamma[t] * double(head.x);
                 ASSERT_EQ(at, std::round(at));
-                const size_t cell = (size_t(at) - 1) * shared::kRoadBetaCells + size_t(table.beta[b]) - 1;
+                const size_t cell = (size_t(at) - 1) * 180 + size_t(table.beta[b]) - 1;
                 const double value = 1e-4 * double(maps.texels.at(maps.roads[k] + cell).w);
                 ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-22)) << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
             }
+    }
+}
+
+// Nodes that divide nothing evenly lie half a cell off at most; all tables of a scene have as many cells.
+TEST(LightMaps, RoadsHaveTheNodesOfAnyTable) {
+    ReflectionTable far = find_reflection_table("R3"), odd = far;
+    for (double& t : far.tan_gamma) t *= 2.5;
+    odd.tan_gamma[1] = 0.1, odd.tan_gamma[2] = 0.45, odd.beta[1] = 1.5;
+    for (const auto& tables : {std::vector{far}, std::vector{odd}, std::vector{far, odd, find_reflection_table("W4")}}) {
+        Scene scene;
+        scene.reflection_tables = tables;
+        const LightMaps maps = light_maps(scene);
+        for (size_t k = 0; k < tables.size(); ++k) {
+            const glm::vec4 head = maps.texels.at(maps.roads[k] - 1);
+            const auto columns = size_t(std::round(head.z * float(std::numbers::pi)));
+            EXPECT_EQ(columns, tables[0].beta[1] == 1.5 || tables.size() > 1 ? 360u : 180u);
+            for (size_t t = 1; t < tables[k].tan_gamma.size(); ++t)
+                for (size_t b = 1; b < tables[k].beta.size(); ++b) {
+                    if (tables[k].at(t, b) == 0) continue;
+                    const double at = tables[k].tan_gamma[t] * double(head.x), across = tables[k].beta[b] * double(columns) / 180;
+                    ASSERT_NEAR(at, std::round(at), 1e-4);
+                    const size_t cell = (size_t(std::round(at)) - 1) * columns + size_t(std::round(across)) - 1;
+                    ASSERT_NEAR(1e-4 * double(maps.texels.at(maps.roads[k] + cell).w), tables[k].at(t, b), tables[k].at(t, b) * 1e-5);
+                }
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "io/hdr_image.h"
 #include "photometry/ies.h"
+#include "places.h"
 #include "scene/convert_rules.h"
 #include "scene/light.h"
 #include "support/conversion.h"

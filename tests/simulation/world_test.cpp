@@ -195,12 +195,12 @@ TEST(Barrier, StopsACarAndTakesEnergy) {
     }
 }
 
-// A street under a bridge, one across the other: neither kerbs nor who drives down there hold up a car above.
+// A street under a bridge: neither its kerbs nor who stands there hold up a car above, nor is its lane that of who drives by hand.
 TEST(World, RoadsAboveOneAnotherDoNotMeet) {
     for (const double high : {5.0, 0.0}) {
         const auto d = std::make_shared<WorldDescription>();
         d->lanes.emplace_back("above", std::vector<glm::dvec3>{{0, high, 0}, {0, high, -300}}, 3, 15);
-        d->lanes.emplace_back("below", std::vector<glm::dvec3>{{-6, 0, -100}, {600, 0, -100}}, 3, 10);
+        d->lanes.emplace_back("below", std::vector<glm::dvec3>{{-60, 0, -60}, {600, 0, -500}}, 3, 10);
         d->barriers.push_back({.line = {{-50, -104}, {50, -104}}, .height = 0.0});
         RecordedMover parked{.node = "parked", .poses = {{.time = 0, .position = {0, 0, -100}, .yaw = -kPi / 2, .pitch = 0, .roll = 0, .speed = 0, .lamps = {}}, {.time = 60, .position = {0, 0, -100}, .yaw = -kPi / 2, .pitch = 0, .roll = 0, .speed = 0, .lamps = {}}}};
         d->recordings.push_back(parked);

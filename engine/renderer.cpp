@@ -56,7 +56,7 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
         shading.ambient = frame.tunnels.empty() ? ambient.illuminance : glm::vec3(0), shading.sky = ambient.sky;
 
     const GBuffer surfaces = add_gbuffer(graph, scene_->resident, frame, view);
-    const MapTexels maps{scene_->map_texels.in(graph, "maps"), scene_->maps.roads.empty() ? 0 : scene_->maps.roads.front(), !scene_->maps.roads.empty()};
+    const MapTexels maps{scene_->map_texels.in(graph, "maps"), scene_->maps.roads, scene_->maps.roads != 0};
     const Clusters clusters = add_clusters(graph, kernels_, surfaces.surface, lights, maps, view, clustering);
     if (scene_->retro && !ldr) shading.retro = scene_->retro.in(graph, "retroreflection");
     Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);

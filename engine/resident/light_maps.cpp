@@ -12,10 +12,15 @@ namespace vesper {
 namespace {
 
 constexpr size_t kMostTexels = size_t(1) << 24;  // a float counts them exactly
-constexpr int64_t kUnit = 1000;                  // angles are whole multiples of 1/1000 degree
-constexpr int64_t kFinest = 20, kUsual = 100;    // 1/1000 degree
+constexpr int64_t kUnit = 1000;                  // nodes are whole multiples of 1/1000 degree, or of tan(gamma)
 
-// Equally spaced nodes, deg.
+// The finest spacing that may be taken, and what is where that is not enough; in 1/kUnit.
+struct Spacing {
+    double finest, otherwise;
+};
+constexpr Spacing kAngles{20, 100};
+
+// Equally spaced nodes.
 struct Nodes {
     double low, step;
     uint32_t count;
@@ -24,17 +29,17 @@ struct Nodes {
     double at(int64_t i) const { return low + step * double(i); }
 };
 
-// The coarsest equal spacing of `low` to `high` that has all the angles among its nodes.
-Nodes nodes_of(const std::vector<double>& angles, double low, double high) {
+// The coarsest equal spacing of `low` to `high` that has all the values among its nodes.
+Nodes nodes_of(const std::vector<double>& values, double low, double high, Spacing spacing) {
     int64_t divisor = std::llround((high - low) * kUnit);
     bool whole = true;
-    for (const double angle : angles) {
-        const double units = (angle - low) * kUnit;
+    for (const double value : values) {
+        const double units = (value - low) * kUnit;
         whole = whole && std::abs(units - std::round(units)) < 0.01;
         divisor = std::gcd(divisor, std::llround(units));
     }
-    const bool exact = whole && divisor >= kFinest;
-    const int64_t steps = std::max<int64_t>(1, exact ? std::llround((high - low) * kUnit) / divisor : std::llround((high - low) * kUnit / kUsual));
+    const bool exact = whole && double(divisor) >= spacing.finest;
+    const int64_t steps = std::max<int64_t>(1, std::llround((high - low) * kUnit / (exact ? double(divisor) : spacing.otherwise)));
     return {low, (high - low) / double(steps), uint32_t(steps) + 1, exact};
 }
 
@@ -71,8 +76,8 @@ Range range_of(const Distribution& d) {
             break;
     }
     const bool around = d.goniometry == Goniometry::CGamma;
-    return {around ? nodes_of(azimuth, -180, 180) : nodes_of(azimuth, azimuth.front(), azimuth.back()),
-            nodes_of(polar, polar.front(), polar.back()), around, polar.front() <= 0, polar.back() >= 180};
+    return {around ? nodes_of(azimuth, -180, 180, kAngles) : nodes_of(azimuth, azimuth.front(), azimuth.back(), kAngles),
+            nodes_of(polar, polar.front(), polar.back(), kAngles), around, polar.front() <= 0, polar.back() >= 180};
 }
 
 // Values at the nodes; beyond them what goes on around, stays at a pole, or is nothing.
@@ -197,39 +202,27 @@ LightMaps::Intensities add_intensities(const Distribution& d, std::vector<glm::v
     return map;
 }
 
-/// The fewest equal cells that have all nodes of all tables among theirs; `most` if even those are too few.
-uint32_t cells_of(const std::vector<ReflectionTable>& tables, std::vector<double> ReflectionTable::*nodes, uint32_t most) {
-    const auto are_among = [&](uint32_t cells) {
-        return std::ranges::all_of(tables, [&](const ReflectionTable& table) {
-            return std::ranges::all_of(table.*nodes, [&](double node) {
-                const double at = node / (table.*nodes).back() * cells;
-                return std::abs(at - std::round(at)) < 1e-6;
-            });
-        });
+// Adds the cells of a table, `budget` of them at most, and returns what its head says.
+glm::vec4 add_road(const ReflectionTable& table, size_t budget, std::vector<glm::vec4>& texels) {
+    const auto nodes = [](const std::vector<double>& values, uint32_t most) {
+        const double finest = values.back() * kUnit / most;
+        return nodes_of(values, 0, values.back(), {finest, finest});
     };
-    for (uint32_t cells = 1; cells < most; ++cells)
-        if (are_among(cells)) return cells;
-    return most;
-}
-
-/// Fewer where many tables would not fit.
-glm::uvec2 road_cells(const std::vector<ReflectionTable>& tables) {
     glm::uvec2 most = shared::kMostRoadCells, cells;
+    Nodes tan_gamma, beta;
     do {
-        cells = {cells_of(tables, &ReflectionTable::tan_gamma, most.x), cells_of(tables, &ReflectionTable::beta, most.y)};
+        tan_gamma = nodes(table.tan_gamma, most.x), beta = nodes(table.beta, most.y);
+        cells = {tan_gamma.count - 1, beta.count - 1};
         most /= 2u;
-    } while (most.x > 30 && tables.size() * cells.x * cells.y > kMostTexels / 2);
-    return cells;
-}
+    } while (size_t(cells.x) * cells.y > budget && most.x > 30);
 
-uint32_t add_road(const ReflectionTable& table, glm::uvec2 cells, std::vector<glm::vec4>& texels) {
+    // Beyond the last tan(gamma) there may be nothing: no node may get there by rounding.
     const double last = table.tan_gamma.back();
-    const auto value = [&](uint32_t t, uint32_t b) { return float(1e4 * reduced_luminance_coefficient(table, last * t / cells.x, 180.0 * b / cells.y)); };
-    texels.emplace_back(float(cells.x / last), float(last), float(cells.y / std::numbers::pi), 0.0f);
-    const auto first = uint32_t(texels.size());
+    const auto value = [&](uint32_t t, uint32_t b) { return float(1e4 * reduced_luminance_coefficient(table, std::min(tan_gamma.at(t), last), beta.at(b))); };
+    const glm::vec4 head(cells.x / last, last, cells.y / std::numbers::pi, texels.size());
     for (uint32_t t = 0; t < cells.x; ++t)
         for (uint32_t b = 0; b < cells.y; ++b) texels.emplace_back(value(t, b), value(t + 1, b), value(t, b + 1), value(t + 1, b + 1));
-    return first;
+    return head;
 }
 
 }  // namespace
@@ -241,9 +234,15 @@ LightMaps light_maps(const Scene& scene) {
             throw Error("the scene's light distributions need more than " + std::to_string(kMostTexels) + " texels in all");
     };
     for (const Distribution& d : scene.distributions) maps.intensities.push_back(add_intensities(d, maps.texels)), check_size();
-    const glm::uvec2 cells = road_cells(scene.reflection_tables);
-    for (const ReflectionTable& table : scene.reflection_tables)
-        maps.roads.push_back(add_road(scene.beyond_tables ? extended(table) : table, cells, maps.texels)), check_size();
+    if (const size_t tables = scene.reflection_tables.size()) {
+        maps.roads = uint32_t(maps.texels.size());
+        maps.texels.resize(maps.texels.size() + tables);
+        for (size_t i = 0; i < tables; ++i) {
+            const ReflectionTable& table = scene.reflection_tables[i];
+            const glm::vec4 head = add_road(scene.beyond_tables ? extended(table) : table, kMostTexels / 2 / tables, maps.texels);
+            maps.texels[maps.roads + i] = head, check_size();
+        }
+    }
     return maps;
 }
 

@@ -21,13 +21,13 @@ struct LightMaps {
         bool exact = true;          ///< every angle of the file is a node; otherwise the nodes lie between, step apart
     };
     std::vector<Intensities> intensities;  ///< as Scene::distributions
-    std::vector<uint32_t> roads;           ///< as Scene::reflection_tables: texel of the first cell
+    uint32_t roads = 0;                    ///< texel of the first head; heads are as Scene::reflection_tables; 0: there are none
     std::vector<glm::vec4> texels{glm::vec4(0)};  ///< never empty
 };
 
 /// Grids whose nodes include every angle of the file, so that the interpolation between them is the file's own and nothing
 /// is lost but what floats round. A file whose angles have no common divisor of at least 0.02 degrees gets
-/// nodes 0.1 degrees apart.
+/// nodes 0.1 degrees apart; a road's table whose nodes have none gets nodes kMostRoadCells to its range.
 LightMaps light_maps(const Scene& scene);
 
 }  // namespace vesper

@@ -42,7 +42,7 @@ struct ShadePush {
     vec3 sky;               // luminance where nothing is drawn, cd/m^2 RGB
     uint blocks_x;          // as in SelectPush
     uint capacity;
-    uint roads;             // texel of the first cell of the first road table
+    uint roads;             // texel of the first road table's head
     uint blocks;            // of the image
     uint block_class;       // the one to shade
 };

@@ -37,11 +37,14 @@ TEST(GrowingFile, KeepsLinksAndWritesToWhatIsNoFile) {
     const TempFolder folder;
     folder.write("target", "old");
     fs::create_symlink("target", folder / "link");
-    GrowingFile file(folder / "link");
-    file.append("new");
-    file.complete();
-    EXPECT_TRUE(fs::is_symlink(folder / "link"));
-    EXPECT_EQ(read_text(folder / "target"), "new");
+    const auto expect_written_through = [&](const char* target, const char* link) {
+        GrowingFile file(folder / link);
+        file.append("new");
+        file.complete();
+        EXPECT_TRUE(fs::is_symlink(folder / link));
+        EXPECT_EQ(read_text(folder / target), "new");
+    };
+    expect_written_through("target", "link");
     GrowingFile null("/dev/null");
     null.append("x");
     null.complete();
@@ -50,11 +53,7 @@ TEST(GrowingFile, KeepsLinksAndWritesToWhatIsNoFile) {
     EXPECT_THROW(GrowingFile(folder / "missing/x"), Error);
     // A link to what is not there yet makes it; one that leads nowhere is refused.
     fs::create_symlink("new", folder / "ahead");
-    GrowingFile ahead(folder / "ahead");
-    ahead.append("x");
-    ahead.complete();
-    EXPECT_TRUE(fs::is_symlink(folder / "ahead"));
-    EXPECT_EQ(read_text(folder / "new"), "x");
+    expect_written_through("new", "ahead");
     fs::create_symlink("loop", folder / "loop");
     EXPECT_THROW(GrowingFile(folder / "loop"), Error);
 }

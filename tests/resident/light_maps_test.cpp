@@ -183,49 +183,60 @@ TEST(LightMaps, ADarkLampAndNoLampAreNothing) {
     EXPECT_EQ(light_maps(with(d)).intensities.at(0).largest, 0.0f);
 }
 
+/// What a road's head says, and its cells.
+struct RoadCells {
+    double per_tan, columns;  // cells per unit of tan(gamma); of beta
+    size_t first;
+};
+RoadCells road_cells(const LightMaps& maps, size_t table) {
+    const glm::vec4 head = maps.texels.at(maps.roads + table);
+    return {double(head.x), std::round(double(head.z) * std::numbers::pi), size_t(head.w)};
+}
+
+/// Every tabulated value is a corner of a cell.
+void expect_every_value(const LightMaps& maps, size_t number, const ReflectionTable& table) {
+    const RoadCells road = road_cells(maps, number);
+    for (size_t t = 1; t < table.tan_gamma.size(); ++t)
+        for (size_t b = 1; b < table.beta.size(); ++b) {
+            if (table.at(t, b) == 0) continue;  // extended
+            const double along = table.tan_gamma[t] * road.per_tan, across = table.beta[b] * road.columns / 180;
+            ASSERT_NEAR(along, std::round(along), 1e-4);  // of a cell: floats round the head
+            ASSERT_NEAR(across, std::round(across), 1e-9);
+            const size_t cell = (size_t(std::round(along)) - 1) * size_t(road.columns) + size_t(std::round(across)) - 1;
+            const double value = 1e-4 * double(maps.texels.at(road.first + cell).w);
+            ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-22)) << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
+        }
+}
+
 TEST(LightMaps, RoadsKeepEveryTabulatedValue) {
     Scene scene;
     for (const std::string& name : standard_reflection_tables()) scene.reflection_tables.push_back(find_reflection_table(name));
     const LightMaps maps = light_maps(scene);
-    for (size_t k = 0; k < scene.reflection_tables.size(); ++k) {
-        const ReflectionTable& table = scene.reflection_tables[k];
-        const glm::vec4 head = maps.texels.at(maps.roads[k] - 1);
-        EXPECT_EQ(head.x * head.y, 48.0f);
-        for (size_t t = 1; t < table.tan_gamma.size(); ++t)
-            for (size_t b = 1; b < table.beta.size(); ++b) {
-                if (table.at(t, b) == 0) continue;
-                const double at = table.tan_gamma[t] * double(head.x);
-                ASSERT_EQ(at, std::round(at));
-                const size_t cell = (size_t(at) - 1) * 180 + size_t(table.beta[b]) - 1;
-                const double value = 1e-4 * double(maps.texels.at(maps.roads[k] + cell).w);
-                ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-22)) << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
-            }
-    }
+    for (size_t i = 0; i < scene.reflection_tables.size(); ++i) expect_every_value(maps, i, scene.reflection_tables[i]);
 }
 
-// Nodes that divide nothing evenly lie half a cell off at most; all tables of a scene have as many cells.
 TEST(LightMaps, RoadsHaveTheNodesOfAnyTable) {
     ReflectionTable far = find_reflection_table("R3"), odd = far;
     for (double& t : far.tan_gamma) t *= 2.5;
     odd.tan_gamma[1] = 0.1, odd.tan_gamma[2] = 0.45, odd.beta[1] = 1.5;
-    for (const auto& tables : {std::vector{far}, std::vector{odd}, std::vector{far, odd, find_reflection_table("W4")}}) {
-        Scene scene;
-        scene.reflection_tables = tables;
-        const LightMaps maps = light_maps(scene);
-        for (size_t k = 0; k < tables.size(); ++k) {
-            const glm::vec4 head = maps.texels.at(maps.roads[k] - 1);
-            const auto columns = size_t(std::round(head.z * float(std::numbers::pi)));
-            EXPECT_EQ(columns, tables[0].beta[1] == 1.5 || tables.size() > 1 ? 360u : 180u);
-            for (size_t t = 1; t < tables[k].tan_gamma.size(); ++t)
-                for (size_t b = 1; b < tables[k].beta.size(); ++b) {
-                    if (tables[k].at(t, b) == 0) continue;
-                    const double at = tables[k].tan_gamma[t] * double(head.x), across = tables[k].beta[b] * double(columns) / 180;
-                    ASSERT_NEAR(at, std::round(at), 1e-4);
-                    const size_t cell = (size_t(std::round(at)) - 1) * columns + size_t(std::round(across)) - 1;
-                    ASSERT_NEAR(1e-4 * double(maps.texels.at(maps.roads[k] + cell).w), tables[k].at(t, b), tables[k].at(t, b) * 1e-5);
-                }
-        }
-    }
+    Scene scene;
+    scene.reflection_tables = {far, odd, find_reflection_table("W4")};
+    const LightMaps maps = light_maps(scene);
+    for (size_t i = 0; i < 3; ++i) expect_every_value(maps, i, scene.reflection_tables[i]);
+    EXPECT_EQ(road_cells(maps, 0).columns, 180);
+    EXPECT_EQ(road_cells(maps, 1).columns, 360);
+    EXPECT_EQ(road_cells(maps, 2).columns, 180);
+}
+
+TEST(LightMaps, NodesOfRoadsThatDivideNothingAreHalfACellOff) {
+    Scene scene;
+    scene.reflection_tables = {find_reflection_table("R3")};
+    ReflectionTable& table = scene.reflection_tables[0];
+    table.tan_gamma[1] = 0.2501, table.beta[1] = 1.0007;
+    const LightMaps maps = light_maps(scene);
+    const RoadCells road = road_cells(maps, 0);
+    EXPECT_EQ(std::round(road.per_tan * table.tan_gamma.back()), shared::kMostRoadCells.x);
+    EXPECT_EQ(road.columns, shared::kMostRoadCells.y);
 }
 
 }  // namespace

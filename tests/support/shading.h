@@ -32,8 +32,7 @@ inline GBuffer upload(FrameGraph& graph, const Surfaces& s) {
 }
 
 inline MapTexels upload(FrameGraph& graph, const LightMaps& maps) {
-    return {graph.upload("maps", maps.texels, VK_FORMAT_R32G32B32A32_SFLOAT), maps.roads.empty() ? 0 : maps.roads.front(),
-            !maps.roads.empty()};
+    return {graph.upload("maps", maps.texels, VK_FORMAT_R32G32B32A32_SFLOAT), maps.roads, maps.roads != 0};
 }
 
 struct Shot {

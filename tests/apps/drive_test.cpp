@@ -274,8 +274,8 @@ TEST_F(DriveProgram, DrivesRecordsAndReplays) {
     // The recording has their size, too.
     ASSERT_EQ(run("--headless --replay drive.json --video c%02d.png"), 0) << said;
     EXPECT_EQ(read_text(folder / "a05.png"), read_text(folder / "c05.png"));
-    for (const char* size : {"[96]", "[0,60]", "[96,60.5]", "[96,20000]", "\"96x60\""}) {
-        folder.write("bad.json", std::string(R"({"vesper_drive":1,"scene":"x","size_px":)") + size + R"(,"events":[]})");
+    for (const char* bad : {"[96]", "[0,60]", "[96,60.5]", "[96,20000]", "\"96x60\""}) {
+        folder.write("bad.json", std::string(R"({"vesper_drive":1,"scene":"x","size_px":)") + bad + R"(,"events":[]})");
         expect_refused("--headless --replay bad.json --log l.csv", {"bad.json: /size_px"});
     }
     // Rows are the same but for the times they took, which are last.

@@ -142,6 +142,19 @@ TEST_F(EsminiRuns, TheTableOfTheCsvLoggerIsReadToo) {
     EXPECT_EQ(later.poses[0].position.x, 80);
 }
 
+// Whoever gives a catalog, or a scenario of long ago, learns why nothing is lit.
+TEST_F(EsminiRuns, ScenariosThatSayNothingAreNoted) {
+    const auto table = write("run.csv", kHeader + "0.0, 0, Ego, 0, 0, 0, 0, 0, 0, 0, 0, 0\n");
+    const auto notes = [&](const std::string& text) {
+        std::string all;
+        for (const std::string& note : read_esmini_run(table, write("run.xosc", text)).notes) all += note + "\n";
+        return all;
+    };
+    EXPECT_NE(notes("<OpenSCENARIO><Catalog name=\"c\"/></OpenSCENARIO>").find("run.xosc:1: OpenSCENARIO: has no Storyboard"), std::string::npos);
+    EXPECT_NE(notes("<OpenSCENARIO>\n<FileHeader revMajor=\"0\" revMinor=\"9\"/><Storyboard/></OpenSCENARIO>").find("run.xosc:2: FileHeader: OpenSCENARIO 0.9"), std::string::npos);
+    EXPECT_EQ(notes(scenario("")), "");
+}
+
 // Brake lamps follow from speeds that only the places tell.
 TEST_F(EsminiRuns, SpeedsFollowFromPlacesWhereTheTableHasNone) {
     std::string text = "\xEF\xBB\xBFtime, id, name, x, y, z, h, \r\n";

@@ -118,8 +118,8 @@ private:
             for (size_t i = 0; i < frames; ++i) check(unsigned(i));
             return;
         }
-        for (const NumberedFile& there : existing_files(*names_)) check(there.number);
         for (const auto& [option, other] : growing_outputs(arguments_)) check(number_in(*names_, other));
+        for (const NumberedFile& there : existing_files(*names_)) check(there.number);
     }
     void check_free(const std::string& file, const FilesRead& read) const {
         Files others;

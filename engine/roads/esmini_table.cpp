@@ -60,7 +60,7 @@ std::optional<Columns> logged_header_of(const std::vector<std::string_view>& fie
     }
     const auto first = columns.index.find("name");
     if (first == columns.index.end() || !columns.index.contains("time")) return std::nullopt;
-    columns.count = last + 1;
+    columns.count = std::max(last, columns.index.at("time")) + 1;
     columns.stride = columns.stride > first->second ? columns.stride - first->second : last + 1 - first->second;
     return columns;
 }

@@ -215,26 +215,28 @@ void keep_other_side(const XmlElement& element, const LaneSection& before, LaneS
 /// Links that led to a lane section that is taken away lead on to where its own do.
 void link_past(std::vector<RoadLane>& lanes, const LaneSection& gone, std::vector<int> RoadLane::* links) {
     for (RoadLane& lane : lanes) {
-        std::vector<int> past;
+        std::set<int> past;
         for (const int id : lane.*links)
-            if (const RoadLane* over = gone.find(id)) past.insert(past.end(), (over->*links).begin(), (over->*links).end());
-        lane.*links = std::move(past);
+            if (const RoadLane* over = gone.find(id)) past.insert((over->*links).begin(), (over->*links).end());
+        (lane.*links).assign(past.begin(), past.end());
     }
 }
 
 /// Sections too short to build go, and those before and behind them are linked across.
 void drop_short_sections(Road& road) {
-    std::vector<LaneSection>& sections = road.sections;
-    for (size_t i = 0; i < sections.size() && sections.size() > 1;) {
-        if (sections[i].end - sections[i].s >= kShortest) {
-            ++i;
+    std::vector<LaneSection> kept;
+    for (size_t i = 0; i < road.sections.size(); ++i) {
+        LaneSection& section = road.sections[i];
+        const bool last = i + 1 == road.sections.size();
+        if (section.end - section.s >= kShortest || (last && kept.empty())) {
+            kept.push_back(std::move(section));
             continue;
         }
-        if (i > 0) link_past(sections[i - 1].lanes, sections[i], &RoadLane::successors), sections[i - 1].end = sections[i].end;
-        if (i + 1 < sections.size()) link_past(sections[i + 1].lanes, sections[i], &RoadLane::predecessors);
-        sections.erase(sections.begin() + static_cast<ptrdiff_t>(i));
+        if (!kept.empty()) link_past(kept.back().lanes, section, &RoadLane::successors), kept.back().end = section.end;
+        if (!last) link_past(road.sections[i + 1].lanes, section, &RoadLane::predecessors);
     }
-    if (sections.size() == 1 && sections[0].end - sections[0].s < kShortest) sections[0].s = 0;
+    if (kept.size() == 1 && kept[0].end - kept[0].s < kShortest) kept[0].s = 0;
+    road.sections = std::move(kept);
 }
 
 }  // namespace

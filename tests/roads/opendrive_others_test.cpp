@@ -132,6 +132,17 @@ TEST(OthersOpenDrive, SectionsWithoutLengthAreLinkedAcross) {
     EXPECT_EQ(graph.lanes()[0].successors, std::vector<uint32_t>{1});
 }
 
+// However many there are: links neither grow with every one, nor is each looked at for each.
+TEST(OthersOpenDrive, ManySectionsWithoutLengthAreNoMatter) {
+    const std::string both = "<link><predecessor id=\"-1\"/><predecessor id=\"-2\"/><successor id=\"-1\"/><successor id=\"-2\"/></link>", lanes = lane(-1, 3, "driving", both) + lane(-2, 3, "driving", both);
+    std::string sections = "<laneSection s=\"0\"><right>" + lanes + "</right></laneSection>";
+    for (int i = 0; i < 5000; ++i) sections += "<laneSection s=\"50\"><right>" + lanes + "</right></laneSection>";
+    const RoadNetwork network = network_of(road("1", 100, geometry(0, 0, 0, 0, 100, "<line/>"), sections));
+    ASSERT_EQ(network.roads[0].sections.size(), 2u);
+    EXPECT_EQ(network.roads[0].sections[0].find(-1)->successors.size(), 2u);
+    EXPECT_EQ(LaneGraph(network).lanes()[0].successors.size(), 2u);
+}
+
 // A bridge that rises from the ground: no lamp of the road below it stands in its way.
 TEST(OthersOpenDrive, NoLampStandsInABridge) {
     const std::string rising = "<elevationProfile><elevation s=\"0\" c=\"0.0012\" d=\"-0.000008\"/><elevation s=\"100\" a=\"4\"/><elevation s=\"200\" a=\"4\" c=\"-0.0012\" d=\"0.000008\"/></elevationProfile>";

@@ -21,7 +21,7 @@ namespace {
 struct MergeArguments {
     std::vector<std::string> images;
     std::string exposures, curve = "recover", response, luminance, output;
-    double scale = 0, smoothness = 20;
+    double scale = 0, smoothness = 100;
     bool align = false;
 };
 
@@ -199,7 +199,7 @@ void add_merge(CLI::App& program) {
     command->add_option("--exposures,-e", a->exposures, "Exposure of each picture, such as 1/60,1/15 (default: Exif time * ISO / f-number^2)");
     command->add_flag("--align", a->align, "Undo the shifts between the pictures, whole pixels");
     command->add_option("--curve", a->curve, "Response of the camera: recover, srgb, gamma2.2, linear or a file that --response wrote")->capture_default_str();
-    command->add_option("--smoothness", a->smoothness, "Smoothness of a recovered response")->check(CLI::Range(0.1, 1000.0))->capture_default_str();
+    command->add_option("--smoothness", a->smoothness, "Smoothness of a recovered response")->check(CLI::Range(0.1, 10000.0))->capture_default_str();
     command->add_option("--response", a->response, "Write the response to a CSV file");
     command->add_option("--luminance", a->luminance, "A measured luminance: X,Y,CD_M2 or X,Y,WIDTH,HEIGHT,CD_M2 (px, from the top left)");
     command->add_option("--scale", a->scale, "cd/m^2 per unit, from an earlier --luminance")->check(CLI::Range(1e-12, 1e12));

@@ -96,16 +96,18 @@ private:
 };
 
 /// Veil and TI off a picture of what dazzles; lamps above the roof of the car do not.
-GlareReport read_glare(const RoadLayout& road, const RoadObserver& observer, Renderer& renderer, const Scene& scene) {
+GlareReport read_glare(const RoadLayout& road, const RoadObserver& observer, Device& device) {
+    const Scene scene = road_glare_scene(road, observer.glare_eye.x);
+    Renderer renderer(device, scene);
     const View view = road_glare_view(observer.glare_eye);
-    const Frame frame = renderer.render({}, view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
+    const Frame frame = renderer.render(road_settings(), view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
     std::vector<DazzlingLight> beside;
     for (const OutsideLamp& lamp : frame.outside)
         if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z) beside.push_back({lamp.direction, luminance(lamp.illuminance)});
     const ImageAngles image = angles_of(view);
     const double average = observer.average_luminance / road.maintenance_factor;
     const glm::dvec2 sight = image.pixels_at({0, 0}) / glm::dvec2(image.width, image.height);
-    return report_glare(image, frame.scene, beside, {.eye = {road.age}, .gaze = sight, .source_luminance = 100 * average, .average_luminance = average});
+    return report_glare(image, frame.scene, beside, {.eye = {road.age}, .gaze = sight, .source_luminance = 0, .average_luminance = average});
 }
 
 double read_point(const std::vector<float>& rgba, const View& view, const RoadPoint& point) {
@@ -148,17 +150,12 @@ RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const
         made.observers.push_back(std::move(seen));
         if (result.observers[i].average_luminance < result.observers[made.darkest].average_luminance) made.darkest = i;
     }
-    const Scene dazzling = road_glare_scene(road);
-    Renderer glare(device, dazzling);
-    for (size_t i = 0; i < made.observers.size(); ++i) made.observers[i].glare = read_glare(road, result.observers[i], glare, dazzling);
+    for (size_t i = 0; i < made.observers.size(); ++i) made.observers[i].glare = read_glare(road, result.observers[i], device);
     for (const auto& [counted, wanted] : groups_of(road, road_scene_luminaires(road), result)) {
         RoadPictures some(device, with_luminaires(scene, counted));
-        std::vector<float> rgba;
-        for (size_t i = 0; i < wanted.size(); ++i) {  // observer by observer
-            const auto [observer, point] = wanted[i];
-            RenderedObserver& seen = made.observers[observer];
-            if (i == 0 || wanted[i - 1].observer != observer) rgba = some.render(seen.view);
-            seen.counted.luminance[point] = read_point(rgba, seen.view, result.points[point]);
+        for (const auto& [observer, point] : wanted) {
+            const View view = road_point_view(result.observers[observer], {result.points[point].x, result.points[point].y});
+            made.observers[observer].counted.luminance[point] = read_point(some.render(view), view, result.points[point]);
         }
     }
     for (size_t i = 0; i < made.observers.size(); ++i) {
@@ -172,11 +169,11 @@ RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const
 
 std::string text_of(const RoadResult& result, const RenderedRoad& rendered) {
     const size_t columns = result.field.x.size();
-    std::string text = "\nRendered on " + rendered.device + ", with the luminaires that count for each point: calculated, rendered, difference in %\n";
+    std::string text = "\nRendered on " + rendered.device + ", with the luminaires that count for each point, at 5 mm a pixel: calculated, rendered, difference in %\n";
     for (size_t o = 0; o < result.observers.size(); ++o) {
         const RoadObserver& observer = result.observers[o];
         const RenderedObserver& seen = rendered.observers[o];
-        text += format("\nLuminance for the observer of lane %d, cd/m2 (%u x %u px, at most %.1f cm of road in one)\n   y \\ x  ",
+        text += format("\nLuminance for the observer of lane %d, cd/m2 (the picture by every luminaire: %u x %u px, at most %.1f cm of road in one)\n   y \\ x  ",
                        observer.lane, seen.view.extent.width, seen.view.extent.height, 100 * seen.longest_pixel);
         for (const double x : result.field.x) text += format(" %7.2f", x);
         for (size_t row = result.field.y.size(); row-- > 0;)

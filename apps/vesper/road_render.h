@@ -24,8 +24,8 @@ struct RenderedObserver {
     View view;
     std::vector<float> rgba;         ///< cd/m^2 RGB, by every luminaire of the scene
     /// The standard leaves out luminaires more than 5H before, 12H beyond or 5H beside a point, and those outside of the
-    /// r-table; so each point is read off a picture with the luminaires that count for it. And off the picture above, for
-    /// what that leaves out.
+    /// r-table; so each point is read off a picture of its own (road_point_view) with the luminaires that count for it. And off the picture
+    /// above, for what that leaves out.
     RoadReading counted, every;
     double longest_pixel = 0;        ///< m of road in a pixel, at the far end of the field
     /// Off a picture of the new luminaires from RoadObserver::glare_eye, those outside of it added.

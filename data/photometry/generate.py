@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 # Makes the distributions of this folder: a road luminaire and a pair of headlamp beams. SPDX-License-Identifier: MIT
 """Standard library only. Run it in this folder; the files come out the same each time."""
+import base64
+import json
 import math
+import struct
 
 
 def smooth(x, low, high):
@@ -99,8 +102,50 @@ def write_beam(name, title, value, hs, vs):
             file.write(",".join([f"{v:g}"] + [f"{c:.0f}" if c >= 1000 else f"{round(c, 2):g}" for c in cells]) + "\n")
 
 
+def quad(*corners):
+    """Four corners, counter-clockwise as seen, as six vertices."""
+    return [corners[i] for i in (0, 1, 2, 0, 2, 3)]
+
+
+def write_yard(name):
+    """A road along -Z, its left half wet, with lamps on its right and an oncoming car, and 30 m aside a car before a wall. Y up, m."""
+    surfaces = {
+        "asphalt_wet": quad((-4, 0, 20), (0, 0, 20), (0, 0, -160), (-4, 0, -160)),
+        "asphalt_dry": quad((0, 0, 20), (4, 0, 20), (4, 0, -160), (0, 0, -160)) + quad((20, 0, 10), (40, 0, 10), (40, 0, -12), (20, 0, -12)),
+        "plaster": quad((20, 0, -12), (40, 0, -12), (40, 4, -12), (20, 4, -12)),
+    }
+    places = {f"street_lamp_{i}/light": (4.5, 8, -30 - 30 * i) for i in range(4)}
+    places |= {f"parked_car/headlamp_{i}": (30 + x, 0.65, 0) for i, x in (("left", -0.6), ("right", 0.6))}
+    nodes = [{"name": name, "translation": at} for name, at in places.items()]
+    # A half turn about Y: it comes towards the road's observer.
+    nodes += [{"name": f"oncoming_car/headlamp_{i}", "translation": (-2 + x, 0.65, -70), "rotation": (0, 1, 0, 0)} for i, x in (("left", 0.6), ("right", -0.6))]
+    nodes += [{"name": "wall", "translation": (30.4, 1.2, 2), "camera": 0}, {"name": "sheen", "translation": (0, 1.5, 0), "camera": 1}]
+    document = {
+        "asset": {"version": "2.0", "generator": "generate.py"},
+        "cameras": [{"name": n, "type": "perspective", "perspective": {"yfov": f, "znear": 0.1}} for n, f in (("wall", 0.55), ("sheen", 0.2))],
+        "materials": [], "meshes": [{"primitives": []}], "accessors": [], "bufferViews": [],
+    }
+    data = b""
+    for material, points in surfaces.items():
+        index = len(document["materials"])
+        document["materials"].append({"name": material, "pbrMetallicRoughness": {"baseColorFactor": [0.6, 0.6, 0.6, 1] if material == "plaster" else [0.08, 0.08, 0.08, 1], "metallicFactor": 0, "roughnessFactor": 1}})
+        document["meshes"][0]["primitives"].append({"attributes": {"POSITION": index}, "material": index})
+        bounds = {"min": [min(p[i] for p in points) for i in range(3)], "max": [max(p[i] for p in points) for i in range(3)]}
+        document["accessors"].append({"bufferView": index, "componentType": 5126, "count": len(points), "type": "VEC3"} | bounds)
+        document["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": 12 * len(points)})
+        data += b"".join(struct.pack("<3f", *p) for p in points)
+    document["buffers"] = [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]
+    document["nodes"] = [{"name": "yard", "mesh": 0}] + nodes
+    document["scenes"] = [{"nodes": list(range(len(document["nodes"])))}]
+    document["scene"] = 0
+    with open(name, "w") as file:
+        json.dump(document, file, indent=1)
+        file.write("\n")
+
+
 def main():
     write_street_lamp("street-lamp.ies", 8000)
+    write_yard("yard.gltf")
     hs = axis((0, 4, 0.25), (4, 12, 0.5), (12, 30, 1), (30, 60, 2.5))
     vs = axis((-30, -15, 2.5), (-15, -6, 1), (-6, -3, 0.5), (-3, -2, 0.25), (-2, 2, 0.1), (2, 5, 0.5), (5, 15, 1))
     write_beam("low-beam.csv", "Passing beam, right-hand traffic, cut-off at -0.57 deg on the left", low_beam, hs, vs)

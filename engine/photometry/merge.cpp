@@ -36,11 +36,11 @@ struct Estimate {
     double closest = 0, closest_weight = -1, closest_exposure = 0;
     bool dark = false, bright = false;
 
-    void add(int code, double ln_value, double exposure) {
+    void add(int code, double precision, double ln_value, double exposure) {
         const double w = code_weight(code);
         if (code >= kLowestGoodCode && code <= kHighestGoodCode) {
-            sum += w * ln_value;
-            weight += w;
+            sum += precision * ln_value;
+            weight += precision;
         }
         dark |= code < kLowestGoodCode;
         bright |= code > kHighestGoodCode;
@@ -62,6 +62,8 @@ MergedImage merge_exposures(std::span<const Exposure> exposures, const Response&
     check(exposures);
     std::vector<double> ln_exposures;
     for (const Exposure& exposure : exposures) ln_exposures.push_back(std::log(exposure.exposure));
+    std::array<std::array<double, 256>, 3> precisions;
+    for (size_t c = 0; c < 3; ++c) precisions[c] = code_precisions(response.ln_exposure[c]);
     const int64_t width = exposures.front().image.width, height = exposures.front().image.height;
     MergedImage made;
     made.image.width = static_cast<uint32_t>(width);
@@ -78,7 +80,7 @@ MergedImage merge_exposures(std::span<const Exposure> exposures, const Response&
                 if (at_x < 0 || at_y < 0 || at_x >= width || at_y >= height) continue;
                 const uint8_t* codes = e.image.rgba.data() + (at_y * width + at_x) * 4;
                 for (size_t c = 0; c < 3; ++c)
-                    channels[c].add(codes[c], response.ln_exposure[c][codes[c]] - ln_exposures[i], e.exposure);
+                    channels[c].add(codes[c], precisions[c][codes[c]], response.ln_exposure[c][codes[c]] - ln_exposures[i], e.exposure);
             }
             bool dark = false, bright = false, good = true;
             double colour[3];

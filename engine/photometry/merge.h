@@ -29,7 +29,7 @@ struct MergedImage {
     double darkest = 0, brightest = 0;  ///< luminance of the other pixels, in the picture's unit
 };
 
-/// ln E = sum w(Z) (g(Z) - ln t) / sum w(Z) over the good codes, per channel (eq. 6). What no picture holds well gets
+/// ln E = sum p(Z) (g(Z) - ln t) / sum p(Z) over the good codes, per channel (eq. 6 with the precisions of codes). What no picture holds well gets
 /// the value of the picture that comes closest: among black ones the longest exposure, among white ones the shortest.
 /// Throws Error unless there are 1 to kMaxExposures pictures of equal size with exposures > 0.
 MergedImage merge_exposures(std::span<const Exposure>, const Response&);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include "base/error.h"
 #include "photometry/response.h"
@@ -32,12 +33,13 @@ public:
     std::vector<Sample> samples;
 
 private:
-    static constexpr int kSmooth = 10, kPerCode = 40;
-    static constexpr uint32_t kTries = 200000;
+    static constexpr int kSmooth = 10, kPerCode = 400;
+    static constexpr uint64_t kTries = 200000;
 
     void visit(int largest_jump) {
         const Image& first = exposures_.front().image;
-        for (uint32_t i = 1; i <= kTries; ++i) {
+        const uint64_t tries = std::min(kTries, uint64_t{first.width} * first.height);
+        for (uint32_t i = 1; i <= tries; ++i) {
             const double u = 0.5 + i * 0.7548776662466927, v = 0.5 + i * 0.5698402909980532;
             consider(static_cast<int64_t>((u - std::floor(u)) * first.width),
                      static_cast<int64_t>((v - std::floor(v)) * first.height), largest_jump);
@@ -97,16 +99,20 @@ struct Equations {
         weight += sum;
     }
 
-    /// Penalizes curvature, in relation to the mean weight of data per code.
+    /// Penalizes curvature, in relation to the mean weight of data per code, but not that of three shapes that cameras' responses are near,
+    /// nor of any sum of them. Exposures in equal steps leave open what repeats itself from step to step; only this decides that.
     void smooth(double lambda) {
-        const double scale = lambda * lambda * weight / 256;
-        for (int z = 1; z < 255; ++z) {
-            const double w = scale * squared(z);
-            const int at[] = {z - 1, z, z + 1};
-            const double factor[] = {1, -2, 1};
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) a(at[i], at[j]) += w * factor[i] * factor[j];
+        Matrix curvature = Matrix::Zero(254, 256), shapes(256, 3);
+        const double scale = lambda * std::sqrt(weight / 256);
+        for (int z = 1; z < 255; ++z)
+            for (int i = -1; i <= 1; ++i) curvature(z - 1, z + i) = scale * code_weight(z) * (i == 0 ? -2 : 1);
+        for (int z = 0; z < 256; ++z) {
+            const double v = (z + 0.5) / 256;
+            shapes.row(z) << std::log(v), std::log(v + 0.055), std::log(1.1 - v);  // a power; the toe of sRGB; a shoulder
         }
+        const Eigen::HouseholderQR<Matrix> factors(curvature * shapes);
+        const Matrix free = (factors.householderQ() * Matrix::Identity(254, 3)).transpose() * curvature;
+        a += curvature.transpose() * curvature - free.transpose() * free;
     }
 
     /// Solves with g(128) = 0.

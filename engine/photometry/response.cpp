@@ -1,6 +1,7 @@
 // Response curves: known ones, and their files. SPDX-License-Identifier: MIT
 #include "photometry/response.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -34,6 +35,18 @@ Response gamma_response(double gamma) {
 
 Response srgb_response() {
     return response_of(srgb_to_linear);
+}
+
+std::array<double, 256> code_precisions(const std::array<double, 256>& g) {
+    constexpr int kHalf = 4, kEnd = 32;  // codes: the slope is taken over 2 kHalf
+    constexpr double kLeastSlope = 1e-3;  // a curve rises by more than half of that per code: 255 of them would be a factor of 1.3
+    std::array<double, 256> made{};
+    for (int z = 1; z < 255; ++z) {
+        const int low = std::max(z - kHalf, 1), high = std::min(z + kHalf, 254);
+        const double slope = std::max((g[size_t(high)] - g[size_t(low)]) / (high - low), kLeastSlope);
+        made[size_t(z)] = std::min(1.0, double(std::min(z, 255 - z)) / kEnd) / (slope * slope);
+    }
+    return made;
 }
 
 std::array<int, 3> count_falls(const Response& response) {

@@ -48,6 +48,20 @@ View road_view(const RoadLayout& road, const RoadObserver& observer, uint32_t ma
     return view;
 }
 
+View road_point_view(const RoadObserver& observer, glm::dvec2 point) {
+    constexpr double kPixels = 8, kOfRoad = 0.005;  // m in one
+    const glm::dvec2 away = point - glm::dvec2(observer.eye);
+    const glm::dvec2 middle(-away.y / away.x, -observer.eye.z / away.x);
+    const glm::dvec2 half = 0.5 * kPixels * kOfRoad * glm::dvec2(1 / away.x, observer.eye.z / (away.x * away.x));
+    View view;
+    view.extent = {uint32_t(kPixels), uint32_t(kPixels)};
+    view.world_to_view = along_road(observer.eye);
+    view.tangent_low = glm::vec2(middle - half);
+    view.tangent_high = glm::vec2(middle + half);
+    view.near = kNear;
+    return view;
+}
+
 View road_overview(const RoadLayout& road, const RoadObserver& observer, uint32_t width) {
     const double near = 40, bottom = -observer.eye.z / near, top = 0.2 * -bottom;
     const double right = (observer.eye.y + 1) / near, left = (road.width - observer.eye.y + 1) / near;

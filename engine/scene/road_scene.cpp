@@ -94,13 +94,15 @@ Scene road_scene(const RoadLayout& road) {
     return scene;
 }
 
-Scene road_glare_scene(const RoadLayout& road) {
+Scene road_glare_scene(const RoadLayout& road, double from) {
     check_road(road);
-    Scene scene = bare_road(road, road.spacing + kGlareRange);
+    Scene scene = bare_road(road, from + kGlareRange);
+    scene.materials[0].base_colour = {0, 0, 0, 1};
+    scene.materials[0].reflection_table = kNone;
+    scene.reflection_tables.clear();
     LuminousOpening opening;
-    opening.length = 0.6, opening.width = 0.3;
-    const double first = road_observers(road)[0].eye.x - 5 * road_height(road);
-    add_luminaires(scene, road, road_luminaires(road, first, road.spacing + kGlareRange), 1, opening);
+    opening.length = 0.02, opening.width = 0.02;
+    add_luminaires(scene, road, road_luminaires(road, from, from + kGlareRange), 1, opening);
     return scene;
 }
 

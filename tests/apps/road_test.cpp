@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -107,6 +108,48 @@ TEST_F(Road, OtherRoadsAgreeToo) {
         EXPECT_LT(found.point, 0.5) << road;
         EXPECT_LT(found.average, 0.1) << road;
         EXPECT_GT(found.observers, 0u);
+    }
+}
+
+// R3 with four times as much at beta 20 as one degree to either side: near a lamp that is 5 cm of road.
+TEST_F(Road, APictureSeesASpikeOfTheTable) {
+    std::ifstream in(VESPER_SOURCE_DIR "/data/road/R3.csv");
+    std::ofstream table(folder / "spike.csv");
+    for (std::string line; std::getline(in, line);) {
+        if (line.starts_with("#")) continue;
+        std::vector<std::string> fields(1);
+        for (const char c : line)
+            if (c == ',') fields.emplace_back(); else if (c != '\r') fields.back() += c;
+        for (size_t i = 0; i < fields.size(); ++i) {
+            const bool heading = fields[0].starts_with("tan");
+            const std::string value = fields[i];
+            table << (i > 0 ? "," : "");
+            if (i != 6) table << value;  // beta 20
+            else if (heading) table << "19,20,21";
+            else if (value.empty()) table << ",,";
+            else table << value << "," << 4 * std::stod(value) << "," << value;
+        }
+        table << "\n";
+    }
+    table.close();
+    std::ofstream(folder / "r.json") << R"({"version": 1, "name": "made", "carriageway": {"width_m": 10.5, "lanes": 3}, "surface": {"reflection_table": "spike.csv"},
+        "luminaires": {"arrangement": "staggered", "spacing_m": 50, "height_m": 12, "file": ")" VESPER_SOURCE_DIR R"(/data/road/luminaire.ldt"}})";
+    ASSERT_EQ(run("--render a.png --json a.json", "r.json"), 0) << text_of("err.txt");
+    const Differences found = differences_in(text_of("a.json"));
+    EXPECT_LT(found.point, 2);
+    EXPECT_LT(found.average, 1);
+}
+
+// Seen against a wet road, lamps are no brighter than its average times a hundred; under narrow beams the road itself is.
+TEST_F(Road, GlareIsOfLampsAlone) {
+    for (const char* table : {"W4", "R3"}) {
+        std::ofstream(folder / "r.json") << R"({"version": 1, "name": "made", "carriageway": {"width_m": 7, "lanes": 2}, "surface": {"reflection_table": ")" << table << R"("},
+            "luminaires": {"arrangement": "staggered", "spacing_m": 25, "height_m": 6, "overhang_m": 1, "file": ")" VESPER_SOURCE_DIR R"(/data/road/luminaire.ldt"}})";
+        ASSERT_EQ(run("--render a.png --json a.json", "r.json"), 0) << text_of("err.txt");
+        for (const auto& observer : nlohmann::json::parse(text_of("a.json"))["observers"]) {
+            const double calculated = observer["threshold_increment_percent"], read = observer["rendered"]["threshold_increment_percent"];
+            EXPECT_NEAR(read / calculated, 1, 0.01) << table;
+        }
     }
 }
 

@@ -34,13 +34,13 @@ struct KnownCamera {
     }
 };
 
-inline KnownCamera gamma_camera() {
-    return {[](double x, size_t) { return std::pow(x, 1 / 2.2); }, [](double v, size_t) { return std::pow(v, 2.2); }};
+inline KnownCamera gamma_camera(double noise = 0) {
+    return {[](double x, size_t) { return std::pow(x, 1 / 2.2); }, [](double v, size_t) { return std::pow(v, 2.2); }, noise};
 }
 
-inline KnownCamera srgb_camera() {
+inline KnownCamera srgb_camera(double noise = 0) {
     return {[](double x, size_t) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; },
-            [](double v, size_t) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }};
+            [](double v, size_t) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }, noise};
 }
 
 /// S-shaped over ln X, another one per channel, like a film with toe and shoulder; it clips at 97 % of its asymptote.
@@ -52,6 +52,20 @@ inline KnownCamera film_camera(double noise = 0) {
             },
             [=](double v, size_t c) { return kMiddle[c] * std::pow(v * kClip / (1 - v * kClip), 1 / kSlope[c]); },
             noise};
+}
+
+/// The curve of K. Narkowicz ("ACES filmic tone mapping curve", 2015) before a power of 1/2.2.
+inline KnownCamera filmic_camera(double noise = 0) {
+    const auto value = [](double x, size_t) {
+        x *= 6;
+        return std::pow(std::min(1.0, x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)), 1 / 2.2);
+    };
+    const auto exposure = [value](double v, size_t c) {
+        double low = 0, high = 2;
+        for (int i = 0; i < 60; ++i) (value((low + high) / 2, c) < v ? low : high) = (low + high) / 2;
+        return high;
+    };
+    return {value, exposure, noise};
 }
 
 /// A night in five decades: a dark gradient, texture, and lamps with soft borders. Largest value near 100.

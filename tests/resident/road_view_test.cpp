@@ -49,6 +49,20 @@ TEST(RoadView, HoldsEveryPointOfTheGrid) {
     EXPECT_EQ(few.extent.height, 300u);
 }
 
+TEST(RoadView, OfAPointHasItInTheMiddle) {
+    for (const RoadLayout& road : {layout(30, 7, 2), layout(12, 3.5, 1), layout(60, 14, 4)})
+        for (const RoadObserver& observer : road_observers(road))
+            for (const double x : road_field(road).x)
+                for (const double y : road_field(road).y) {
+                    const View view = road_point_view(observer, {x, y});
+                    const glm::dvec2 place = project(view, {x, y, 0});
+                    EXPECT_NEAR(place.x, 4, 0.02);  // tangents are floats
+                    EXPECT_NEAR(place.y, 4, 0.02);
+                    EXPECT_NEAR(on_road(view, observer, place + glm::dvec2(0, -1)).x - x, 0.005, 2e-4);
+                    EXPECT_NEAR(on_road(view, observer, place + glm::dvec2(1, 0)).y - y, -0.005, 2e-4);
+                }
+}
+
 TEST(RoadView, OverviewHasSquarePixelsAndTheHorizon) {
     const RoadLayout road = layout(30, 7, 2);
     const RoadObserver observer = road_observers(road)[1];

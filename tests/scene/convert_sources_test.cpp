@@ -1,10 +1,12 @@
 // Openings from the photometry file to the scene, and the two descriptions of a source compared.
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "io/hdr_image.h"
 #include "photometry/ies.h"
+#include "places.h"
 #include "scene/convert_rules.h"
 #include "scene/light.h"
 #include "support/conversion.h"
@@ -194,6 +196,16 @@ TEST(Openings, AreReadWithCare) {
     EXPECT_TRUE(contains(complaint({{"light", 0}, {"width_m", 1}}), place));
     EXPECT_TRUE(contains(complaint({{"width_m", 1}, {"height_m", 1}}), place));
     EXPECT_TRUE(contains(complaint({{"light", 0}, {"width_m", 1}, {"height_m", 1}, {"depth_m", 1}}), place + "/depth_m"));
+}
+
+/// What is given of every source of the project's own streets agrees.
+TEST_F(ConvertSourcesTest, OwnStreetsAgree) {
+    const std::filesystem::path rivoli = std::filesystem::path(VESPER_SOURCE_DIR) / "data/rivoli";
+    for (const auto& [street, photometry] : {std::pair("rivoli", "rivoli"), {"rivoli", "rivoli.measured"}, {"rivoli-drive", "rivoli-drive"}}) {
+        const ConversionReport report = convert(rivoli / (std::string(street) + ".gltf"), rivoli / (std::string(photometry) + ".photometry.json"), folder_ / "own.gltf");
+        EXPECT_FALSE(report.changes.empty());
+        for (const std::string& warning : report.warnings) EXPECT_FALSE(warning.starts_with("emitter")) << photometry << ": " << warning;
+    }
 }
 
 TEST(Intensity, OfEveryLobe) {

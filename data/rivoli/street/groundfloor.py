@@ -85,7 +85,7 @@ def arcade_lantern():
     mesh = Mesh("arcade_lantern")
     mesh.box("iron", (-0.012, 0.25, -0.012), (0.012, 1.4, 0.012), skip="+y-y")
     mesh.lathe("iron", [(0.17, 0.18), (0.05, 0.3), (0.0, 0.32)], 6)
-    mesh.lathe("lamp_glass", [(0.0, -0.2), (0.11, -0.19), (0.16, 0.18)], 6, crease_deg=20.0)
+    mesh.lathe("arcade_lamp_glass", [(0.0, -0.2), (0.11, -0.19), (0.16, 0.18)], 6, crease_deg=20.0)
     return mesh
 
 

@@ -64,6 +64,7 @@ TABLE = [
     Material("grey_metal", None, 1.0, (0.30, 0.31, 0.32), 1.0),
     Material("road_signs", "road_signs.png"),
     Material("lamp_glass", None, 1.0, (0.75, 0.72, 0.62), 0.3),
+    Material("arcade_lamp_glass", None, 1.0, (0.75, 0.72, 0.62), 0.3),
     Material("signal_red", None, 1.0, (0.50, 0.03, 0.03), 0.3),
     Material("signal_green", None, 1.0, (0.04, 0.45, 0.25), 0.3),
     Material("signal_off", None, 1.0, (0.05, 0.04, 0.03), 1.0),

@@ -23,6 +23,8 @@ def measured_photometry():
     for emitter in document["emitters"]:
         if emitter["name"] == "headlamp":
             emitter["lamp"] = "low beam"
+        if emitter["name"] == "lantern glass":
+            emitter["luminance_cd_m2"] = 12400  # 1572 cd down
     document["surfaces"] = [{"materials": "asphalt*", "reflection_table": "R3", "q0": 0.07}]
     return document
 
@@ -51,12 +53,9 @@ def photometry():
             coloured("green signal", "signal_*/green", 100, (5, 40), _SIGNAL_GREEN, opening=_SIGNAL),
         ],
         "emitters": [
-            {
-                "name": "lantern glass",
-                "materials": "lamp_glass",
-                "luminance_cd_m2": 8000,
-                "colour_temperature_K": SODIUM,
-            },
+            # I / A from below, over the 0.126 m^2 and 0.069 m^2 of the glasses.
+            _glass("lantern glass", "lamp_glass", 23700, SODIUM),
+            _glass("arcade lantern glass", "arcade_lamp_glass", 3600, 2700),
             # Seen as their lamps' openings: what they show follows from the candela.
             {"name": "headlamp", "materials": "headlamp_glass", "lamp": ["low beam", "ego low beam"]},
             {"name": "parking lamp", "materials": "headlamp_glass_parked", "lamp": "parking lamp"},
@@ -97,6 +96,10 @@ def photometry():
         # the diffuse albedo of asphalt over pi: until the road has a measured table, its reflectance is pi Q0 = 0.22.
         "surfaces": [{"materials": "asphalt*", "reflectance_scale": 2.2}],
     }
+
+
+def _glass(name, material, luminance, kelvin):
+    return {"name": name, "materials": material, "luminance_cd_m2": luminance, "colour_temperature_K": kelvin}
 
 
 def spot(name, nodes, candela, cones, kelvin, aim=(0, 0, -1), opening=None):

@@ -25,24 +25,30 @@ std::optional<NumberedName> numbered_name(const std::string& option, const std::
     return NumberedName{name.substr(0, percent), name.substr(d + 1), count.empty() ? 1u : std::max(1u, unsigned(std::stoi(count)))};
 }
 
-std::vector<NumberedFile> numbered_files(const NumberedName& name) {
+std::optional<unsigned> number_in(const NumberedName& name, const std::string& path) {
+    const std::string start = fs::path(name.before + "0").filename().string(), before = start.substr(0, start.size() - 1), file = fs::path(path).filename().string();
+    if (file.size() <= before.size() + name.after.size() || !file.starts_with(before) || !file.ends_with(name.after)) return std::nullopt;
+    const char *first = file.data() + before.size(), *last = file.data() + file.size() - name.after.size();
+    unsigned number = 0;
+    const auto [rest, error] = std::from_chars(first, last, number);
+    // What printf would have written for that number, so that each file is found once.
+    if (error != std::errc() || rest != last || file != before + format("%0*u", int(name.digits), number) + name.after) return std::nullopt;
+    return number;
+}
+
+std::vector<NumberedFile> existing_files(const NumberedName& name) {
     const fs::path folder = fs::path(name.before + "0" + name.after).parent_path();
-    const std::string start = fs::path(name.before + "0").filename().string();
-    const std::string before = start.substr(0, start.size() - 1);
     std::vector<NumberedFile> found;
     std::error_code code;
-    for (fs::directory_iterator it(folder.empty() ? "." : folder, code), end; !code && it != end; it.increment(code)) {
-        const std::string file = it->path().filename().string();
-        if (file.size() <= before.size() + name.after.size() || !file.starts_with(before) || !file.ends_with(name.after)) continue;
-        const char *first = file.data() + before.size(), *last = file.data() + file.size() - name.after.size();
-        unsigned number = 0;
-        const auto [rest, error] = std::from_chars(first, last, number);
-        // What printf would have written for that number, so that each file is found once.
-        if (error != std::errc() || rest != last || file != before + format("%0*u", int(name.digits), number) + name.after) continue;
-        found.push_back({number, name.at(number)});
-    }
-    if (found.empty()) throw Error(one_line(name.before + "%0" + std::to_string(name.digits) + "d" + name.after) + ": there are no such files");
+    for (fs::directory_iterator it(folder.empty() ? "." : folder, code), end; !code && it != end; it.increment(code))
+        if (const auto number = number_in(name, it->path().string())) found.push_back({*number, name.at(*number)});
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+    return found;
+}
+
+std::vector<NumberedFile> numbered_files(const NumberedName& name) {
+    std::vector<NumberedFile> found = existing_files(name);
+    if (found.empty()) throw Error(one_line(name.before + "%0" + std::to_string(name.digits) + "d" + name.after) + ": there are no such files");
     return found;
 }
 

@@ -21,7 +21,11 @@ struct NumberedFile {
     unsigned number = 0;
     std::string file;
 };
-/// The files that exist of a name, ascending by number. Throws Error if there are none.
+/// The number that a file has by its name, whatever its folder; none: it is not of that name.
+std::optional<unsigned> number_in(const NumberedName&, const std::string& file);
+/// The files that exist of a name, ascending by number.
+std::vector<NumberedFile> existing_files(const NumberedName&);
+/// The same. Throws Error if there are none.
 std::vector<NumberedFile> numbered_files(const NumberedName&);
 
 }  // namespace vesper

@@ -67,7 +67,7 @@ DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {
 void add_drive(CLI::App& program) {
     const auto a = std::make_shared<DriveArguments>();
     program.add_option("scene", a->scene, "A world (.json, docs/simulator.md), roads (.xodr) or a photometric scene (.gltf, .glb); default: the street of data/rivoli");
-    program.add_option("--scenario", a->run, "On roads (.xodr): a run that esmini recorded there (.csv of its dat2csv), as traffic with its lamps");
+    program.add_option("--scenario", a->run, "On roads (.xodr): a run that esmini recorded there (.csv of its dat2csv or CSV logger), as traffic with its lamps");
     program.add_option("--storyboard", a->scenario, "The scenario of that run (.xosc): sizes, lamps and traffic lights");
     program.add_flag("--headless", a->headless, "Without a window");
     program.add_flag("--autopilot", a->autopilot, "The car keeps to its lane and to the distance by itself");
@@ -78,7 +78,7 @@ void add_drive(CLI::App& program) {
     program.add_option("--fps", a->fps, "Headless: frames a second (default: those that were recorded, or 30)")->check(between(1.0, 1000.0));
     program.add_option("--log", a->log, "Write one row per frame to a CSV file: pose, eye, luminances, glare, times");
     program.add_option("--probe", a->probes, "X,Y, parts of the picture from its top left: a column of luminance in the log; may be given several times");
-    program.add_option("--size,-s", a->size, "WIDTHxHEIGHT of pictures, px")->capture_default_str();
+    program.add_option("--size,-s", a->size, "WIDTHxHEIGHT of pictures, px (default: in a replay as recorded, in a window its size)")->capture_default_str();
     program.add_option("--channels", a->channels, "A file of views of the driver's eye, on screens side by side (docs/simulator.md)");
     program.add_option("--seed", a->seed, "Of everything that is drawn by lot")->capture_default_str();
     program.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");

@@ -18,6 +18,7 @@ namespace {
 using nlohmann::json;
 
 constexpr uint64_t kMostBytes = 2ull << 30;
+constexpr uint64_t kLargestSide = 16384;  // px, as of --size
 constexpr const char* kBeams[]{"off", "low", "high"};
 constexpr const char* kIndicators[]{"none", "left", "right", "both"};
 
@@ -71,6 +72,7 @@ std::string heading(const DriveStart& start, const std::filesystem::path& folder
     json head{{"vesper_drive", 1}, {"scene", seen_from(folder, start.scene)}, {"seed", start.seed}, {"time_step_s", start.time_step}, {"settings", start.settings}};
     if (!start.run.empty()) head["run"] = seen_from(folder, start.run);
     if (!start.scenario.empty()) head["scenario"] = seen_from(folder, start.scenario);
+    if (start.size) head["size_px"] = {start.size->x, start.size->y};
     std::string text = head.dump();
     text.pop_back();
     return text + ",\"events\":[\n";
@@ -106,6 +108,8 @@ void read_event(const JsonValue& event, uint64_t place, DriverInput& input, Driv
         event.fail("is no step, frame, set or restart");
     }
 }
+
+std::string place_of(const DriveEvent& event) { return "/events/" + std::to_string(event.place) + "/set"; }
 
 // Takes events as they are parsed, so that a long drive is never in memory as JSON, and gives back the rest of the file.
 class DriveParser {
@@ -158,7 +162,7 @@ Drive read_drive(const std::filesystem::path& file) {
     Drive drive{.file = file, .start = {}, .events = {}};
     const JsonFile text = DriveParser(one_line(file.string()), drive).parse(read_file(file, kMostBytes));
     const JsonValue root(text);
-    root.allow_only({"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "settings", "events"});
+    root.allow_only({"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "size_px", "settings", "events"});
     if (root.at("vesper_drive").integer() != 1) root.at("vesper_drive").fail("this version of Vesper reads drives of version 1");
     root.at("events").elements();
     const auto found = [&](const std::filesystem::path& named) { return named.empty() || named.is_absolute() ? named : file.parent_path() / named; };
@@ -166,6 +170,11 @@ Drive read_drive(const std::filesystem::path& file) {
     drive.start.run = found(root.text_or("run", "")), drive.start.scenario = found(root.text_or("scenario", ""));
     drive.start.seed = root.integer_or("seed", 1);
     drive.start.time_step = root.number_or("time_step_s", 1.0 / 60, 1e-4, 0.1);
+    if (const auto size = root.find("size_px")) {
+        const auto sides = size->elements(2);
+        drive.start.size = glm::uvec2(sides[0].integer(kLargestSide), sides[1].integer(kLargestSide));
+        if (drive.start.size->x == 0 || drive.start.size->y == 0) size->fail("pictures have pixels");
+    }
     if (const auto object = root.find("settings")) {
         drive.start.settings = read_values(*object);
         try {
@@ -174,22 +183,58 @@ Drive read_drive(const std::filesystem::path& file) {
             object->fail(error.what());
         }
     }
-    check_settings(drive, {}, [](const DriveSettings&) {});
+    check_settings(drive, {}, [](const DriveSettings&) {}, [](const DriveSettings&) {});
     return drive;
 }
 
-void check_settings(const Drive& drive, const DriveSettings::Values& kept, const std::function<void(const DriveSettings&)>& usable) {
+void check_settings(const Drive& drive, const DriveSettings::Values& kept, const SettingsCheck& possible, const SettingsCheck& shown) {
+    constexpr const char* kStart = "/settings";
+    const auto check = [&](const std::string& place, const SettingsCheck& wanted, const DriveSettings& settings) {
+        try {
+            wanted(settings);
+        } catch (const Error& error) {
+            if (place == kStart) wanted(DriveSettings(kept));  // not of the drive, then
+            throw Error(one_line(drive.file.string()) + ": " + place + ": " + one_line(error.what(), 1000));
+        }
+    };
+    const auto passes = [&](const DriveSettings& settings) {
+        try {
+            shown(settings);
+        } catch (const Error&) {
+            return false;
+        }
+        return true;
+    };
     DriveSettings::Values start = drive.start.settings;
     for (const auto& [name, value] : kept) start[name] = value;
-    DriveSettings settings(start);
+    DriveSettings settings(start), before = settings;
+    check(kStart, possible, settings);
+    std::vector<DriveEvent> set;  // since the frame before
+    // The place that a frame's settings are wrong from, and do not become right again until they are shown.
+    const auto place_of_wrong = [&]() -> std::string {
+        std::string place = kStart;
+        for (const DriveEvent& event : set) {
+            const bool well = passes(before);
+            before.set(event.name, event.value);
+            if (well && !passes(before)) place = place_of(event);
+        }
+        return place;
+    };
+    const auto frame = drive.events.frames() > 0 ? DriveEvent::Kind::Frame : DriveEvent::Kind::Step;
+    bool first = true;
     for (const DriveEvent& event : drive.events) {
+        if (event.kind == frame && (std::exchange(first, false) || !set.empty())) {
+            if (!passes(settings)) check(place_of_wrong(), shown, settings);
+            before = settings, set.clear();
+        }
         if (event.kind != DriveEvent::Kind::Set || kept.contains(event.name)) continue;
         try {
             settings.set(event.name, event.value);
-            usable(settings);
         } catch (const Error& error) {
-            throw Error(one_line(drive.file.string()) + ": /events/" + std::to_string(event.place) + "/set: " + one_line(error.what(), 1000));
+            throw Error(one_line(drive.file.string()) + ": " + place_of(event) + ": " + one_line(error.what(), 1000));
         }
+        check(place_of(event), possible, settings);
+        set.push_back(event);
     }
 }
 
@@ -211,11 +256,11 @@ std::string DriveRecorder::line(const DriveEvent& event) {
     return line + "\n";
 }
 
-void DriveRecorder::open(const std::filesystem::path& file) {
+void DriveRecorder::open(const std::filesystem::path& file, std::optional<glm::uvec2> size) {
     constexpr size_t kAtOnce = 1 << 20;  // bytes
     close();
     file_ = std::make_unique<GrowingFile>(file);
-    first_ = true, last_ = {};
+    first_ = true, last_ = {}, start_.size = size;
     std::error_code failed;
     std::string text = heading(start_, std::filesystem::absolute(file, failed).parent_path());
     for (const DriveEvent& event : events_) {

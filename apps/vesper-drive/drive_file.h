@@ -19,6 +19,7 @@ struct DriveStart {
     uint64_t seed = 1;
     double time_step = 1.0 / 60;          ///< s
     DriveSettings::Values settings;       ///< what differs from the defaults
+    std::optional<glm::uvec2> size;       ///< px, of its pictures when its recording began; none of channels, and where none were made
 };
 
 struct Drive {
@@ -31,9 +32,11 @@ struct Drive {
 /// Reads a drive, also one that breaks off. Throws Error, naming file, place and reason.
 Drive read_drive(const std::filesystem::path&);
 
-/// Shows `usable` all settings that a drive comes to have after its start, in their order; what was given beside it (`kept`) wins over
-/// what it sets. Where that throws Error, this does, naming file and place.
-void check_settings(const Drive&, const DriveSettings::Values& kept, const std::function<void(const DriveSettings&)>& usable);
+/// Asks `possible` of all settings that a drive comes to have, and `shown` of those that its frames show (its steps where it has no
+/// frames); what was given beside it (`kept`) wins over what it sets. Where one throws Error, this does, naming file and place of what the
+/// drive has set.
+using SettingsCheck = std::function<void(const DriveSettings&)>;
+void check_settings(const Drive&, const DriveSettings::Values& kept, const SettingsCheck& possible, const SettingsCheck& shown);
 
 /// Remembers a drive, and keeps that file up to date once there is one (GrowingFile: read_drive also takes
 /// the part of it that a broken drive leaves).
@@ -42,8 +45,8 @@ public:
     explicit DriveRecorder(DriveStart);
 
     void add(const DriveEvent&);
-    /// Writes all there is; from now on every event follows at once. Throws Error.
-    void open(const std::filesystem::path&);
+    /// Writes all there is; from now on every event follows at once. `size`: as of DriveStart. Throws Error.
+    void open(const std::filesystem::path&, std::optional<glm::uvec2> size = {});
     /// Completes the file. Throws Error.
     void close();
     bool is_open() const { return file_ != nullptr; }

@@ -72,9 +72,10 @@ public:
         }
     }
     bool wanted() const { return film_ || names_ || !arguments_.log.empty(); }
-    /// Throws Error if pictures with these settings cannot go there, in a film that begins with those of `first`.
-    void check(const DriveSettings& settings, const DriveSettings& first) const {
-        const Display &display = settings.render().display, &before = first.render().display;
+    /// Throws Error if pictures with these settings cannot go there, in a film that began with those it was asked of first.
+    void check(const DriveSettings& settings) {
+        if (!first_) first_ = settings.render().display;
+        const Display &display = settings.render().display, &before = *first_;
         if (exr_ && settings.render().tone_operator == Operator::Ldr) throw Error("--video " + one_line(arguments_.video) + ": the ldr operator has no luminances to write");
         if (film_ && (display.bits != before.bits || display.eotf != before.eotf || display.primaries != before.primaries))
             throw Error("--video " + one_line(arguments_.video) + ": a film has codes of one kind, and those of this display are others");
@@ -83,7 +84,7 @@ public:
     void open(const FilesRead& read, size_t frames) {
         check_outputs(arguments_, read);
         if (film_) check_free(arguments_.video, read);
-        for (size_t i = 0; names_ && i < frames; ++i) check_free(names_->at(unsigned(i)), read);
+        if (names_) check_numbered(read, frames);
         if (!arguments_.log.empty()) log_.emplace(arguments_.log, probes_);
     }
     void add(const Contact& contact) {
@@ -108,6 +109,18 @@ public:
     }
 
 private:
+    // Names are many, so those are looked at that something has: a file of that folder, or another output.
+    void check_numbered(const FilesRead& read, size_t frames) const {
+        const auto check = [&](std::optional<unsigned> number) {
+            if (number && *number < frames) check_free(names_->at(*number), read);
+        };
+        if (names_->after.find('/') != names_->after.npos) {  // a folder for each
+            for (size_t i = 0; i < frames; ++i) check(unsigned(i));
+            return;
+        }
+        for (const auto& [option, other] : growing_outputs(arguments_)) check(number_in(*names_, other));
+        for (const NumberedFile& there : existing_files(*names_)) check(there.number);
+    }
     void check_free(const std::string& file, const FilesRead& read) const {
         Files others;
         for (const auto& [option, other] : growing_outputs(arguments_)) others.writes(option, other);
@@ -129,6 +142,7 @@ private:
     VkExtent2D extent_;
     std::vector<LogProbe> probes_;
     bool film_ = false, exr_ = false;
+    std::optional<Display> first_;
     std::optional<NumberedName> names_;
     std::unique_ptr<Video> video_;
     std::optional<DriveLog> log_;
@@ -153,11 +167,11 @@ void run_headless(const DriveArguments& a) {
     const FilesRead read;
     std::optional<Channels> channels;
     if (!a.channels.empty()) channels = read_channels(a.channels);
-    const VkExtent2D extent = channels ? extent_of(*channels) : parse_size(a.size);
-    Outlet outlet(a, extent);
     Drive drive;
     const bool replays = !a.replay.empty();
     if (replays) drive = read_drive(a.replay);
+    const VkExtent2D extent = channels ? extent_of(*channels) : drive.start.size && !a.size_given ? VkExtent2D{drive.start.size->x, drive.start.size->y} : parse_size(a.size);
+    Outlet outlet(a, extent);
     const DriveStart options = start_of(a, drive.start);
     if (!drive.complete) std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", one_line(a.replay).c_str());
     const DriveEvent step{.kind = DriveEvent::Kind::Step, .input = {.autopilot = a.autopilot}, .pose = {}, .name = {}, .value = {}};
@@ -167,17 +181,15 @@ void run_headless(const DriveArguments& a) {
     const double fps = own_frames ? rate_of(drive.events, options.time_step) : std::min(a.fps > 0 ? a.fps : 30, 1 / options.time_step);
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
 
+    Scenery scenery(options.scene, options.run, options.scenario);
+    check_settings(drive, a.settings, [&](const DriveSettings& settings) { scenery.check(settings); }, [&](const DriveSettings& settings) { outlet.check(settings); });
     Device device({.select = a.device});
-    Session session(device, options);
-    const DriveSettings first = session.settings();
-    const auto usable = [&](const DriveSettings& settings) { outlet.check(session.scenery().check(settings), first); };
-    usable(first);
-    check_settings(drive, a.settings, usable);
+    Session session(device, options, std::move(scenery));
     Playback playback(std::move(drive.events), a.settings);
     outlet.open(read, playback.frames());
     session.on_contact = [&](const Contact& contact) { outlet.add(contact); };
     for (const std::string& note : session.scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
-    if (!a.record.empty()) session.record(a.record);
+    if (!a.record.empty()) session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height)) : std::nullopt);
     Progress progress(replays ? "replaying" : "driving", unsigned(std::max<size_t>(1, playback.frames())));
     unsigned index = 0;
     while (const auto kind = playback.next(session)) {

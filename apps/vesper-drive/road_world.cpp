@@ -163,7 +163,7 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
     if (world.lanes.empty()) throw Error(one_line(roads.string()) + ": there is no lane to drive on");
     // Where nothing rises there is nothing to hit: edges without a kerb also lie across junctions, between one road's lanes and another's.
     for (const Kerb& kerb : graph.kerbs())
-        if (kerb.height > 0) world.barriers.push_back({{kerb.from.x, kerb.from.z}, {kerb.to.x, kerb.to.z}});
+        if (kerb.height > 0) world.barriers.push_back({.line = {{kerb.from.x, kerb.from.z}, {kerb.to.x, kerb.to.z}}, .height = (kerb.from.y + kerb.to.y) / 2});
     world.driver_s = 3;
     if (recorded) check_place(made, *recorded, run, network, graph);
     if (switched) made.lenses = lenses_of(made.scene, network, *recorded, made.notes);

@@ -2,9 +2,11 @@
 
 namespace vesper {
 
-Session::Session(Device& device, DriveStart options)
+Session::Session(Device& device, DriveStart options) : Session(device, options, Scenery(options.scene, options.run, options.scenario)) {}
+
+Session::Session(Device& device, DriveStart options, Scenery scenery)
     : options_(std::move(options)),
-      scenery_(options_.scene, options_.run, options_.scenario),
+      scenery_(std::move(scenery)),
       settings_(scenery_.check(DriveSettings(options_.settings))),
       world_(std::make_unique<World>(scenery_.world(), options_.seed)),
       actors_(world_->actors()),
@@ -97,7 +99,7 @@ void Session::use(Device& device) {
     if (rendered_) wall_->set_eye(eye_);
 }
 
-void Session::record(const std::filesystem::path& file) { recorder_->open(file); }
+void Session::record(const std::filesystem::path& file, std::optional<glm::uvec2> size) { recorder_->open(file, size); }
 
 void Session::stop_recording() { recorder_->close(); }
 

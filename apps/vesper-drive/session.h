@@ -34,6 +34,8 @@ namespace vesper {
 class Session {
 public:
     Session(Device&, DriveStart);
+    /// With the scenery of that start, which somebody has read already.
+    Session(Device&, DriveStart, Scenery);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -78,7 +80,8 @@ public:
 
     // Recording (docs/simulator.md).
     /// Records the drive from its start, whenever that was, and goes on with it: FILE.part has every event as soon as it happened.
-    void record(const std::filesystem::path& file);
+    /// `size`: of the pictures, px, which a replay then has, too.
+    void record(const std::filesystem::path& file, std::optional<glm::uvec2> size = {});
     /// Completes the recording, which takes its name. Without, what there is of it stays in FILE.part.
     void stop_recording();
     bool recording() const;

@@ -49,19 +49,20 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
       screen_settings_{.vsync = vsync_of(a.vsync), .scaling = a.scaling == "whole" ? Scaling::Whole : Scaling::Fit},
       hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
     const FilesRead read;
+    if (a.size_given) size_ = parse_size(a.size);
     if (!a.channels.empty()) channels_ = read_channels(a.channels);
     Drive drive;
     if (!a.replay.empty()) {
         drive = read_drive(a.replay);
         arguments_.scene = drive.start.scene.string();
         arguments_.run = drive.start.run.string(), arguments_.scenario = drive.start.scenario.string();
+        if (drive.start.size && !a.size_given) size_ = VkExtent2D{drive.start.size->x, drive.start.size->y};
         if (!drive.complete) say(a.replay + " breaks off; what there is of it is shown");
     }
-    open_session(start_of(a, drive.start));
-    check_settings(drive, a.settings, [this](const DriveSettings& settings) { check_display(session_->scenery().check(settings)); });
+    open_session(drive);
     check_outputs(a, read);
     if (!a.replay.empty()) replay_.emplace(std::move(drive.events), a.settings);
-    if (!a.record.empty()) session_->record(a.record), recording_ = a.record;
+    if (!a.record.empty()) session_->record(a.record, recorded_size()), recording_ = a.record;
     if (a.autopilot) hands_.press(Action::Autopilot);
     if (!a.log.empty()) log_.emplace(a.log, probes_of(a.probes));
     window_.on_key = [this](int key, int modifiers) {
@@ -94,9 +95,11 @@ void WindowedDrive::check_display(const DriveSettings& settings) const {
     if (!screen_->shows(settings.render().display)) throw Error("--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
 }
 
-void WindowedDrive::open_session(const DriveStart& options) {
-    check_display(DriveSettings(options.settings));
-    session_ = std::make_unique<Session>(*device_, options);
+void WindowedDrive::open_session(const Drive& drive) {
+    const DriveStart start = start_of(arguments_, drive.start);
+    Scenery scenery(start.scene, start.run, start.scenario);
+    check_settings(drive, arguments_.settings, [&](const DriveSettings& settings) { check_display(scenery.check(settings)); }, [](const DriveSettings&) {});
+    session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
     watch_contacts();
     for (const std::string& note : session_->scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
@@ -106,8 +109,13 @@ void WindowedDrive::reload(const std::string& scene) {
     const bool same = scene == arguments_.scene;  // then the run on it, too
     DriveSettings::Values settings = session_->settings().values();
     if (!same) std::erase_if(settings, [](const auto& setting) { return setting.first.starts_with("lamp:"); });  // of lamps that only the old scene has
+    // What is written while the drive goes on must not be read: its end would replace it.
+    DriveArguments running;
+    running.record = recording_, running.log = log_ ? arguments_.log : "";
     try {
+        const FilesRead read;
         auto made = std::make_unique<Session>(*device_, DriveStart{.scene = scene, .run = same ? arguments_.run : "", .scenario = same ? arguments_.scenario : "", .seed = arguments_.seed, .settings = settings});
+        check_outputs(running, read);
         if (!recording_.empty()) session_->stop_recording();
         session_ = std::move(made);
         watch_contacts();
@@ -117,6 +125,7 @@ void WindowedDrive::reload(const std::string& scene) {
     if (!same) arguments_.run.clear(), arguments_.scenario.clear();
     arguments_.scene = scene;
     recording_.clear(), replay_.reset(), instruments_.forget();
+    if (!arguments_.size_given) size_.reset();
     stale_ = true;
     say("loaded " + scene);
 }
@@ -137,9 +146,14 @@ std::string WindowedDrive::title() const {
 }
 
 VkExtent2D WindowedDrive::picture_extent() const {
-    const VkExtent2D whole = arguments_.size_given ? parse_size(arguments_.size) : window_.extent();
+    const VkExtent2D whole = size_.value_or(window_.extent());
     const auto part = [&](uint32_t side) { return uint32_t(std::max(1.0, std::round(side / kCoarser[coarser_]))); };
     return {part(whole.width), part(whole.height)};
+}
+
+std::optional<glm::uvec2> WindowedDrive::recorded_size() const {
+    const VkExtent2D extent = picture_extent();
+    return channels_ ? std::nullopt : std::optional(glm::uvec2(extent.width, extent.height));
 }
 
 HeldInput WindowedDrive::held() const {

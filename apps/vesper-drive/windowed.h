@@ -38,7 +38,7 @@ private:
     DeviceOptions device_options() const;
     void recover(const DeviceLost&);
     void check_display(const DriveSettings&) const;
-    void open_session(const DriveStart&);
+    void open_session(const Drive&);
     void reload(const std::string& scene);
     void press(Action);
     void press_view(Action);
@@ -61,6 +61,7 @@ private:
     void say(const std::string& text, bool alarm = false);
     std::string title() const;
     VkExtent2D picture_extent() const;
+    std::optional<glm::uvec2> recorded_size() const;
 
     DriveArguments arguments_;
     Window window_;
@@ -78,6 +79,7 @@ private:
     double owed_ = 0;              // s of real time that the world is behind
     double pictures_per_second_ = 0;
     unsigned coarser_ = 0;         // index of the picture's coarseness
+    std::optional<VkExtent2D> size_;  // of pictures, as it was given or recorded; none: the window's
     VkExtent2D rendered_{};
     Frame frame_;
     View view_;

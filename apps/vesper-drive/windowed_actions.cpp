@@ -63,7 +63,7 @@ void WindowedDrive::record() {
     try {
         if (recording_.empty()) {
             const std::string name = free_name("drive-", ".json");
-            session_->record(name);
+            session_->record(name, recorded_size());
             recording_ = name;
         } else {
             session_->stop_recording();

@@ -66,12 +66,22 @@ std::vector<Row> rows_of(const StreetLampOptions& options, const Road& road, dou
     return {{options.side == Side::Auto ? !road.right_hand : options.side == Side::Left, 0.5}};
 }
 
+/// World height of the highest point of each lane, m.
+std::vector<double> highest_points(const LaneGraph& graph) {
+    std::vector<double> highest;
+    for (const Lane& lane : graph.lanes()) {
+        highest.push_back(lane.poses.front().position.y);
+        for (const LanePose& pose : lane.poses) highest.back() = std::max(highest.back(), pose.position.y);
+    }
+    return highest;
+}
+
 /// Whether a bridge is in the lamp's way.
-bool is_below_road(const RoadBuild& build, glm::dvec3 foot, double height) {
+bool is_below_road(const RoadBuild& build, const std::vector<double>& highest, glm::dvec3 foot, double height) {
     for (double up = 4; up < height + 4; up += 3) {
         const glm::dvec3 at = build.network.to_world(foot + glm::dvec3(0, 0, up));
         const auto place = build.lanes.nearest(at, 20, [&](const Lane& lane) {
-            return is_driven(lane.type) && lane.poses.front().position.y > at.y - up + 3;
+            return is_driven(lane.type) && highest[static_cast<size_t>(&lane - build.lanes.lanes().data())] > at.y - up + 3;
         });
         if (!place) continue;
         const LanePose pose = build.lanes.pose(place->lane, place->along);
@@ -82,7 +92,7 @@ bool is_below_road(const RoadBuild& build, glm::dvec3 foot, double height) {
     return false;
 }
 
-void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& options, size_t& count) {
+void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& options, const std::vector<double>& highest, size_t& count) {
     const double middle = road.length / 2;
     const LaneSection& section = road.sections[road.section_at(middle)];
     const double width = edge_of(road, section, 1, middle) - edge_of(road, section, -1, middle);
@@ -97,7 +107,7 @@ void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& opt
             const int side = row.left ? 1 : -1;
             const double t = edge_of(road, here, side, s) + side * kVerge;
             BodyFrame frame = frame_at(road, s, t, 0);
-            if (is_on_road(build, frame.origin, 0.3) || is_below_road(build, frame.origin, height)) continue;
+            if (is_on_road(build, frame.origin, 0.3) || is_below_road(build, highest, frame.origin, height)) continue;
             // It stands on what is there: a pavement, or the ground.
             frame.origin.z =
                 std::max(frame.origin.z - 0.3, std::min(frame.origin.z, build.ground.height(glm::dvec2(frame.origin))));
@@ -150,9 +160,10 @@ void build_street_lamps(RoadBuild& build) {
                                      [](const Light& light) { return light.name == "street lamp"; });
     if (has_own && !build.options.lamps) return;
     size_t count = 0;
+    const std::vector<double> highest = highest_points(build.lanes);
     for (const Road& road : build.network.roads)
         if (road.junction == kNoRoad && !road.sections.empty() && road.length > 5)
-            light_road(build, road, options, count);
+            light_road(build, road, options, highest, count);
     if (count > kMaxLamps)
         build.notes.push_back("street lamps: more than " + std::to_string(kMaxLamps) + ": the rest is left out");
     build.notes.push_back("street lamps: " + std::to_string(std::min(count, kMaxLamps)) + ", every " +

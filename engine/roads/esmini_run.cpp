@@ -114,6 +114,11 @@ EsminiRun read_checked(const std::filesystem::path& table, const std::optional<s
     read_table(table, run);
     if (scenario) {
         ScenarioFile file(*scenario);
+        if (!file.root().child("Storyboard"))
+            run.notes.push_back(file.root().place() + ": has no Storyboard: it sets no lamps");
+        const auto header = file.root().child("FileHeader");
+        if (header && header->text_or("revMajor", "1") == "0")
+            run.notes.push_back(header->place() + ": OpenSCENARIO 0.9 has other elements than 1.0 to 1.3, which are understood");
         for (const XmlElement& each : file.root().children_of("RoadNetwork", "LogicFile"))
             run.road_file = resolved(each, "filepath", file.parameters()).value_or("");
         describe_entities(file, run);

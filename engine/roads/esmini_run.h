@@ -91,7 +91,8 @@ struct EsminiRun {
 };
 
 /// Reads the table that esmini's dat2csv writes (columns by their names: time, id, name, x, y, z, h, p, r, speed,
-/// wheel_angle, wheel_rot; others are ignored). `scenario`: the .xosc file of the run, for what the table does not
+/// wheel_angle, wheel_rot; others are ignored), or that of its CSV logger (`--csv_logger`: all entities in a row, with their
+/// sizes). Speeds that a table does not have follow from the places. `scenario`: the .xosc file of the run, for what the table does not
 /// hold: sizes and kinds from its catalogs, and the lamps and traffic lights its storyboard sets. The storyboard is
 /// gone through at the run's own time steps; conditions on entities are judged by where they were recorded, so events
 /// lie within two steps of esmini's. Where a scenario says nothing of a lamp: low beams are on; brake lamps are on

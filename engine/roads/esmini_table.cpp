@@ -13,20 +13,67 @@ namespace vesper {
 namespace {
 
 constexpr uint64_t kMaxBytes = 1ull << 30;
-constexpr size_t kMaxRows = 20'000'000, kMaxEntities = 10'000, kMaxColumns = 100;
+constexpr size_t kMaxRows = 20'000'000, kMaxEntities = 10'000, kMaxColumns = 100'000;
 constexpr double kTurn = 2 * std::numbers::pi;
 
+/// Where the columns of an entity are, by the names dat2csv has for them.
 struct Columns {
     std::map<std::string, size_t, std::less<>> index;
-    size_t count = 0;
+    size_t count = 0;   ///< fields that a row has at least
+    size_t stride = 0;  ///< columns from one entity to the next in the same row; 0: a row for each entity
+    double angle = 1;   ///< rad in the unit of wheel_angle
 };
 
-std::optional<Columns> header_of(std::string_view line) {
+/// What the CSV logger calls them, without number and unit.
+constexpr std::array<std::pair<std::string_view, const char*>, 18> kLogged{{{"Entity_Name", "name"},
+                                                                            {"Entitity_Name", "name"},
+                                                                            {"Entity_ID", "id"},
+                                                                            {"World_Position_X", "x"},
+                                                                            {"World_Position_Y", "y"},
+                                                                            {"World_Position_Z", "z"},
+                                                                            {"World_Heading_Angle", "h"},
+                                                                            {"World_Pitch_Angle", "p"},
+                                                                            {"World_Roll_Angle", "r"},
+                                                                            {"Current_Speed", "speed"},
+                                                                            {"Wheel_Angle", "wheel_angle"},
+                                                                            {"Wheel_Rotation", "wheel_rot"},
+                                                                            {"bb_x", "bb_x"},
+                                                                            {"bb_y", "bb_y"},
+                                                                            {"bb_z", "bb_z"},
+                                                                            {"bb_length", "bb_length"},
+                                                                            {"bb_width", "bb_width"},
+                                                                            {"bb_height", "bb_height"}}};
+
+/// The header of the CSV logger: `Index [-], TimeStamp [s], #1 Entity_Name [-], ..., #2 Entity_Name [-], ...`.
+std::optional<Columns> logged_header_of(const std::vector<std::string_view>& fields) {
     Columns columns;
-    for (const std::string_view field : fields_of(line, ',', kMaxColumns))
-        columns.index.try_emplace(std::string(trimmed(field)), columns.count++);
-    if (!columns.index.contains("time") || !columns.index.contains("x")) return std::nullopt;
+    size_t last = 0;  // column of the first entity
+    for (size_t i = 0; i < fields.size(); ++i) {
+        const std::string_view name = trimmed(fields[i].substr(0, fields[i].find('[')));
+        if (name == "TimeStamp") columns.index.try_emplace("time", i);
+        if (name.starts_with("#2 ") && columns.stride == 0) columns.stride = i;
+        if (!name.starts_with("#1 ")) continue;
+        last = i;
+        for (const auto& [logged, known] : kLogged)
+            if (name.substr(3) == logged) columns.index.try_emplace(known, i);
+        if (fields[i].find("[deg]") != fields[i].npos && name.substr(3) == "Wheel_Angle") columns.angle = kTurn / 360;
+    }
+    const auto first = columns.index.find("name");
+    if (first == columns.index.end() || !columns.index.contains("time")) return std::nullopt;
+    columns.count = std::max(last, columns.index.at("time")) + 1;
+    columns.stride = columns.stride > first->second ? columns.stride - first->second : last + 1 - first->second;
     return columns;
+}
+
+std::optional<Columns> header_of(std::string_view line) {
+    constexpr std::string_view kByteOrder = "\xEF\xBB\xBF";
+    if (line.starts_with(kByteOrder)) line.remove_prefix(kByteOrder.size());
+    std::vector<std::string_view> fields = fields_of(line, ',', kMaxColumns);
+    while (!fields.empty() && fields.back().empty()) fields.pop_back();
+    Columns columns;
+    for (const std::string_view field : fields) columns.index.try_emplace(std::string(field), columns.count++);
+    if (columns.index.contains("time") && columns.index.contains("x")) return columns;
+    return logged_header_of(fields);
 }
 
 RunEntity::Kind kind_by_name(const std::string& name) {
@@ -40,6 +87,69 @@ RunEntity::Kind kind_by_name(const std::string& name) {
     if (has("bicycle") || has("cyclist") || has("bike")) return RunEntity::Kind::Bicycle;
     if (has("cone") || has("barrier") || has("obstacle")) return RunEntity::Kind::Object;
     return RunEntity::Kind::Car;
+}
+
+/// Rows of a table on their way to entities.
+struct TableReader {
+    const LineReader& lines;
+    EsminiRun& run;
+    std::map<int, size_t> by_id{};
+    size_t rows = 0;
+
+    /// One entity of a row, `shift` columns to the right of the first.
+    void take(const Columns& columns, const std::vector<std::string_view>& fields, size_t shift) {
+        if (++rows > kMaxRows) lines.fail("more than " + std::to_string(kMaxRows) + " rows");
+        const auto number = [&](const char* name, bool needed) {
+            const auto column = columns.index.find(name);
+            if (column == columns.index.end()) return 0.0;
+            const std::string_view field = fields[column->second + (std::string_view(name) == "time" ? 0 : shift)];
+            const auto value = number_of(field, false);
+            if (!value || std::abs(*value) > 1e9) {
+                if (!needed && !value) return 0.0;
+                lines.fail(std::string(name) + " " + vesper::quoted(field) + " is no number that can be");
+            }
+            return *value;
+        };
+        const int id = static_cast<int>(number("id", true));
+        const auto [found, is_new] = by_id.try_emplace(id, run.entities.size());
+        if (is_new) {
+            if (run.entities.size() >= kMaxEntities)
+                lines.fail("more than " + std::to_string(kMaxEntities) + " entities");
+            RunEntity entity;
+            entity.name = readable(fields[columns.index.at("name") + shift]);
+            entity.id = id;
+            entity.kind = kind_by_name(entity.name);
+            const auto size = [&](const char* name) { return std::max(0.0, number(name, false)); };
+            entity.length = size("bb_length"), entity.width = size("bb_width"), entity.height = size("bb_height");
+            entity.centre = {number("bb_x", false), number("bb_y", false), number("bb_z", false)};
+            run.entities.push_back(std::move(entity));
+        }
+        RunPose pose;
+        pose.time = number("time", true);
+        pose.position = {number("x", true), number("y", true), number("z", true)};
+        pose.heading = number("h", true), pose.pitch = number("p", true), pose.roll = number("r", true);
+        pose.speed = number("speed", false), pose.wheel_angle = columns.angle * number("wheel_angle", false),
+        pose.wheel_rotation = number("wheel_rot", false);
+        std::vector<RunPose>& poses = run.entities[found->second].poses;
+        if (!poses.empty() && pose.time < poses.back().time)
+            lines.fail("the times of '" + run.entities[found->second].name + "' do not ascend");
+        if (!poses.empty() && pose.time == poses.back().time)
+            poses.back() = pose;
+        else
+            poses.push_back(pose);
+        run.duration = std::max(run.duration, pose.time);
+    }
+};
+
+/// From the way between the rows before and after, where a table has no speeds.
+void find_speeds(RunEntity& entity) {
+    std::vector<RunPose>& poses = entity.poses;
+    for (size_t i = 0; poses.size() > 1 && i < poses.size(); ++i) {
+        const RunPose &a = poses[i > 0 ? i - 1 : 0], &b = poses[std::min(i + 1, poses.size() - 1)];
+        const glm::dvec3 way = b.position - a.position;
+        const double ahead = way.x * std::cos(poses[i].heading) + way.y * std::sin(poses[i].heading);
+        poses[i].speed = std::copysign(glm::length(way) / (b.time - a.time), ahead);
+    }
 }
 
 double between(double a, double b, double f) { return a + std::remainder(b - a, kTurn) * f; }
@@ -58,8 +168,7 @@ void read_table(const std::filesystem::path& file, EsminiRun& run) {
     const std::vector<uint8_t> bytes = read_file(file, kMaxBytes);
     LineReader lines(bytes, one_line(file.string()));
     std::optional<Columns> columns;
-    std::map<int, size_t> by_id;
-    size_t rows = 0;
+    TableReader reader{lines, run};
     while (const auto line = lines.next()) {
         if (trimmed(*line).empty()) continue;
         if (!columns) {
@@ -67,56 +176,27 @@ void read_table(const std::filesystem::path& file, EsminiRun& run) {
             // Some versions say first which files the run was made with.
             if (!columns && lines.line() > 20) break;
             if (columns)
-                for (const char* needed : {"id", "name", "y", "z", "h"})
+                for (const char* needed : {"id", "name", "x", "y", "z", "h"})
                     if (!columns->index.contains(needed))
                         lines.fail(std::string("the table has no column '") + needed + "'");
             continue;
         }
         const auto fields = fields_of(*line, ',', kMaxColumns);
-        if (fields.size() < columns->count)
+        if (fields.size() < columns->count && columns->stride == 0)
             lines.fail(std::to_string(fields.size()) + " fields, " + std::to_string(columns->count) + " columns");
-        if (++rows > kMaxRows) lines.fail("more than " + std::to_string(kMaxRows) + " rows");
-        const auto number = [&](const char* name, bool needed) {
-            const auto column = columns->index.find(name);
-            if (column == columns->index.end()) return 0.0;
-            const auto value = number_of(fields[column->second], false);
-            if (!value || std::abs(*value) > 1e9) {
-                if (!needed && !value) return 0.0;
-                lines.fail(std::string(name) + " " + vesper::quoted(fields[column->second]) +
-                           " is no number that can be");
-            }
-            return *value;
-        };
-        const double id = number("id", true);
-        const auto [found, is_new] = by_id.try_emplace(static_cast<int>(id), run.entities.size());
-        if (is_new) {
-            if (run.entities.size() >= kMaxEntities)
-                lines.fail("more than " + std::to_string(kMaxEntities) + " entities");
-            RunEntity entity;
-            entity.name = readable(fields[columns->index.find("name")->second]);
-            entity.id = static_cast<int>(id);
-            entity.kind = kind_by_name(entity.name);
-            run.entities.push_back(std::move(entity));
+        // Entities that are gone leave a row of the CSV logger shorter, ones that came later make it longer than its header.
+        for (size_t shift = 0; fields.size() >= columns->count + shift; shift += columns->stride) {
+            if (columns->stride > 0 && fields[columns->index.at("name") + shift].empty()) break;
+            reader.take(*columns, fields, shift);
+            if (columns->stride == 0) break;
         }
-        RunPose pose;
-        pose.time = number("time", true);
-        pose.position = {number("x", true), number("y", true), number("z", true)};
-        pose.heading = number("h", true), pose.pitch = number("p", true), pose.roll = number("r", true);
-        pose.speed = number("speed", false), pose.wheel_angle = number("wheel_angle", false),
-        pose.wheel_rotation = number("wheel_rot", false);
-        std::vector<RunPose>& poses = run.entities[found->second].poses;
-        if (!poses.empty() && pose.time < poses.back().time)
-            lines.fail("the times of '" + run.entities[found->second].name + "' do not ascend");
-        if (!poses.empty() && pose.time == poses.back().time)
-            poses.back() = pose;
-        else
-            poses.push_back(pose);
-        run.duration = std::max(run.duration, pose.time);
     }
     if (!columns)
         throw Error(one_line(file.string()) +
-                    ": is no table of esmini: no line has the columns time, id, name, x, y, z, h");
+                    ": is no table of esmini: no line has the columns time, id, name, x, y, z, h of dat2csv, nor those of its CSV logger");
     if (run.entities.empty()) throw Error(one_line(file.string()) + ": the table has no rows");
+    if (!columns->index.contains("speed"))
+        for (RunEntity& entity : run.entities) find_speeds(entity);
 }
 
 RunPose pose_at(const RunEntity& entity, double time) {

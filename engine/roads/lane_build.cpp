@@ -141,8 +141,10 @@ void add_section(Builder& builder, uint32_t road_index, uint32_t section_index) 
 void find_neighbours(Builder& builder) {
     for (Lane& lane : builder.lanes) {
         const int outwards = lane.id > 0 ? 1 : -1;
+        const LaneSection& section = builder.network.roads[lane.road].sections[lane.section];
         const auto beside = [&](int step) {
-            const int id = lane.id + step;
+            int id = lane.id + step;
+            for (const RoadLane* each = section.find(id); each && each->missing; each = section.find(id)) id += step;
             const uint32_t found = id == 0 ? kNoLane : builder.find(lane.road, lane.section, id, lane.forwards);
             return found != kNoLane && builder.lanes[found].type == lane.type ? found : kNoLane;
         };

@@ -84,7 +84,9 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
     read_header(reader, root);
 
     const auto roads = root.children("road"), junctions = root.children("junction");
-    if (roads.empty()) root.fail("has no road");
+    if (const auto included = root.child("include"))
+        reader.note(*included, "'" + included->text_or("file", "") + "' is not read: give files without includes");
+    if (roads.empty()) root.fail(root.child("include") ? "has no road of its own, and includes are not read" : "has no road");
     if (roads.size() > limits.roads || junctions.size() > limits.roads)
         root.fail("has more than " + std::to_string(limits.roads) + " roads or junctions");
     for (const XmlElement& each : junctions) {

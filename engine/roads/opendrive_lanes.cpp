@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kMaxLaneId = 128;    // either side; motorways have ten
 constexpr double kMaxWidth = 1e4;  // m
+constexpr double kShortest = 0.001;  // m, of a lane section
 
 // What a broken line is painted like where the file does not say: 3 m and 6 m of gap, as on country roads.
 constexpr double kDash = 3, kGap = 6;
@@ -60,7 +61,8 @@ void read_patterns(const XmlElement& element, RoadMark& mark, const MarkLine& li
     for (const char* holder : {"type", "explicit"})
         for (const XmlElement& each : element.children_of(holder, "line")) {
             MarkLine line = like;
-            line.width = each.number_or("width", like.width, 0, 100);
+            line.width = each.number_or("width", like.width, -100, 100);
+            if (line.width <= 0) line.width = like.width;
             line.t_offset = each.number_or("tOffset", 0, -kMaxWidth, kMaxWidth);
             line.s_offset = each.number_or("sOffset", 0);
             line.length = each.number_or("length", 0, 0);
@@ -105,7 +107,7 @@ RoadMark mark_of(OpenDriveReader& reader, const XmlElement& element, double from
     if (mark.type == "none" || mark.type == "grass") return mark;
     MarkLine like;
     like.colour = colour_of(element.text_or("color", "standard"));
-    like.width = element.number_or("width", 0, 0, 100);
+    like.width = element.number_or("width", 0, -100, 100);  // some write -1 where they know none
     if (like.width <= 0) like.width = element.text_or("weight", "") == "bold" ? kBoldWidth : kWidth;
     read_patterns(element, mark, like);
     if (mark.lines.empty() && !mark.curb) add_named_lines(mark, like);
@@ -163,6 +165,22 @@ void check_side(const XmlElement& element, const char* side, const RoadLane& lan
     if (!fits) element.fail("lane " + std::to_string(lane.id) + " cannot be under " + side);
 }
 
+/// Ids that are left out, as 2 is in 3, 1, 0: lanes without width are put there, so that every lane lies beside the next.
+void fill_gaps(OpenDriveReader& reader, const XmlElement& element, LaneSection& section) {
+    for (size_t i = 1; i < section.lanes.size(); ++i) {
+        const int gap = section.lanes[i - 1].id - 1;
+        if (section.lanes[i].id == gap) continue;
+        reader.note_once(element, "lane ids have a gap: lanes of no width are taken to be there");
+        reader.count(element);
+        const RoadLane &inner = section.lanes[gap > 0 ? i : i - 1], &outer = section.lanes[gap > 0 ? i - 1 : i];
+        RoadLane filler;
+        filler.id = gap, filler.type = inner.id == 0 ? outer.type : inner.type;
+        filler.level = inner.level, filler.border = inner.border, filler.missing = true;
+        for (const LaneHeight& each : inner.heights) filler.heights.push_back({each.s, each.outer, each.outer});
+        section.lanes.insert(section.lanes.begin() + static_cast<ptrdiff_t>(i), std::move(filler));
+    }
+}
+
 LaneSection section_of(OpenDriveReader& reader, const XmlElement& element) {
     reader.count(element);
     LaneSection section;
@@ -176,11 +194,10 @@ LaneSection section_of(OpenDriveReader& reader, const XmlElement& element) {
         section.lanes.push_back({});
     std::stable_sort(section.lanes.begin(), section.lanes.end(),
                      [](const RoadLane& a, const RoadLane& b) { return a.id > b.id; });
-    for (size_t i = 1; i < section.lanes.size(); ++i) {
+    for (size_t i = 1; i < section.lanes.size(); ++i)
         if (section.lanes[i].id == section.lanes[i - 1].id)
             element.fail("has lane " + std::to_string(section.lanes[i].id) + " twice");
-        if (section.lanes[i].id != section.lanes[i - 1].id - 1) reader.note(element, "lane ids have a gap");
-    }
+    fill_gaps(reader, element, section);
     return section;
 }
 
@@ -195,6 +212,33 @@ void keep_other_side(const XmlElement& element, const LaneSection& before, LaneS
                      [](const RoadLane& a, const RoadLane& b) { return a.id > b.id; });
 }
 
+/// Links that led to a lane section that is taken away lead on to where its own do.
+void link_past(std::vector<RoadLane>& lanes, const LaneSection& gone, std::vector<int> RoadLane::* links) {
+    for (RoadLane& lane : lanes) {
+        std::set<int> past;
+        for (const int id : lane.*links)
+            if (const RoadLane* over = gone.find(id)) past.insert((over->*links).begin(), (over->*links).end());
+        (lane.*links).assign(past.begin(), past.end());
+    }
+}
+
+/// Sections too short to build go, and those before and behind them are linked across.
+void drop_short_sections(Road& road) {
+    std::vector<LaneSection> kept;
+    for (size_t i = 0; i < road.sections.size(); ++i) {
+        LaneSection& section = road.sections[i];
+        const bool last = i + 1 == road.sections.size();
+        if (section.end - section.s >= kShortest || (last && kept.empty())) {
+            kept.push_back(std::move(section));
+            continue;
+        }
+        if (!kept.empty()) link_past(kept.back().lanes, section, &RoadLane::successors), kept.back().end = section.end;
+        if (!last) link_past(road.sections[i + 1].lanes, section, &RoadLane::predecessors);
+    }
+    if (kept.size() == 1 && kept[0].end - kept[0].s < kShortest) kept[0].s = 0;
+    road.sections = std::move(kept);
+}
+
 }  // namespace
 
 double speed_in(const XmlElement& element, const char* attribute, const char* unit) {
@@ -202,7 +246,7 @@ double speed_in(const XmlElement& element, const char* attribute, const char* un
     if (value == "no limit" || value == "undefined") return 0;
     const std::string units = element.text_or(unit, "m/s");
     const double factor = units == "km/h" ? 1 / 3.6 : units == "mph" ? 0.44704 : 1;
-    return factor * element.number(attribute, 0, 1000);
+    return factor * std::max(0.0, element.number(attribute, -1000, 1000));  // some write -1 for none
 }
 
 void read_lanes(OpenDriveReader& reader, const XmlElement& element, Road& road) {
@@ -212,14 +256,18 @@ void read_lanes(OpenDriveReader& reader, const XmlElement& element, Road& road) 
         return;
     }
     road.lane_offset = profile_of(reader, *holder, "laneOffset", "s", 0);
-    for (const XmlElement& each : holder->children("laneSection")) {
+    std::vector<XmlElement> elements = holder->children("laneSection");
+    const auto before = [](const XmlElement& a, const XmlElement& b) { return a.number_or("s", 0, 0) < b.number_or("s", 0, 0); };
+    if (!std::is_sorted(elements.begin(), elements.end(), before)) {
+        reader.note(*holder, "lane sections are not in ascending order of s: sorted");
+        std::stable_sort(elements.begin(), elements.end(), before);
+    }
+    for (const XmlElement& each : elements) {
         LaneSection section = section_of(reader, each);
         if (section.s >= road.length && !road.sections.empty()) {
             reader.note(each, "begins behind the end of road '" + road.id + "': left out");
             continue;
         }
-        if (!road.sections.empty() && section.s < road.sections.back().s)
-            each.fail("lane sections must be in ascending order of s");
         if (!road.sections.empty()) keep_other_side(each, road.sections.back(), section);
         road.sections.push_back(std::move(section));
     }
@@ -230,8 +278,7 @@ void read_lanes(OpenDriveReader& reader, const XmlElement& element, Road& road) 
     }
     for (size_t i = 0; i < road.sections.size(); ++i)
         road.sections[i].end = i + 1 < road.sections.size() ? road.sections[i + 1].s : road.length;
-    std::erase_if(road.sections, [](const LaneSection& section) { return section.end - section.s < 1e-6; });
-    if (road.sections.empty()) holder->fail("road '" + road.id + "' has no lane section of any length");
+    drop_short_sections(road);
 }
 
 }  // namespace vesper

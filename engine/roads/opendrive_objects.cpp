@@ -89,6 +89,12 @@ ObjectRepeat repeat_of(const XmlElement& element, const RoadObject& object) {
     return repeat;
 }
 
+bool has_place(OpenDriveReader& reader, const XmlElement& element) {
+    if (element.attribute("s") && element.attribute("t")) return true;
+    reader.note(element, "has no s and t: left out");
+    return false;
+}
+
 /// Speed limit signs state theirs in value and unit; countries without a unit mean km/h, some write it into the
 /// subtype.
 void read_value(const XmlElement& element, RoadSignal& signal) {
@@ -107,6 +113,7 @@ void read_value(const XmlElement& element, RoadSignal& signal) {
 void read_objects(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     for (const XmlElement& each : element.children_of("objects", "object")) {
         reader.count(each);
+        if (!has_place(reader, each)) continue;
         RoadObject object;
         object.id = each.text_or("id", ""), object.name = one_line(each.text_or("name", ""), 80);
         object.type = each.text_or("type", "none"), object.subtype = each.text_or("subtype", "");
@@ -135,6 +142,7 @@ void read_objects(OpenDriveReader& reader, const XmlElement& element, Road& road
 void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     for (const XmlElement& each : element.children_of("signals", "signal")) {
         reader.count(each);
+        if (!has_place(reader, each)) continue;
         RoadSignal signal;
         signal.id = each.text_or("id", ""), signal.name = one_line(each.text_or("name", ""), 80);
         signal.type = each.text_or("type", "-1"), signal.subtype = each.text_or("subtype", "-1");

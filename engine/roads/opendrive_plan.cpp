@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kJoint = 0.01;  // m; files are written with more digits than this
 constexpr double kTorn = 1000;   // m; no road
+constexpr double kShortest = 0.001;  // m: roads that join others in one point are as long as this
 
 std::array<double, 4> coefficients(const XmlElement& element, const char* of) {
     const std::string name(of);
@@ -76,7 +77,18 @@ void check_joints(OpenDriveReader& reader, const XmlElement& element, Road& road
     if (std::abs(end - road.length) > kJoint)
         reader.note(element, "road '" + road.id + "': its geometry is " + std::to_string(end) + " m long, not " +
                                  std::to_string(road.length));
-    if (end < road.length - kJoint || road.length <= 0) road.length = end;  // what has no geometry is no road
+    if (end < road.length - kJoint || road.length < kShortest) road.length = end;  // what has no geometry is no road
+}
+
+/// Exporters write connecting roads without length where roads meet in a point. As a road of next to none, it still says which
+/// lane leads to which.
+void read_point(OpenDriveReader& reader, const XmlElement& element, Road& road) {
+    reader.count(element);
+    reader.note(element, "road '" + road.id + "' has no length: taken for a millimetre");
+    PlanGeometry g;
+    g.x = element.number("x"), g.y = element.number("y"), g.heading = element.number_or("hdg", 0);
+    g.length = road.length = kShortest;
+    road.plan.push_back(std::move(g));
 }
 
 void read_crossfall(OpenDriveReader& reader, const XmlElement& holder, Road& road) {
@@ -161,7 +173,12 @@ Profile profile_of(OpenDriveReader& reader, const XmlElement& element, std::stri
 void read_plan(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     const auto view = element.child("planView");
     if (!view) element.fail("road '" + road.id + "' has no planView");
-    for (const XmlElement& each : view->children("geometry")) {
+    const std::vector<XmlElement> geometries = view->children("geometry");
+    if (geometries.empty()) view->fail("road '" + road.id + "' has no geometry");
+    double longest = 0;
+    for (const XmlElement& each : geometries) longest = std::max(longest, each.number("length", 0));
+    if (longest < kShortest) return read_point(reader, geometries.front(), road);
+    for (const XmlElement& each : geometries) {
         reader.count(each);
         PlanGeometry g = geometry_of(reader, each);
         if (g.length <= 0) {
@@ -171,7 +188,6 @@ void read_plan(OpenDriveReader& reader, const XmlElement& element, Road& road) {
         measure_checked(reader, each, g);
         road.plan.push_back(std::move(g));
     }
-    if (road.plan.empty()) view->fail("road '" + road.id + "' has no geometry");
     const auto before = [](const PlanGeometry& a, const PlanGeometry& b) { return a.s < b.s; };
     if (!std::is_sorted(road.plan.begin(), road.plan.end(), before)) {
         reader.note(*view, "geometries are not in ascending order of s: sorted");

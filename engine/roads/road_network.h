@@ -100,6 +100,7 @@ struct RoadLane {
     std::vector<RoadMark> marks;
     std::vector<SpeedLimit> speeds;
     std::vector<int> predecessors, successors;  ///< lane ids
+    bool missing = false;  ///< its id is left out in the file: it has no width, and the next one lies at its inner border
 };
 
 struct LaneSection {

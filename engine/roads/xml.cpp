@@ -16,12 +16,30 @@ std::string_view local_part(std::string_view name) {
     return colon == name.npos ? name : name.substr(colon + 1);
 }
 
+/// Where lines begin in the UTF-8 that the parser makes of a text, which may be UTF-16.
+std::vector<uint32_t> line_starts_of(std::string_view text) {
+    std::vector<uint32_t> starts{0};
+    const auto begins = [&](const char (&with)[3]) { return text.starts_with(std::string_view(with, 2)); };
+    const bool low_first = begins("\xFF\xFE") || begins("<\0"), high_first = begins("\xFE\xFF") || begins("\0<");
+    if (!low_first && !high_first) {
+        for (size_t i = 0; i < text.size(); ++i)
+            if (text[i] == '\n') starts.push_back(static_cast<uint32_t>(i + 1));
+        return starts;
+    }
+    uint32_t at = 0;
+    for (size_t i = 0; i + 1 < text.size(); i += 2) {
+        const auto byte = [&](size_t k) { return static_cast<uint32_t>(static_cast<unsigned char>(text[i + k])); };
+        const uint32_t unit = low_first ? byte(0) | byte(1) << 8 : byte(1) | byte(0) << 8;
+        at += unit < 0x80 ? 1 : unit < 0x800 || (unit & 0xF800) == 0xD800 ? 2 : 3;  // half of a pair: half of four
+        if (unit == '\n') starts.push_back(at);
+    }
+    return starts;
+}
+
 }  // namespace
 
 XmlFile::XmlFile(std::string_view text, const std::string& name) : name_(one_line(name)) {
-    line_starts_.push_back(0);
-    for (size_t i = 0; i < text.size(); ++i)
-        if (text[i] == '\n') line_starts_.push_back(static_cast<uint32_t>(i + 1));
+    line_starts_ = line_starts_of(text);
     const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
     if (!result) {
         std::string reason = result.description();

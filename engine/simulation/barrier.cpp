@@ -20,15 +20,16 @@ bool meet(dvec2 a, dvec2 b, dvec2 c, dvec2 d) {
 
 }  // namespace
 
-bool collide(VehicleState& s, const VehicleState& before, const VehicleParameters& p, const std::vector<Barrier>& barriers) {
+bool collide(VehicleState& s, const VehicleState& before, const VehicleParameters& p, const std::vector<Barrier>& barriers, double height) {
     bool hit = false;
     const auto was = ground_box(before, p).corners();
     auto is = ground_box(s, p).corners();
     for (size_t i = 0; i < was.size(); ++i) {
         const dvec2 from = was[i];
-        for (const Barrier& barrier : barriers)
-            for (size_t k = 1; k < barrier.size(); ++k) {
-                const dvec2 to = is[i], arm = to - s.position, a = barrier[k - 1], b = barrier[k];
+        for (const Barrier& barrier : barriers) {
+            if (barrier.height && std::abs(*barrier.height - height) > kLevels) continue;
+            for (size_t k = 1; k < barrier.line.size(); ++k) {
+                const dvec2 to = is[i], arm = to - s.position, a = barrier.line[k - 1], b = barrier.line[k];
                 if (!meet(a, b, from, to)) continue;
                 dvec2 normal = glm::normalize(dvec2(-(b - a).y, (b - a).x));
                 if (glm::dot(from - a, normal) < 0) normal = -normal;
@@ -44,6 +45,7 @@ bool collide(VehicleState& s, const VehicleState& before, const VehicleParameter
                 is = ground_box(s, p).corners();
                 hit = true;
             }
+        }
     }
     return hit;
 }

@@ -10,6 +10,9 @@
 
 namespace vesper {
 
+/// Things so far above one another do not meet, as on a bridge and below it, m.
+constexpr double kLevels = 2.5;
+
 /// What of a car that scrapes along something is lost: force along over force across.
 constexpr double kScrape = 0.3;
 

@@ -81,12 +81,13 @@ void World::occupy() {
         const glm::dvec3 at = place_of(i).position;
         occupants_.push_back({car.from, d.lanes[car.from].beside({at.x, at.z}).s, car.speed, d.cars[i].length / 2, int(i)});
     }
+    const Course::Place road = ground();
     for (size_t lane = 0; lane < d.lanes.size(); ++lane) {
         const Course& l = d.lanes[lane];
         const Course::Beside me = l.beside(driver_.position);
-        if (me.distance < (l.width() + d.vehicle.width) / 2 - 0.4) {
-            const Course::Place there = l.at(me.s);
-            const double along = driver_.speed * std::cos(driver_.yaw - there.yaw);
+        const Course::Place here = l.at(me.s);
+        if (me.distance < (l.width() + d.vehicle.width) / 2 - 0.4 && std::abs(here.position.y - road.position.y) < kLevels) {
+            const double along = driver_.speed * std::cos(driver_.yaw - here.yaw);
             occupants_.push_back({lane, me.s, along, d.vehicle.length / 2, kDriver});
         }
         for (const RecordedMover& r : d.recordings) {
@@ -94,7 +95,7 @@ void World::occupy() {
             const Actor a = recorded(r, there);
             if (!there) continue;
             const Course::Beside beside = l.beside(glm::dvec2(a.position.x, a.position.z) + r.middle * glm::dvec2(-std::sin(a.yaw), -std::cos(a.yaw)));
-            if (beside.distance < l.width() / 2 + kRecordedReach) occupants_.push_back({lane, beside.s, a.speed * std::cos(a.yaw - l.at(beside.s).yaw), r.length / 2, kRecorded});
+            if (beside.distance < l.width() / 2 + kRecordedReach && std::abs(l.at(beside.s).position.y - a.position.y) < kLevels) occupants_.push_back({lane, beside.s, a.speed * std::cos(a.yaw - l.at(beside.s).yaw), r.length / 2, kRecorded});
         }
         for (size_t w = 0; w < walks_.size(); ++w) {
             if (!walks_[w].under_way) continue;
@@ -254,16 +255,18 @@ void World::move_driver(const DriverInput& input, double seconds) {
         controls = {input.steering * p.largest_angle, input.reverse ? -input.throttle : input.throttle, input.brake};
         // The lane that one is in is the one that the autopilot would take over.
         double nearest = kInfinite;
+        const double road = ground().position.y;
         for (size_t lane = 0; lane < d.lanes.size(); ++lane) {
             const Course::Beside there = d.lanes[lane].beside(driver_.position);
-            const bool along = std::cos(driver_.yaw - d.lanes[lane].at(there.s).yaw) > 0;
-            if (along && there.distance < nearest) nearest = there.distance, driver_lane_ = lane;
+            const Course::Place at = d.lanes[lane].at(there.s);
+            const bool along = std::cos(driver_.yaw - at.yaw) > 0, level = std::abs(at.position.y - road) < kLevels;
+            if (along && level && there.distance < nearest) nearest = there.distance, driver_lane_ = lane;
         }
     }
     braking_ = controls.brake > 0.05;
     const VehicleState before = driver_;
     advance(driver_, p, controls, seconds);
-    touched_ = collide(driver_, before, p, d.barriers);
+    touched_ = collide(driver_, before, p, d.barriers, ground().position.y);
 }
 
 void World::step(const DriverInput& input, double seconds) {

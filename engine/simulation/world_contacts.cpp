@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kSameContact = 0.5;                 // s without touching, after which it is another contact
 constexpr double kPersonMass = 75, kPersonSize = 0.5;  // kg, m
-constexpr double kLevels = 2.5;                      // m: what lies so much higher or lower is on another level
 
 }  // namespace
 
@@ -65,7 +64,7 @@ void World::meet_others(const VehicleState& before) {
         meet(cars_.size() + walks_.size() + i, r.node, other, a.position.y, {a.speed * heading, heading, gives, gives}, r.person);
     }
     // Nobody is pushed over a kerb.
-    if (driver_.position != was) touched_ |= collide(driver_, before, d.vehicle, d.barriers);
+    if (driver_.position != was) touched_ |= collide(driver_, before, d.vehicle, d.barriers, ground().position.y);
 }
 
 }  // namespace vesper

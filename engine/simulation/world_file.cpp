@@ -123,7 +123,7 @@ WorldFile read_world(const std::filesystem::path& path) {
         file.world.barriers.emplace_back();
         for (const JsonValue& point : barrier.elements()) {
             const auto xz = point.elements(2);
-            file.world.barriers.back().emplace_back(xz[0].number(-kFar, kFar), xz[1].number(-kFar, kFar));
+            file.world.barriers.back().line.emplace_back(xz[0].number(-kFar, kFar), xz[1].number(-kFar, kFar));
         }
     }
     read_cars(root, file.world);

@@ -271,6 +271,13 @@ TEST_F(DriveProgram, DrivesRecordsAndReplays) {
         ASSERT_TRUE(exists("a" + name));
         EXPECT_EQ(read_text(folder / ("a" + name)), read_text(folder / ("b" + name))) << i;
     }
+    // The recording has their size, too.
+    ASSERT_EQ(run("--headless --replay drive.json --video c%02d.png"), 0) << said;
+    EXPECT_EQ(read_text(folder / "a05.png"), read_text(folder / "c05.png"));
+    for (const char* bad : {"[96]", "[0,60]", "[96,60.5]", "[96,20000]", "\"96x60\""}) {
+        folder.write("bad.json", std::string(R"({"vesper_drive":1,"scene":"x","size_px":)") + bad + R"(,"events":[]})");
+        expect_refused("--headless --replay bad.json --log l.csv", {"bad.json: /size_px"});
+    }
     // Rows are the same but for the times they took, which are last.
     std::istringstream a(read_text(folder / "a.csv")), b(read_text(folder / "b.csv"));
     std::string one, other;
@@ -364,8 +371,8 @@ TEST_F(DriveProgram, SparesWhatItReadsAndWhatIsGood) {
 // What a recording comes to set is tried before the first frame, and named with its place.
 TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
     std::filesystem::copy(std::string(VESPER_SOURCE_DIR) + "/data", folder / "data", std::filesystem::copy_options::recursive);
+    const std::string step = R"({"step":{},"pose":[0,0,0,0]},)";
     const auto replay = [&](const std::string& set) {
-        const std::string step = R"({"step":{},"pose":[0,0,0,0]},)";
         folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[{"frame":true},)" + step + R"({"set":)" + set + "}," + step + R"({"frame":true}]})");
         return std::string("--headless --size 16x10 --replay d.json ");
     };
@@ -374,6 +381,23 @@ TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
     expect_refused(replay(R"({"display":"hdr10"})") + "--video v.mp4", {"d.json: /events/2/set: ", "--video", "display"});
     expect_refused("--headless --size 16x10 --seconds 0.1 --operator ldr --video %d.exr", {"--video", "ldr"});
     EXPECT_FALSE(exists("l.csv.part") || exists("0.exr") || exists("v.mp4"));
+    // So is what it begins with; what is not of it is not.
+    const auto begun = [&](const std::string& settings) {
+        folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","settings":)" + settings + R"(,"events":[)" + step + R"({"frame":true}]})");
+        return std::string("--headless --size 16x10 --replay d.json ");
+    };
+    expect_refused(begun(R"({"age":"50","lamp:strete lamp":"0"})") + "--log l.csv", {"d.json: /settings: ", "strete lamp"});
+    expect_refused(begun(R"({"operator":"ldr"})") + "--video %d.exr", {"d.json: /settings: ", "--video", "ldr"});
+    expect_refused(begun(R"({"age":"50"})") + "--log l.csv --lamp 'strete lamp=0'", {"vesper-drive: --lamp strete lamp"});
+    expect_refused(begun(R"({"age":"50"})") + "--video %d.exr --operator ldr", {"vesper-drive: --video"});
+    // What no frame shows is no matter: it is set again before one, or behind the last.
+    const std::string shown = R"({"frame":true},)";
+    folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","settings":{"operator":"ldr"},"events":[{"set":{"operator":"ward"}},)" + shown + step +
+                               R"({"set":{"operator":"ldr"}},)" + step + R"({"set":{"age":"40","operator":"ward"}},)" + shown + R"({"set":{"operator":"ldr"}},)" + step + R"({"set":{"age":"50"}}]})");
+    EXPECT_EQ(run("--headless --size 16x10 --replay d.json --video u%d.exr"), 0) << said;
+    EXPECT_TRUE(exists("u1.exr"));
+    folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[)" + shown + R"({"set":{"operator":"ldr"}},{"set":{"age":"40"}},)" + step + shown + "{\"frame\":true}]}");
+    expect_refused("--headless --size 16x10 --replay d.json --video v%d.exr", {"d.json: /events/1/set: ", "ldr"});
     // What is given beside the recording stands in its place.
     EXPECT_EQ(run(replay(R"({"operator":"ldr"})") + "--operator ward --video %d.exr"), 0) << said;
     EXPECT_TRUE(exists("1.exr"));

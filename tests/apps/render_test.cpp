@@ -1,5 +1,6 @@
 // The `vesper` program as people run it: arguments, exit codes, outputs. SPDX-License-Identifier: MIT
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 class Program : public testing::Test {
 protected:
-    fs::path folder = fs::temp_directory_path() / ("vesper-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::path folder = fs::temp_directory_path() / ("vesper-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" + std::to_string(::getpid()));
     void SetUp() override {
         fs::remove_all(folder);
         fs::create_directories(folder);

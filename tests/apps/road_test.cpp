@@ -1,5 +1,6 @@
 // `vesper road` as people run it; --render needs a device. SPDX-License-Identifier: MIT
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 class Road : public testing::Test {
 protected:
     fs::path folder = fs::temp_directory_path() /
-                      ("vesper-road-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+                      ("vesper-road-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" + std::to_string(::getpid()));
     void SetUp() override {
         fs::remove_all(folder);
         fs::create_directories(folder);

@@ -107,6 +107,73 @@ TEST_F(EsminiRuns, PosesLieBetweenRows) {
     EXPECT_FALSE(is_there(car, 0.6));
 }
 
+// The CSV logger has all entities in a row. One is gone after the first row, another comes later and is none of the header's.
+TEST_F(EsminiRuns, TheTableOfTheCsvLoggerIsReadToo) {
+    std::string header = "Index [-], TimeStamp [s], ";
+    for (const std::string entity : {"#1 ", "#2 "})
+        for (const char* column : {"Entity_Name [-]", "Entity_ID [-]", "Current_Speed [m/s]", "Wheel_Angle [deg]", "bb_x [m]", "bb_y [m]", "bb_z [m]", "bb_length [m]", "bb_width [m]",
+                                   "bb_height [m]", "World_Position_X [m]", "World_Position_Y [m]", "World_Position_Z [m]", "lane_offset[m]", "World_Heading_Angle [rad]",
+                                   "World_Pitch_Angle [rad]", "collision_ids"})
+            header += entity + column + ", ";
+    const auto block = [](const char* name, int id, double x) {
+        char text[200];
+        std::snprintf(text, sizeof text, "%s, %d, 12.5, 90, 1.4, 0, 0.7, 4.5, 1.9, 1.5, %g, 2, 0.3, 0.1, 0.5, 0.02, , ", name, id, x);
+        return std::string(text);
+    };
+    const auto run = read_esmini_run(write("run.csv", "esmini GIT REV: v3.6.0\nScenario File Name: a, b.xosc\nNumber of Vehicles: 2\n" + header + "\n0, 0.000, " + block("Ego", 0, 10) +
+                                                          block("Gone", 1, 20) + "\n1, 0.100, " + block("Ego", 0, 11) + "\n2, 0.200, " + block("Ego", 0, 12) + block("Late", 7, 70) +
+                                                          block("Later", 8, 80) + "\n"));
+    ASSERT_EQ(run.entities.size(), 4u);
+    const RunEntity &ego = run.entities[0], &late = run.entities[2], &later = run.entities[3];
+    EXPECT_EQ(ego.name, "Ego");
+    EXPECT_EQ(ego.poses.size(), 3u);
+    EXPECT_NEAR(pose_at(ego, 0.15).position.x, 11.5, 1e-12);
+    EXPECT_EQ(ego.poses[0].position, glm::dvec3(10, 2, 0.3));
+    EXPECT_EQ(ego.poses[0].speed, 12.5);
+    EXPECT_EQ(ego.poses[0].heading, 0.5);
+    EXPECT_EQ(ego.poses[0].pitch, 0.02);
+    EXPECT_NEAR(ego.poses[0].wheel_angle, M_PI / 2, 1e-12);
+    EXPECT_EQ(ego.length, 4.5);
+    EXPECT_EQ(ego.centre, glm::dvec3(1.4, 0, 0.7));
+    EXPECT_EQ(run.entities[1].poses.size(), 1u);
+    EXPECT_EQ(late.name, "Late");
+    EXPECT_EQ(late.id, 7);
+    EXPECT_FALSE(is_there(late, 0.1));
+    EXPECT_EQ(later.poses[0].position.x, 80);
+}
+
+// Whoever gives a catalog, or a scenario of long ago, learns why nothing is lit.
+TEST_F(EsminiRuns, ScenariosThatSayNothingAreNoted) {
+    const auto table = write("run.csv", kHeader + "0.0, 0, Ego, 0, 0, 0, 0, 0, 0, 0, 0, 0\n");
+    const auto notes = [&](const std::string& text) {
+        std::string all;
+        for (const std::string& note : read_esmini_run(table, write("run.xosc", text)).notes) all += note + "\n";
+        return all;
+    };
+    EXPECT_NE(notes("<OpenSCENARIO><Catalog name=\"c\"/></OpenSCENARIO>").find("run.xosc:1: OpenSCENARIO: has no Storyboard"), std::string::npos);
+    EXPECT_NE(notes("<OpenSCENARIO>\n<FileHeader revMajor=\"0\" revMinor=\"9\"/><Storyboard/></OpenSCENARIO>").find("run.xosc:2: FileHeader: OpenSCENARIO 0.9"), std::string::npos);
+    EXPECT_EQ(notes(scenario("")), "");
+}
+
+// Brake lamps follow from speeds that only the places tell.
+TEST_F(EsminiRuns, SpeedsFollowFromPlacesWhereTheTableHasNone) {
+    std::string text = "\xEF\xBB\xBFtime, id, name, x, y, z, h, \r\n";
+    for (int i = 0; i <= 100; ++i) {
+        const double t = i * 0.05, x = t < 4 ? 10 * t : 40 + 10 * (t - 4) - (t - 4) * (t - 4) * 4;
+        char line[100];
+        std::snprintf(line, sizeof line, "%.3f, 3, Car, 5, %.4f, 0, %.6f\r\n", t, -x, -M_PI / 2);
+        text += line;
+    }
+    const auto run = read_esmini_run(write("run.csv", text));
+    EXPECT_NEAR(pose_at(run.entities[0], 2).speed, 10, 0.01);
+    EXPECT_NEAR(pose_at(run.entities[0], 4.5).speed, 6, 0.1);
+    EXPECT_EQ(lamp_at(run.entities[0], RunLamp::Brake, 2).level, 0);
+    EXPECT_EQ(lamp_at(run.entities[0], RunLamp::Brake, 4.5).level, 1);
+    // The same heading backwards.
+    std::string back = "time, id, name, x, y, z, h\n0, 0, Car, 0, 0, 0, 0\n1, 0, Car, -3, 0, 0, 0\n";
+    EXPECT_EQ(read_esmini_run(write("run.csv", back)).entities[0].poses[0].speed, -3);
+}
+
 TEST_F(EsminiRuns, LampsFollowFromTheMotionWhereNothingIsStated) {
     const auto run = read_esmini_run(write("run.csv", braking_run()));
     EXPECT_EQ(lamp_at(run.entities[0], RunLamp::LowBeam, 0).level, 1);

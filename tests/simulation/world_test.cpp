@@ -173,7 +173,7 @@ TEST(World, CarsLetWalkersCrossAndWalkersWait) {
 // A kerb stops what is across it, and takes energy only.
 TEST(Barrier, StopsACarAndTakesEnergy) {
     const VehicleParameters p;
-    const std::vector<Barrier> kerb{{{3, 50}, {3, -200}}};
+    const std::vector<Barrier> kerb{{.line = {{3, 50}, {3, -200}}, .height = {}}};
     for (const double yaw : {-0.05, -0.3, -1.2}) {  // to the right
         VehicleState s;
         s.yaw = yaw, s.speed = 12;
@@ -192,6 +192,30 @@ TEST(Barrier, StopsACarAndTakesEnergy) {
                 }
         }
         EXPECT_TRUE(hit);
+    }
+}
+
+// A street under a bridge: neither its kerbs nor who stands there hold up a car above, nor is its lane that of who drives by hand.
+TEST(World, RoadsAboveOneAnotherDoNotMeet) {
+    for (const double high : {5.0, 0.0}) {
+        const auto d = std::make_shared<WorldDescription>();
+        d->lanes.emplace_back("above", std::vector<glm::dvec3>{{0, high, 0}, {0, high, -300}}, 3, 15);
+        d->lanes.emplace_back("below", std::vector<glm::dvec3>{{-60, 0, -60}, {600, 0, -500}}, 3, 10);
+        d->barriers.push_back({.line = {{-50, -104}, {50, -104}}, .height = 0.0});
+        RecordedMover parked{.node = "parked", .poses = {{.time = 0, .position = {0, 0, -100}, .yaw = -kPi / 2, .pitch = 0, .roll = 0, .speed = 0, .lamps = {}}, {.time = 60, .position = {0, 0, -100}, .yaw = -kPi / 2, .pitch = 0, .roll = 0, .speed = 0, .lamps = {}}}};
+        d->recordings.push_back(parked);
+        for (const bool by_hand : {false, true}) {
+            World world(d, 1);
+            for (int i = 0; i < 30 / kStep; ++i) world.step({.throttle = by_hand ? 0.3 : 0.0, .autopilot = !by_hand}, kStep);
+            const glm::dvec3 at = world.actors().front().position;
+            if (high > 0) {
+                EXPECT_LT(at.z, -250) << by_hand;
+                EXPECT_NEAR(at.y, high, 1e-9) << by_hand;
+                EXPECT_TRUE(world.contacts().empty());
+            } else {
+                EXPECT_GT(at.z, -104) << by_hand;
+            }
+        }
     }
 }
 

@@ -122,6 +122,15 @@ echo '{' >"$world"
 key ctrl+r
 until_true "a complaint about the scene" grep -q "^vesper-drive: .*$world" said.txt
 mv kept.json "$world"
+# So is one that reads what the recording will replace.
+photometry=street/rivoli-drive.photometry.json
+mv "$photometry" kept.json
+cp kept.json drive.json
+ln -s ../drive.json "$photometry"
+key ctrl+r
+until_true "a complaint about the recording" grep -q "drive.json: would replace what is read" said.txt
+rm drive.json "$photometry"
+mv kept.json "$photometry"
 titled recording || fail "the recording has ended with the scene"
 key F4
 key space

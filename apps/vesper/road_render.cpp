@@ -169,7 +169,7 @@ RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const
 
 std::string text_of(const RoadResult& result, const RenderedRoad& rendered) {
     const size_t columns = result.field.x.size();
-    std::string text = "\nRendered on " + rendered.device + ", with the luminaires that count for each point, at 5 mm a pixel: calculated, rendered, difference in %\n";
+    std::string text = "\nRendered on " + rendered.device + ", with the luminaires that count for each point, at 1 mm a pixel: calculated, rendered, difference in %\n";
     for (size_t o = 0; o < result.observers.size(); ++o) {
         const RoadObserver& observer = result.observers[o];
         const RenderedObserver& seen = rendered.observers[o];

@@ -49,7 +49,7 @@ View road_view(const RoadLayout& road, const RoadObserver& observer, uint32_t ma
 }
 
 View road_point_view(const RoadObserver& observer, glm::dvec2 point) {
-    constexpr double kPixels = 8, kOfRoad = 0.005;  // m in one
+    constexpr double kPixels = 8, kOfRoad = 0.001;  // m in one
     const glm::dvec2 away = point - glm::dvec2(observer.eye);
     const glm::dvec2 middle(-away.y / away.x, -observer.eye.z / away.x);
     const glm::dvec2 half = 0.5 * kPixels * kOfRoad * glm::dvec2(1 / away.x, observer.eye.z / (away.x * away.x));

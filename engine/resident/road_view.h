@@ -14,7 +14,7 @@ namespace vesper {
 View road_view(const RoadLayout& road, const RoadObserver& observer, uint32_t max_rows = 4096);
 
 /// A view of 8 x 8 pixels about a point of the road, which lies between the four in the middle, from an observer who looks along the road.
-/// A pixel covers 5 mm of it, in length and width.
+/// A pixel covers 1 mm of it, in length and width.
 View road_point_view(const RoadObserver& observer, glm::dvec2 point);
 
 /// A view of square pixels, `width` of them, from 40 m ahead of an observer to the horizon.

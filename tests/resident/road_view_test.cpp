@@ -58,8 +58,8 @@ TEST(RoadView, OfAPointHasItInTheMiddle) {
                     const glm::dvec2 place = project(view, {x, y, 0});
                     EXPECT_NEAR(place.x, 4, 0.02);  // tangents are floats
                     EXPECT_NEAR(place.y, 4, 0.02);
-                    EXPECT_NEAR(on_road(view, observer, place + glm::dvec2(0, -1)).x - x, 0.005, 2e-4);
-                    EXPECT_NEAR(on_road(view, observer, place + glm::dvec2(1, 0)).y - y, -0.005, 2e-4);
+                    EXPECT_NEAR(on_road(view, observer, place + glm::dvec2(0, -1)).x - x, 0.001, 1e-4);
+                    EXPECT_NEAR(on_road(view, observer, place + glm::dvec2(1, 0)).y - y, -0.001, 1e-4);
                 }
 }
 

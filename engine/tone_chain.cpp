@@ -25,7 +25,7 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
                     (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0);
     // What the eye adapts to and the histogram counts is what falls on the retina.
     Resource scene = rendered;
-    if (given.scatter) scene = add_scatter(graph, kernels, rendered, *given.scatter, given.outside);
+    if (given.scatter) scene = add_scatter(graph, kernels, rendered, *given.scatter, given.outside, given.beyond);
     if (given.scatter && given.corona) scene = add_corona(graph, kernels, rendered, scene, given.corona->texels, view);
     const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
     if (outputs.retina) {
@@ -108,7 +108,7 @@ std::optional<ShownFormat> shown_format(VkFormat format) {
 }
 
 ChainInputs EyeKeeper::inputs(Executor& executor, const ToneChainSettings& settings, const View& view, float seconds) {
-    ChainInputs given{.seconds = seconds, .remembered = given_ ? &*given_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = {}};
+    ChainInputs given{.seconds = seconds, .remembered = given_ ? &*given_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = {}, .beyond = nullptr};
     if (settings.glare != Glare::Scatter) return given;
     if (!scatter_.has(settings.scatter, view)) executor.wait();  // what is under way uses the one that goes
     given.scatter = &scatter_.at(settings.scatter, view);

@@ -59,6 +59,7 @@ struct ChainInputs {
     const ResidentScatter* scatter = nullptr;       ///< of the settings and the view; nothing: no light is scattered
     const Corona* corona = nullptr;                 ///< of the settings; nothing: lamps have neither needles nor halo
     std::vector<OutsideLamp> outside;               ///< lamps whose light is scattered into the picture
+    const LightBeyond* beyond = nullptr;            ///< likewise, of other pictures of the eye
 };
 
 /// Declares glare, pyramid, histogram, adaptation and composite of `scene` (rgba32f, cd/m^2 RGB; with Operator::Ldr values
@@ -100,7 +101,8 @@ void read_tone_chain(const Executor&, const ToneChain&, VkExtent2D, ToneMapped& 
 /// What the host keeps of an eye from frame to frame: its glare, and what it remembers in place of the device.
 class EyeKeeper {
 public:
-    explicit EyeKeeper(const Device& device) : scatter_(device) {}
+    /// The glare of `views` sizes or angles of pictures is kept.
+    explicit EyeKeeper(const Device& device, size_t views = 1) : scatter_(device, views) {}
 
     /// What a frame of `view` brings, with light scattered if `settings` say so.
     ChainInputs inputs(Executor&, const ToneChainSettings& settings, const View& view, float seconds);

@@ -5,14 +5,15 @@
 namespace vesper {
 namespace {
 
-View view_of(VkExtent2D extent, double vertical_fov) {
+View view_of(VkExtent2D extent, double vertical_fov, const ImageAngles* angles) {
+    if (angles) return {.extent = extent, .tangent_low = angles->low, .tangent_high = angles->high};
     if (!(vertical_fov > 0 && vertical_fov < std::numbers::pi)) throw Error("a picture covers more than 0 and less than 180 degrees in height");
     return View::symmetric(extent, float(vertical_fov), glm::mat4(1));
 }
 
 }  // namespace
 
-ToneMapper::ToneMapper(Device& device) : device_(device), kernels_(device), eye_(device), executor_(device) {}
+ToneMapper::ToneMapper(Device& device, size_t views) : device_(device), kernels_(device), eye_(device, views), executor_(device) {}
 
 ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture& picture, float seconds, Outputs outputs) {
     const Stopwatch watch;
@@ -20,7 +21,7 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
     const uint64_t pixels = uint64_t{width} * height, bytes = pixels * 4 * sizeof(float);
     if (pixels == 0 || (picture.channels != 3 && picture.channels != 4) || picture.values.size() != pixels * picture.channels)
         throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) + " px does not have " + std::to_string(picture.values.size()) + " values");
-    const View view = view_of(picture.extent, picture.vertical_fov);
+    const View view = view_of(picture.extent, picture.vertical_fov, picture.angles);
 
     finish();
     if (pixels_.bytes() < bytes) {
@@ -37,23 +38,23 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
     FrameGraph graph;
     const Resource scene = graph.transient("scene", image_shape(kSceneFormat, picture.extent));
     graph.copy("picture", graph.external("picture", pixels_.buffer(), bytes), scene);
-    submit(graph, scene, settings, view, seconds, picture.outside, outputs, {}, watch);
+    submit(graph, scene, settings, view, seconds, picture.outside, picture.beyond, outputs, {}, watch);
     return *finish();
 }
 
 void ToneMapper::submit(const ToneChainSettings& settings, const DevicePicture& picture, const ForeignImage& shown, float seconds, const Handover& handover) {
     const Stopwatch watch;
-    const View view = view_of(picture.image.extent, picture.vertical_fov);
+    const View view = view_of(picture.image.extent, picture.vertical_fov, nullptr);
     FrameGraph graph;
     const Resource scene = add_picture(graph, kernels_, graph.external("picture", picture.image), picture.image.extent, picture.scale);
-    submit(graph, scene, settings, view, seconds, {}, {.display = false, .shown = shown}, handover, watch);
+    submit(graph, scene, settings, view, seconds, {}, nullptr, {.display = false, .shown = shown}, handover, watch);
 }
 
 void ToneMapper::submit(FrameGraph& graph, Resource scene, const ToneChainSettings& settings, const View& view, float seconds, const std::vector<OutsideLamp>& outside,
-                        const Outputs& outputs, const Handover& handover, Stopwatch watch) {
+                        const LightBeyond* beyond, const Outputs& outputs, const Handover& handover, Stopwatch watch) {
     if (EyeKeeper::looks_back(settings)) finish();
     ChainInputs given = eye_.inputs(executor_, settings, view, seconds);
-    given.outside = outside;
+    given.outside = outside, given.beyond = beyond;
     Pending pending{watch, {}, {}};
     pending.chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs);
     pending.result.extent = view.extent;

@@ -18,6 +18,8 @@ struct HostPicture {
     float scale = 1;                ///< cd/m^2 per unit
     double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
     std::vector<OutsideLamp> outside = {};  ///< lamps that scatter light into it; the picture is seen along -z, y up
+    const ImageAngles* angles = nullptr;    ///< of its edges, in place of vertical_fov, where the eye's axis is not in its middle
+    const LightBeyond* beyond = nullptr;    ///< that other pictures of the eye scatter into it
 };
 
 /// A picture on the device, in an image of somebody else's that can be sampled.
@@ -31,7 +33,8 @@ struct DevicePicture {
 /// size changes. Not thread-safe; several may share a device in one thread.
 class ToneMapper {
 public:
-    explicit ToneMapper(Device& device);
+    /// The glare of `views` sizes or angles of pictures is kept, rather than made anew when they change.
+    explicit ToneMapper(Device& device, size_t views = 1);
 
     /// `seconds` have passed since the last picture. NaN and infinities are shown black and counted. Throws Error.
     ToneMapped map(const ToneChainSettings&, const HostPicture&, float seconds, Outputs outputs = {});
@@ -55,8 +58,8 @@ private:
         ToneMapped result;
         ToneChain chain;
     };
-    void submit(FrameGraph&, Resource scene, const ToneChainSettings&, const View&, float seconds, const std::vector<OutsideLamp>&, const Outputs&, const Handover&,
-                Stopwatch);
+    void submit(FrameGraph&, Resource scene, const ToneChainSettings&, const View&, float seconds, const std::vector<OutsideLamp>&, const LightBeyond*, const Outputs&,
+                const Handover&, Stopwatch);
 
     Device& device_;
     Kernels kernels_;

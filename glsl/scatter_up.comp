@@ -4,7 +4,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 // Light scattered in the eye, on the way up: means of a level under the weights of the quartic B-spline. Pixels that are not
-// finite scatter nothing. Beyond the picture there is no light but that of the lamps given. An invocation goes down a strip; every
+// finite scatter nothing. Beyond the picture there is no light but that of the lamps given, and what other pictures have. An invocation goes down a strip; every
 // two rows read are added to the three that they have a part in, so that they are read once.
 
 #include "shared/scatter.h"
@@ -16,7 +16,8 @@ layout(constant_id = 2) const uint kFromScene = 0u;  // 1: reads the picture, wh
 
 layout(binding = 0, rgba32f) readonly uniform image2D from;
 layout(binding = 1) uniform samplerBuffer lamps;
-layout(binding = 2, rgba32f) writeonly uniform image2D means;
+layout(binding = 2) uniform samplerBuffer beyond;  // push.beyond
+layout(binding = 3, rgba32f) writeonly uniform image2D means;
 layout(push_constant, scalar) uniform Push { ScatterUpPush push; };
 
 const uint kWide = 2u * kColumns + 4u;
@@ -65,7 +66,9 @@ void main() {
         }
         [[unroll]] for (uint i = 0u; i < kColumns; ++i) {
             const ivec2 texel = at + ivec2(int(i), y);
-            if (y >= 0 && all(lessThan(texel, ivec2(push.to_size)))) imageStore(means, texel, vec4(mean[i], 1.0));
+            if (y < 0 || any(greaterThanEqual(texel, ivec2(push.to_size)))) continue;
+            if (kFromScene == 0u && push.beyond != 0u) mean[i] += texelFetch(beyond, texel.y * int(push.to_size.x) + texel.x).rgb;
+            imageStore(means, texel, vec4(mean[i], 1.0));
         }
     }
 }

@@ -34,6 +34,12 @@ ScreenChannel channel_of(const JsonValue& value) {
     return c;
 }
 
+// From the view frame of a channel to that of the driver.
+glm::dmat4 turned(const ScreenChannel& c) {
+    const glm::dmat4 turned = glm::rotate(glm::dmat4(1), c.yaw, glm::dvec3(0, 1, 0));
+    return glm::rotate(glm::rotate(turned, c.pitch, glm::dvec3(1, 0, 0)), -c.roll, glm::dvec3(0, 0, 1));
+}
+
 }  // namespace
 
 Channels read_channels(const std::filesystem::path& file) {
@@ -56,12 +62,9 @@ Channels read_channels(const std::filesystem::path& file) {
 }
 
 View channel_view(const ScreenChannel& c, const View& driver) {
-    glm::dmat4 turned = glm::rotate(glm::dmat4(1), c.yaw, glm::dvec3(0, 1, 0));
-    turned = glm::rotate(turned, c.pitch, glm::dvec3(1, 0, 0));
-    turned = glm::rotate(turned, -c.roll, glm::dvec3(0, 0, 1));
     View view = driver;
     view.extent = c.extent;
-    view.world_to_view = glm::mat4(glm::inverse(turned) * glm::dmat4(driver.world_to_view));
+    view.world_to_view = glm::mat4(glm::inverse(turned(c)) * glm::dmat4(driver.world_to_view));
     view.tangent_low = {std::tan(c.left), std::tan(c.bottom)};
     view.tangent_high = {std::tan(c.right), std::tan(c.top)};
     return view;
@@ -86,12 +89,24 @@ Wall ChannelRenderer::render(Renderer& renderer, const Channels& channels, const
         wall.columns.push_back(extent.width);
         extent = {extent.width + c.extent.width, std::max(extent.height, c.extent.height)};
     }
+    // Light that the eye scatters from one screen to others is known when there are pictures of all.
+    const bool together = channels.screens.size() > 1 && settings.glare == Glare::Scatter && settings.tone_operator != Operator::Ldr;
+    RenderSettings drawn = settings;
+    if (together) drawn.glare = Glare::None;
+    std::vector<View> views;
+    std::vector<glm::dmat3> turns;
+    for (const ScreenChannel& c : channels.screens) {
+        const View view = channel_view(c, driver);
+        views.push_back(together ? ChannelGlare::guarded(view) : view);
+        turns.emplace_back(turned(c));
+        wall.channels.push_back(renderer.render(drawn, views.back(), frame, 0, {.display = false, .retina = true}));
+    }
+    if (together) glare_.scatter(settings, views, turns, eye_, seconds, wall.channels);
     // What is not finite has no vote.
     std::vector<float> pixels(size_t(extent.width) * extent.height * 4, std::numeric_limits<float>::quiet_NaN());
     for (size_t i = 0; i < channels.screens.size(); ++i) {
         const auto [width, height] = channels.screens[i].extent;
-        wall.channels.push_back(renderer.render(settings, channel_view(channels.screens[i], driver), frame, 0, {.display = false, .retina = true}));
-        const std::vector<float>& from = wall.channels.back().scene;
+        const std::vector<float>& from = wall.channels[i].scene;
         for (size_t y = 0; y < height; ++y)
             std::copy_n(&from[4 * y * width], 4 * width, &pixels[4 * (y * extent.width + wall.columns[i])]);
     }
@@ -105,6 +120,7 @@ Wall ChannelRenderer::render(Renderer& renderer, const Channels& channels, const
     const double tangent = (std::tan(looked_at.top) - std::tan(looked_at.bottom)) / looked_at.extent.height * extent.height;
     outputs.retina = false;
     wall.shown = mapper_.map(shown, {.extent = extent, .values = pixels, .channels = 4, .vertical_fov = 2 * std::atan(tangent / 2)}, seconds, outputs);
+    eye_ = wall.shown.eye;
     return wall;
 }
 

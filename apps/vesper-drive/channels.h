@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "channel_glare.h"
 #include "renderer.h"
 #include "tone_mapper.h"
 
@@ -39,18 +40,20 @@ struct Wall {
 /// The channel that is looked at, with the eye, curve and times of the whole: what is logged.
 Frame looked_at(Wall&, const Channels&);
 
-/// Renders channels one after the other, each with the light that its eye scatters, that of lamps in the other channels
-/// included; then adapts and shows them as one picture: one histogram, one eye, one tone curve.
+/// Renders channels one after the other, scatters the light of all of them in the one eye, then adapts and shows them as one picture:
+/// one histogram, one eye, one tone curve.
 class ChannelRenderer {
 public:
-    explicit ChannelRenderer(Device& device) : mapper_(device) {}
+    explicit ChannelRenderer(Device& device) : glare_(device), mapper_(device) {}
 
     Wall render(Renderer&, const Channels&, const RenderSettings&, const View& driver, const SceneFrame&, float seconds, Outputs);
-    void reset_adaptation() { mapper_.reset_adaptation(); }
-    void set_eye(const shared::EyeState& eye) { mapper_.set_eye(eye); }
+    void reset_adaptation() { eye_.reset(), mapper_.reset_adaptation(); }
+    void set_eye(const shared::EyeState& eye) { eye_ = eye, mapper_.set_eye(eye); }
 
 private:
+    ChannelGlare glare_;
     ToneMapper mapper_;
+    std::optional<shared::EyeState> eye_;  // what the last frame left
 };
 
 }  // namespace vesper

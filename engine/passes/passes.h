@@ -15,6 +15,7 @@
 #include "passes/operators.h"
 #include "perception/display.h"
 #include "perception/eye.h"
+#include "perception/light_elsewhere.h"
 #include "resident/eye_scatter.h"
 #include "resident/formats.h"
 #include "resident/kernels.h"
@@ -223,9 +224,9 @@ Resource add_bands(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, 
                    VkExtent2D extent);
 
 /// The scene as it falls on the retina: every pixel keeps a part of its light and scatters the rest, as `fit` has it, and lamps
-/// outside of the picture scatter theirs into it. rgba32f, cd/m^2. What a picture loses is what falls beside it. A pixel that
-/// is not finite stays and scatters nothing. `fit` is of the same size as the scene.
-Resource add_scatter(FrameGraph&, const Kernels&, Resource scene, const ResidentScatter& fit, const std::vector<OutsideLamp>&);
+/// outside of the picture scatter theirs into it, and what other pictures of the eye have, `beyond`. rgba32f, cd/m^2. What a picture loses is
+/// what falls beside it. A pixel that is not finite stays and scatters nothing. `fit` is of the same size as the scene.
+Resource add_scatter(FrameGraph&, const Kernels&, Resource scene, const ResidentScatter& fit, const std::vector<OutsideLamp>&, const LightBeyond* beyond = nullptr);
 
 /// Adds needles and halo of the brightest lamps to what add_scatter made of `scene`, in place. A lamp is the light of a square of
 /// shared::kCoronaTile px of the picture, wherever it comes from; what is hidden has none. The shared::kCoronaLamps brightest count, each less as the

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <functional>
+
 #include "passes/passes.h"
 #include "shared/scatter.h"
 
@@ -12,7 +15,8 @@ VkExtent2D with_margin(VkExtent2D size, uint32_t margin) { return {size.width + 
 
 }  // namespace
 
-Resource add_scatter(FrameGraph& graph, const Kernels& kernels, Resource scene, const ResidentScatter& fit, const std::vector<OutsideLamp>& lamps) {
+Resource add_scatter(FrameGraph& graph, const Kernels& kernels, Resource scene, const ResidentScatter& fit, const std::vector<OutsideLamp>& lamps,
+                     const LightBeyond* beyond) {
     using namespace shared;
     const int top = fit.levels();
     const auto texels = [&](const char* name, ResidentScatter::Texels t, VkFormat format) { return graph.external(name, t.buffer, t.bytes, format); };
@@ -27,10 +31,12 @@ Resource add_scatter(FrameGraph& graph, const Kernels& kernels, Resource scene, 
         const std::string name = "scatter up " + std::to_string(l);
         const std::vector<glm::vec4> outside = fit.lamps_of(l, lamps);
         const Resource list = graph.upload(name + " lamps", at_least_one(outside), VK_FORMAT_R32G32B32A32_SFLOAT);
+        const bool more = beyond && l > 1;
+        const Resource others = graph.upload(name + " beyond", more ? beyond->levels[size_t(l)] : at_least_one({}), VK_FORMAT_R32G32B32A32_SFLOAT);
         const Resource image = graph.transient(name, image_shape(kSceneFormat, to));
         const Kernel& kernel = l == 1 ? kernels.scatter_up_first : kernels.scatter_up;
-        graph.dispatch(name, kernel, {load(levels.back()), sample(list), store(image)},
-                       ScatterUpPush{{from.width, from.height}, {to.width, to.height}, uint32_t(outside.size() / 2)},
+        graph.dispatch(name, kernel, {load(levels.back()), sample(list), sample(others), store(image)},
+                       ScatterUpPush{{from.width, from.height}, {to.width, to.height}, uint32_t(outside.size() / 2), more ? 1u : 0u},
                        cover_strips(to, kernel, kernels.scatter_up_strip));
         levels.push_back(image);
         sizes.push_back(size);
@@ -39,7 +45,9 @@ Resource add_scatter(FrameGraph& graph, const Kernels& kernels, Resource scene, 
     const VkExtent2D takes = with_margin(sizes.back(), kScatterDownMargin);
     Resource seen = graph.transient("scatter top", image_shape(kSceneFormat, takes));
     const Resource weights = texels("scatter weights", fit.top(), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource veil = graph.upload("veil of far lamps", fit.far_veil(lamps), VK_FORMAT_R32G32B32A32_SFLOAT);
+    std::vector<glm::vec4> far = fit.far_veil(lamps);
+    if (beyond) std::transform(far.begin(), far.end(), beyond->veil.begin(), far.begin(), std::plus());
+    const Resource veil = graph.upload("veil of far lamps", far, VK_FORMAT_R32G32B32A32_SFLOAT);
     graph.dispatch("scatter top", kernels.scatter_top, {load(levels.back()), sample(weights), sample(veil), store(seen)},
                    ScatterTopPush{{sizes.back().width, sizes.back().height}}, cover((takes.width * takes.height + 3) / 4, 1, kernels.scatter_top.group[0], 1));
 

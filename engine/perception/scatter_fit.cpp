@@ -22,6 +22,8 @@ constexpr int kAzimuths = 12;
 constexpr double kNarrow = 36 * std::numbers::pi / 180;  // from the axis to a corner: kernels of 5 x 5 follow pixels of that shape
 constexpr int kNear = kScatterNear;
 constexpr int kFar = 16;          // texels of the top beyond which light is counted, not added up
+// Texels outside the picture that light may be to go wholly into the margin of a level. One level lower it has then no say in the picture.
+constexpr double kOutside = 6;
 constexpr double kBalance = 1e4;  // of the light, against the rows of the fit
 
 // What a pixel takes of another, on one axis, through each level, for a shift of -kFar .. kFar texels between them.
@@ -300,6 +302,21 @@ ivec2 scatter_size(const ImageAngles& image, int level) {
     return size;
 }
 
+int scatter_levels(const ImageAngles& image) {
+    int levels = 1;
+    for (ivec2 n = scatter_size(image, levels); n.x * n.y > kTopTexels; n = scatter_size(image, levels)) ++levels;
+    return levels;
+}
+
+std::optional<ScatterEntry> scatter_entry(const ImageAngles& image, dvec3 direction, int finest) {
+    if (!(direction.z < 0)) return {};
+    const dvec2 tangents = dvec2(direction) / -direction.z, pixels = image.pixels_at(tangents);
+    const dvec2 beyond = glm::max(-pixels, pixels - dvec2(image.width, image.height));
+    for (int level = finest, levels = scatter_levels(image); level <= levels; ++level)
+        if (std::max(beyond.x, beyond.y) <= kOutside * std::exp2(level)) return ScatterEntry{level, pixels, tangents};
+    return {};
+}
+
 std::vector<ivec2> scatter_taps(int reach) {
     std::vector<ivec2> taps;
     for (int y = 0; y <= reach; ++y)
@@ -313,9 +330,7 @@ int scatter_strip(const ImageAngles& image, ivec2 nodes, int level, int most) {
 }
 
 ScatterFit fit_scatter(const EyeScatter& psf, const ImageAngles& image, ivec2 strip) {
-    ScatterFit fit{.image = image, .levels = 1, .reach = kTapReach, .strip = strip, .nodes = {}, .kernels = {}, .top = {}, .edge = {}};
-    const auto texels = [&](int level) { const ivec2 n = scatter_size(image, level); return n.x * n.y; };
-    while (texels(fit.levels) > kTopTexels) ++fit.levels;
+    ScatterFit fit{.image = image, .levels = scatter_levels(image), .reach = kTapReach, .strip = strip, .nodes = {}, .kernels = {}, .top = {}, .edge = {}};
     // Odd, so that a symmetric picture has a node in its middle and needs only a quarter of them.
     const dvec2 span = image.high - image.low;
     fit.nodes = ivec2(glm::min(2.0 * glm::ceil(span / (2 * kNodeStep)) + 1.0, dvec2(kMostNodes)));

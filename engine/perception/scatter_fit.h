@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -48,6 +49,17 @@ constexpr int kTapReach = 2, kWideTapReach = 3;
 
 /// A level of `width` x `height` px halved (rounding up) so many times, in texels, without margin.
 glm::ivec2 scatter_size(const ImageAngles&, int level);
+
+/// The level that is the top.
+int scatter_levels(const ImageAngles&);
+
+/// Where light from beyond a picture goes into its pyramid: a level, 1 .. the top, whose margin has all of it, and its place.
+struct ScatterEntry {
+    int level;
+    glm::dvec2 pixels, tangents;
+};
+/// Of light from a direction (view frame), at the finest level there is from `finest` on; nothing where it is too far, or behind the plane of the eye.
+std::optional<ScatterEntry> scatter_entry(const ImageAngles&, glm::dvec3 direction, int finest = 1);
 
 /// Neighbours of a texel that its level is filtered with, each with its opposite, and the texel itself: the rest of its row, then rows below. x right, y down.
 std::vector<glm::ivec2> scatter_taps(int reach);

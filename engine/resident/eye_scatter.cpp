@@ -15,10 +15,6 @@ using glm::dvec2, glm::dvec3;
 
 static_assert(kScatterMargin == int(shared::kScatterUpMargin) && kScatterReach == int(shared::kScatterDownMargin));
 
-// Texels outside the picture that a lamp may be for its light to go wholly into the margin of a level. One level lower it
-// has then no say in the picture.
-constexpr double kOutside = 6;
-
 // Taps of all levels, each in texels of its own.
 std::vector<glm::vec4> padded_taps(const ScatterFit& fit) {
     const auto taps = size_t(fit.taps());
@@ -71,19 +67,10 @@ ResidentScatter::ResidentScatter(const Device& device, const ScatterSettings& se
     edge_texels_ = upload(fit.edge.kept, edge_);
 }
 
-std::optional<ResidentScatter::Entry> ResidentScatter::entry_of(const OutsideLamp& lamp) const {
-    if (!(lamp.direction.z < 0)) return {};
-    const dvec2 tangents = dvec2(lamp.direction) / -lamp.direction.z, pixels = image_.pixels_at(tangents);
-    const dvec2 beyond = glm::max(-pixels, pixels - dvec2(image_.width, image_.height));
-    for (int level = 1; level <= levels_; ++level)
-        if (std::max(beyond.x, beyond.y) <= kOutside * std::exp2(level)) return Entry{level, pixels, tangents};
-    return {};
-}
-
 std::vector<glm::vec4> ResidentScatter::lamps_of(int level, const std::vector<OutsideLamp>& lamps) const {
     std::vector<glm::vec4> texels;
     for (const OutsideLamp& lamp : lamps) {
-        const std::optional<Entry> entry = entry_of(lamp);
+        const std::optional<ScatterEntry> entry = scatter_entry(image_, lamp.direction);
         if (!entry || entry->level != level) continue;
         // Luminance of a pixel there, times the part of a texel that the pixel is.
         const dvec2 pixel = image_.pixel();
@@ -97,7 +84,7 @@ std::vector<glm::vec4> ResidentScatter::lamps_of(int level, const std::vector<Ou
 std::vector<glm::vec4> ResidentScatter::far_veil(const std::vector<OutsideLamp>& lamps) const {
     std::vector<OutsideLamp> far;
     for (const OutsideLamp& lamp : lamps)
-        if (lamp.direction.z < 0 && !entry_of(lamp)) far.push_back({glm::normalize(lamp.direction), lamp.illuminance});
+        if (lamp.direction.z < 0 && !scatter_entry(image_, lamp.direction)) far.push_back({glm::normalize(lamp.direction), lamp.illuminance});
     const glm::ivec2 rows = scatter_size(image_, levels_) + 2 * kScatterReach;
     std::vector<glm::vec4> veil(size_t(rows.x * rows.y), glm::vec4(0));
     for (int y = 0; y < rows.y && !far.empty(); ++y)
@@ -114,13 +101,19 @@ std::vector<glm::vec4> ResidentScatter::far_veil(const std::vector<OutsideLamp>&
 }
 
 const ResidentScatter& ScatterCache::at(const ScatterSettings& settings, const View& view) {
-    if (!has(settings, view)) {
-        fit_.reset();  // before the next one takes its memory
-        fit_.emplace(*device_, settings, angles_of(view));
+    const ImageAngles image = angles_of(view);
+    const auto known = std::find_if(fits_.begin(), fits_.end(), [&](const ResidentScatter& fit) { return fit.settings() == settings && fit.image() == image; });
+    if (known != fits_.end()) {
+        fits_.splice(fits_.begin(), fits_, known);
+    } else {
+        while (fits_.size() >= most_) fits_.pop_back();  // before the next one takes its memory
+        fits_.emplace_front(*device_, settings, image);
     }
-    return *fit_;
+    return fits_.front();
 }
 
-bool ScatterCache::has(const ScatterSettings& settings, const View& view) const { return fit_ && fit_->settings() == settings && fit_->image() == angles_of(view); }
+bool ScatterCache::has(const ScatterSettings& settings, const View& view) const {
+    return std::any_of(fits_.begin(), fits_.end(), [&](const ResidentScatter& fit) { return fit.settings() == settings && fit.image() == angles_of(view); });
+}
 
 }  // namespace vesper

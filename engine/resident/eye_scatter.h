@@ -1,7 +1,8 @@
 // Light scattered in the eye, fitted to a view and kept on the device. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <list>
+#include <vector>
 
 #include "gpu/memory.h"
 #include "perception/eye_aperture.h"
@@ -62,13 +63,6 @@ public:
     std::vector<glm::vec4> far_veil(const std::vector<OutsideLamp>&) const;
 
 private:
-    /// Where a lamp's light begins, 1 .. levels, and its place, px; nothing where it is far or behind the eye.
-    struct Entry {
-        int level;
-        glm::dvec2 pixels, tangents;
-    };
-    std::optional<Entry> entry_of(const OutsideLamp&) const;
-
     ScatterSettings settings_;
     ImageAngles image_;
     EyeScatter psf_;
@@ -80,17 +74,19 @@ private:
     Texels taps_texels_{}, top_texels_{}, edge_texels_{};
 };
 
-/// Keeps the fit of the last view, since most frames have the same.
+/// Keeps the fits of the last views, since most frames have the same.
 class ScatterCache {
 public:
-    explicit ScatterCache(const Device& device) : device_(&device) {}
+    /// Of `most` views.
+    explicit ScatterCache(const Device& device, size_t most = 1) : device_(&device), most_(most) {}
     const ResidentScatter& at(const ScatterSettings&, const View&);
-    /// Whether at() would give what it gave last.
+    /// Whether at() would give one that there is.
     bool has(const ScatterSettings&, const View&) const;
 
 private:
     const Device* device_;
-    std::optional<ResidentScatter> fit_;
+    size_t most_;
+    std::list<ResidentScatter> fits_;  // the last one first
 };
 
 }  // namespace vesper

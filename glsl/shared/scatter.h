@@ -11,8 +11,9 @@ struct ScatterUpPush {
     uvec2 from_size;  // px of the picture, or texels of the level below with its margin
     uvec2 to_size;    // texels of this level with its margin
     uint lamps;       // outside the picture, whose light begins at this level: two texels each, place in texels and light
+    uint beyond;      // 1: there is other light from outside, for each texel of this level, row by row; from level 2 on
 };
-SHARED_SIZE(ScatterUpPush, 20)
+SHARED_SIZE(ScatterUpPush, 24)
 
 struct ScatterTopPush {
     uvec2 size;       // texels of the top, without margin

@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "perception/light_elsewhere.h"
 #include "perception/scatter_fit.h"
 #include "resident/eye_scatter.h"
 
@@ -139,7 +140,8 @@ inline double quartic(double x) {
 inline int floor_half(int i) { return int(std::floor(i / 2.0)); }
 
 /// One level up. `margin` is that of `from`, which begins there; lamps as ResidentScatter::lamps_of has them.
-inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::vector<glm::vec4>& lamps) {
+/// `beyond`: of each texel, from other pictures; or none.
+inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::vector<glm::vec4>& lamps, const std::vector<glm::vec4>& beyond = {}) {
     Plane to(size + 2 * kScatterMargin);
     for (int y = 0; y < to.size.y; ++y)
         for (int x = 0; x < to.size.x; ++x) {
@@ -151,6 +153,7 @@ inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::ve
                 const dvec2 d = dvec2(j) + 0.5 - dvec2(lamps[i]);
                 sum += quartic(d.x) * quartic(d.y) * dvec3(lamps[i + 1]);
             }
+            if (!beyond.empty()) sum += dvec3(beyond[size_t(y) * size_t(to.size.x) + size_t(x)]);
             to[{x, y}] = sum;
         }
     return to;
@@ -185,18 +188,21 @@ inline double edge_light(const ScatterFit& fit, ivec2 pixel) {
 
 /// The whole operator. Over strips of texels taps are linear from top to bottom, in the middle of their columns; every
 /// two rows have those of the line between them, for what they give. Not finite: scatters nothing, and is not finite.
-inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vector<std::vector<glm::vec4>>& lamps = {}, const std::vector<glm::vec4>& veil = {}) {
+inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vector<std::vector<glm::vec4>>& lamps = {}, const std::vector<glm::vec4>& veil = {},
+                     const LightBeyond& beyond = {}) {
     Plane clean = scene;
     for (dvec3& t : clean.texels)
         if (!(std::abs(t.x) <= 3.4e38 && std::abs(t.y) <= 3.4e38 && std::abs(t.z) <= 3.4e38)) t = dvec3(0);
     std::vector<Plane> levels{clean};
     for (int l = 1; l <= fit.levels; ++l)
-        levels.push_back(scatter_up(levels.back(), l == 1 ? 0 : kScatterMargin, scatter_size(fit.image, l), lamps.empty() ? std::vector<glm::vec4>{} : lamps[size_t(l)]));
+        levels.push_back(scatter_up(levels.back(), l == 1 ? 0 : kScatterMargin, scatter_size(fit.image, l), lamps.empty() ? std::vector<glm::vec4>{} : lamps[size_t(l)],
+                                    beyond.levels.empty() ? std::vector<glm::vec4>{} : beyond.levels[size_t(l)]));
 
     Plane seen(fit.top_rows());
     const size_t columns = levels.back().texels.size();
     for (size_t r = 0; r < seen.texels.size(); ++r) {
         if (!veil.empty()) seen.texels[r] = dvec3(veil[r]);
+        if (!beyond.veil.empty()) seen.texels[r] += dvec3(beyond.veil[r]);
         for (size_t c = 0; c < columns; ++c) seen.texels[r] += double(fit.top[r * columns + c]) * levels.back().texels[c];
     }
     const double spline[2][3]{{5.0 / 16, 10.0 / 16, 1.0 / 16}, {1.0 / 16, 10.0 / 16, 5.0 / 16}};

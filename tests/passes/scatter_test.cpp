@@ -1,6 +1,8 @@
 // Light scattered in the eye on the device against its reference. SPDX-License-Identifier: MIT
 #include "passes/scatter_reference.h"
 
+#include <random>
+
 #include "support/compare.h"
 #include "support/texels.h"
 #include "support/tones.h"
@@ -14,10 +16,10 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::nume
 
 View view_of(VkExtent2D extent) { return View::symmetric(extent, 0.6435f, glm::mat4(1)); }
 
-std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const ResidentScatter& fit, const std::vector<OutsideLamp>& lamps) {
+std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const ResidentScatter& fit, const std::vector<OutsideLamp>& lamps, const LightBeyond* beyond = nullptr) {
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, {uint32_t(fit.image().width), uint32_t(fit.image().height)}, pixels);
-    const Resource kept = keep<glm::vec4>(graph, add_scatter(graph, rig.kernels(), scene, fit, lamps));
+    const Resource kept = keep<glm::vec4>(graph, add_scatter(graph, rig.kernels(), scene, fit, lamps, beyond));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -30,7 +32,28 @@ std::vector<OutsideLamp> some_lamps(const ImageAngles& image) {
             {towards({6 * w, h / 2}), {1, 2, 3}}, {glm::normalize(dvec3(1, 0, 0.2)), dvec3(5)}};
 }
 
-void expect_reference(PassRig& rig, VkExtent2D extent, std::vector<glm::vec4> pixels, bool lamps) {
+/// Light from beyond, of as many decades as a night has, wherever there may be some: not in the outermost texels of a margin.
+LightBeyond some_light(const ImageAngles& image, uint32_t seed) {
+    LightBeyond beyond;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> exponent(-4, 4);
+    const auto fill = [&](ivec2 size) {
+        std::vector<glm::vec4> texels;
+        for (int i = 0; i < size.x * size.y; ++i) texels.push_back(glm::vec4(std::pow(10.0f, exponent(random)) * glm::vec3(1, 0.8f, 0.5f), 0));
+        return texels;
+    };
+    const auto margin = [&](ivec2 size) {
+        std::vector<glm::vec4> texels = fill(size);
+        for (int i = 0; i < size.x * size.y; ++i)
+            if (const ivec2 at(i % size.x, i / size.x); at.x == 0 || at.y == 0 || at.x == size.x - 1 || at.y == size.y - 1) texels[size_t(i)] = glm::vec4(0);
+        return texels;
+    };
+    for (int l = 0; l <= scatter_levels(image); ++l) beyond.levels.push_back(l < 2 ? std::vector<glm::vec4>{} : margin(scatter_size(image, l) + 2 * kScatterMargin));
+    beyond.veil = fill(scatter_size(image, scatter_levels(image)) + 2 * kScatterReach);
+    return beyond;
+}
+
+void expect_reference(PassRig& rig, VkExtent2D extent, std::vector<glm::vec4> pixels, bool lamps, bool others = false) {
     SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
     const ScatterSettings settings;
     const ImageAngles image = angles_of(view_of(extent));
@@ -42,8 +65,9 @@ void expect_reference(PassRig& rig, VkExtent2D extent, std::vector<glm::vec4> pi
     for (size_t i = 0; i < pixels.size(); ++i) scene.texels[i] = dvec3(pixels[i]);
     std::vector<std::vector<glm::vec4>> lists(size_t(fit.levels) + 1);
     for (int l = 1; l <= fit.levels; ++l) lists[size_t(l)] = resident.lamps_of(l, outside);
-    const auto want = reference::scatter(scene, fit, lists, resident.far_veil(outside));
-    const auto got = seen(rig, pixels, resident, outside);
+    const LightBeyond beyond = others ? some_light(image, extent.width) : LightBeyond{};
+    const auto want = reference::scatter(scene, fit, lists, resident.far_veil(outside), beyond);
+    const auto got = seen(rig, pixels, resident, outside, others ? &beyond : nullptr);
 
     Picture a(extent.width, extent.height, 3), b = a;
     for (size_t i = 0; i < got.size(); ++i)
@@ -68,6 +92,18 @@ TEST(Scatter, WhatIsNotFiniteStaysAndScattersNothing) {
     for (size_t i = 0; i < pixels.size(); i += 7) pixels[i][int(i % 3)] = i % 2 ? kNan : kInf;
     pixels[5].y = -kInf;
     expect_reference(rig, extent, pixels, true);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// What other pictures of the eye have comes in at every level from the second on, and at the top.
+TEST(Scatter, LightOfOthersComesInFromBeyond) {
+    PassRig rig;
+    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {2, 9}, {65, 33}, {131, 67}, {300, 190}})
+        for (bool lamps : {false, true}) expect_reference(rig, extent, night_pixels(extent, extent.width, -4, -1), lamps, true);
+    const VkExtent2D extent{131, 67};
+    auto pixels = night_pixels(extent, 3);
+    for (size_t i = 0; i < pixels.size(); i += 7) pixels[i][int(i % 3)] = i % 2 ? kNan : kInf;
+    expect_reference(rig, extent, pixels, true, true);
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -1,0 +1,95 @@
+#include "channel_glare.h"
+
+#include <algorithm>
+#include <map>
+
+namespace vesper {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+constexpr int kGuard = LightElsewhere::kGuard;
+
+// Lamps of the scene, but for what any of the pictures has of them. One that several have a part of is taken to be wholly in them.
+std::vector<UnseenLamp> unseen(const std::vector<Frame>& frames, std::span<const EyePicture> pictures, const std::vector<OutsideLamp>& others) {
+    struct Seen {
+        UnseenLamp lamp;
+        double inside = 0;
+    };
+    std::map<uint32_t, Seen> lamps;  // by their nodes
+    for (size_t i = 0; i < frames.size(); ++i)
+        for (const GlareSource& source : frames[i].glare_sources)
+            lamps.try_emplace(source.node, Seen{{pictures[i].turn * source.direction, source.illuminance}, 0}).first->second.inside += source.inside;
+    std::vector<UnseenLamp> left;
+    for (const auto& [node, seen] : lamps)
+        if (seen.inside < 1) left.push_back({seen.lamp.direction, (1 - seen.inside) * seen.lamp.illuminance});
+    for (const OutsideLamp& lamp : others) left.push_back({glm::normalize(lamp.direction), lamp.illuminance});
+    return left;
+}
+
+// Of the lamps, what lies beside what is shown; those in the border wholly.
+std::vector<OutsideLamp> beside(const Frame& frame, const EyePicture& picture, const std::vector<OutsideLamp>& others) {
+    std::vector<OutsideLamp> lamps;
+    for (const OutsideLamp& lamp : others) lamps.push_back({glm::transpose(picture.turn) * lamp.direction, lamp.illuminance});
+    for (const GlareSource& source : frame.glare_sources) {
+        const dvec2 at = picture.image.pixels_at(dvec2(source.direction) / -source.direction.z), far = glm::abs(at - 0.5 * dvec2(picture.image.width, picture.image.height));
+        const bool shown = far.x < 0.5 * picture.image.width - kGuard && far.y < 0.5 * picture.image.height - kGuard;
+        if (!shown || source.inside < 1) lamps.push_back({source.direction, (shown ? 1 - source.inside : 1) * source.illuminance});
+    }
+    return lamps;
+}
+
+std::vector<float> without_border(const std::vector<float>& rgba, VkExtent2D extent) {
+    const size_t width = extent.width - 2 * kGuard, height = extent.height - 2 * kGuard;
+    std::vector<float> inner;
+    inner.reserve(4 * width * height);
+    for (size_t y = 0; y < height; ++y) {
+        const auto row = rgba.begin() + ptrdiff_t(4 * ((y + kGuard) * extent.width + kGuard));
+        inner.insert(inner.end(), row, row + ptrdiff_t(4 * width));
+    }
+    return inner;
+}
+
+}  // namespace
+
+View ChannelGlare::guarded(const View& view) {
+    View wider = view;
+    const glm::vec2 border = float(kGuard) * glm::abs(view.ray_scale());
+    wider.extent = {view.extent.width + 2 * kGuard, view.extent.height + 2 * kGuard};
+    wider.tangent_low -= border, wider.tangent_high += border;
+    return wider;
+}
+
+void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View> guarded, std::span<const glm::dmat3> turns, const std::optional<shared::EyeState>& eye, float seconds,
+                           std::vector<Frame>& frames) {
+    std::vector<EyePicture> pictures;
+    for (size_t i = 0; i < guarded.size(); ++i) pictures.push_back({angles_of(guarded[i]), turns[i], kGuard});
+    if (pictures != pictures_ || settings.scatter != settings_) {
+        sums_.clear(), elsewhere_.clear(), pictures_.clear();  // before the next ones take their memory
+        const EyeScatter psf = eye_scatter(settings.scatter);
+        for (size_t i = 0; i < pictures.size(); ++i) {
+            sums_.emplace_back(pictures[i].image);
+            elsewhere_.emplace_back(psf, pictures, i);
+        }
+        if (!mapper_ || pictures.size() != views_) mapper_ = std::make_unique<ToneMapper>(device_, pictures.size());
+        pictures_ = pictures, settings_ = settings.scatter, views_ = pictures.size();
+    }
+    for (size_t i = 0; i < frames.size(); ++i) sums_[i].take(frames[i].scene);
+    const std::vector<UnseenLamp> lamps = unseen(frames, pictures_, settings.lamps_elsewhere);
+    std::vector<LightBeyond> beyond;
+    for (const LightElsewhere& elsewhere : elsewhere_) beyond.push_back(elsewhere.of(sums_, lamps));
+    for (size_t i = 0; i < frames.size(); ++i) {
+        Frame& frame = frames[i];
+        if (eye) mapper_->set_eye(*eye);
+        const VkExtent2D extent = guarded[i].extent;
+        ToneMapped seen = mapper_->map(settings, {.extent = extent, .values = frame.scene, .channels = 4, .angles = &pictures_[i].image, .beyond = &beyond[i]}, seconds,
+                                       {.display = false, .retina = true});
+        frame.scene = without_border(seen.scene, extent);
+        frame.extent = {extent.width - 2 * kGuard, extent.height - 2 * kGuard};
+        frame.outside = beside(frame, pictures_[i], settings.lamps_elsewhere);
+        frame.timings.insert(frame.timings.end(), seen.timings.begin(), seen.timings.end());
+        frame.pupil = seen.pupil, frame.pattern_milliseconds = seen.pattern_milliseconds;
+        frame.milliseconds += seen.milliseconds;
+    }
+}
+
+}  // namespace vesper

@@ -1,0 +1,39 @@
+// One eye behind several screens: what each of them scatters in it falls on all. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "perception/light_elsewhere.h"
+#include "renderer.h"
+#include "tone_mapper.h"
+
+namespace vesper {
+
+/// Scatters the light of several pictures in the one eye that sees them, so that the veil of what one of them shows goes on in the others. Its memory of
+/// where light falls is made anew when pictures or eye change; with each pair of pictures it takes some megabytes of the host.
+class ChannelGlare {
+public:
+    explicit ChannelGlare(Device& device) : device_(device) {}
+
+    /// A view with as many more pixels on every side as its glare needs.
+    static View guarded(const View&);
+
+    /// Makes of frames of guarded views, which nothing was scattered in, what falls on the retina where they are shown. `turns`: of each, from its view
+    /// frame to that of the eye. `eye`: what the last frame left; nothing: there was none.
+    void scatter(const RenderSettings&, std::span<const View> guarded, std::span<const glm::dmat3> turns, const std::optional<shared::EyeState>& eye, float seconds,
+                 std::vector<Frame>& frames);
+
+private:
+    Device& device_;
+    ScatterSettings settings_;
+    std::vector<EyePicture> pictures_;
+    std::vector<LightSums> sums_;
+    std::vector<LightElsewhere> elsewhere_;
+    std::unique_ptr<ToneMapper> mapper_;
+    size_t views_ = 0;  // of the mapper
+};
+
+}  // namespace vesper

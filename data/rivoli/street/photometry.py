@@ -23,8 +23,6 @@ def measured_photometry():
     for emitter in document["emitters"]:
         if emitter["name"] == "headlamp":
             emitter["lamp"] = "low beam"
-        if emitter["name"] == "lantern glass":
-            emitter["luminance_cd_m2"] = 12400  # 1572 cd down
     document["surfaces"] = [{"materials": "asphalt*", "reflection_table": "R3", "q0": 0.07}]
     return document
 
@@ -53,8 +51,9 @@ def photometry():
             coloured("green signal", "signal_*/green", 100, (5, 40), _SIGNAL_GREEN, opening=_SIGNAL),
         ],
         "emitters": [
-            # I / A from below, over the 0.126 m^2 and 0.069 m^2 of the glasses.
-            _glass("lantern glass", "lamp_glass", 23700, SODIUM),
+            # As drivers see it, far from the lamp's axis: from below I / A would be 23,700 cd/m^2.
+            _glass("lantern glass", "lamp_glass", 8000, SODIUM),
+            # I / A, over 0.069 m^2 of glass.
             _glass("arcade lantern glass", "arcade_lamp_glass", 3600, 2700),
             # Seen as their lamps' openings: what they show follows from the candela.
             {"name": "headlamp", "materials": "headlamp_glass", "lamp": ["low beam", "ego low beam"]},

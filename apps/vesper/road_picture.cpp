@@ -60,8 +60,8 @@ void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, co
     const double tall = static_cast<double>(kPanelHeight) / (seen.view.tangent_high.y - seen.view.tangent_low.y) /
                         (kPanelWidth / static_cast<double>(seen.view.tangent_high.x - seen.view.tangent_low.x));
     canvas.text(corner + glm::dvec2(0, -14),
-                format("Observer of lane %d: Lav %.3f cd/m\u00b2 calculated, %.3f rendered; points differ by %.2f %% at most", observer.lane,
-                       observer.average_luminance, seen.counted.average_luminance, std::abs(seen.counted.largest_difference)),
+                format("Observer of lane %d: Lav %.3f cd/m\u00b2 calculated, %.3f rendered, points within %.2f %%; here by every luminaire: %.3f", observer.lane,
+                       observer.average_luminance, seen.counted.average_luminance, std::abs(seen.counted.largest_difference), seen.every.average_luminance),
                 13);
     canvas.text(corner + glm::dvec2(kPanelWidth, -14), format("heights \u00d7 %.1f", tall), 13, Canvas::Align::Right);
 }

@@ -16,7 +16,9 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kFinest = 2;              // level at which light from beyond a guard begins: finer ones have no say in what is shown
 constexpr double kNear = 1.0 / 16;      // nodes are taken together that are no further apart than this, times their distance from what is shown:
 constexpr double kFar = 1.0 / 8;        // so wide a tent makes 0.3 % more of a function that falls with the cube of the angle, or 0.5 % with its square
-constexpr int kParts = 8;               // of a pixel, along each axis, of which only some lie beyond a picture
+constexpr int kParts = 8;               // of a pixel, along each axis, that is too large
+constexpr double kInside = 0.01;        // px, from the edge of a picture to where it still is
+constexpr double kUneven = 1e-3;        // of shares under a tent
 constexpr double kWhole = 90, kNone = 100;  // deg
 constexpr double kWidest = 2.5 * kDegree;   // between nodes that are taken together, so that what goes from there to there is straight
 
@@ -70,18 +72,26 @@ struct Shown {
     }
 };
 
-dvec3 middle(const EyePicture& p) { return glm::normalize(p.towards(0.5 * dvec2(p.image.width, p.image.height))); }
+// How far within a picture a direction is, px from the nearest edge; 0: it is not.
+double depth(const EyePicture& p, dvec3 direction) {
+    const dvec3 d = glm::transpose(p.turn) * direction;
+    if (!(d.z < 0)) return 0;
+    const dvec2 at = p.image.pixels_at(dvec2(d) / -d.z), left = glm::min(at, dvec2(p.image.width, p.image.height) - at);
+    return std::max(0.0, std::min(left.x, left.y));
+}
 
-// Of directions that two pictures have: those that count as the first one has them; nothing: none. By what they are, not by their order.
-std::optional<Pyramid> preferred(const EyePicture& p, const EyePicture& to, bool later) {
-    Pyramid both(p);
-    const dvec3 nearer = middle(p) - middle(to);
-    if (glm::length(nearer) > 1e-9) {
-        both.planes.push_back(nearer);
-        return both;
+// How much a direction counts as picture `from` has it, for what `own` takes: beyond the own one, pictures share it by their depths there, so that none begins or
+// ends with a step, which a small lamp would fall through or count twice at. Within the own one, all that it has is there already; but over its guard others take
+// over as its edge comes nearer, and what it has itself counts as much less.
+double share(std::span<const EyePicture> pictures, size_t own, size_t from, dvec3 direction) {
+    double others = 0, here = 0;
+    for (size_t i = 0; i < pictures.size(); ++i) {
+        (i == own ? here : others) += depth(pictures[i], direction);
     }
-    const auto rank = [](const EyePicture& e) { return std::tuple(e.image.pixel().x * e.image.pixel().y, e.image.width, e.image.height, e.turn[0].x, e.turn[0].y); };
-    return rank(p) != rank(to) ? (rank(p) < rank(to) ? std::optional(both) : std::nullopt) : later ? std::nullopt : std::optional(both);
+    if (others == 0) return 0;
+    const double guard = std::max(pictures[own].guard, 1);
+    const double taken = here > 0 ? std::max(0.0, 1 - here / guard) * std::min(1.0, others / guard) : 1;
+    return from == own ? -taken : taken * depth(pictures[from], direction) / others;
 }
 
 // The quartic B-spline, texels from its middle.
@@ -112,12 +122,11 @@ double LightElsewhere::Veil::at(double cosine) const {
 class LightElsewhere::Finder {
 public:
     Finder(const LightElsewhere& to, std::span<const EyePicture> pictures, size_t own, size_t other)
-        : to_(to), from_(pictures[other]), nodes_(from_.image), shown_(Shown::of(to.own_)) {
+        : to_(to), pictures_(pictures), own_(own), from_(pictures[other]), nodes_(from_.image), shown_(Shown::of(to.own_)) {
         giver_.picture = other;
-        not_here_.emplace_back(pictures[own]);
+        bounds_ = {Pyramid(pictures[own]), shown_.pyramid};
         for (size_t k = 0; k < pictures.size(); ++k)
-            if (k != own && k != other)
-                if (const auto there = preferred(pictures[k], from_, k > other)) not_here_.push_back(*there);
+            if (k != own && k != other) bounds_.emplace_back(pictures[k]);
     }
 
     Giver find() {
@@ -146,37 +155,38 @@ private:
     // Whether that is done; else the level below has to.
     bool take(int level, ivec2 node, double weight) {
         const dvec2 step(1 << level), size(from_.image.width, from_.image.height), place = LightNodes::place(level, node);
-        const dvec2 low = glm::max(step * dvec2(node - 1) + 1.0, 0.0), high = glm::min(step * dvec2(node + 1), size);
+        const dvec2 low = glm::max(step * dvec2(node - 1) + 1.0, kInside), high = glm::min(step * dvec2(node + 1), size - kInside);
         const std::array corners{from_.towards(low), from_.towards({high.x, low.y}), from_.towards(high), from_.towards({low.x, high.y})};
-        bool across = false;
-        for (const Pyramid& p : not_here_) {
-            const Lies where = lies(corners, p);
-            if (where == Lies::Inside) return true;
-            across = across || where == Lies::Across;
-        }
-        if (across && level > 0) return false;
         const dvec3 direction = glm::normalize(from_.towards(place));
+        const double part = share_of(direction);
+        if (level > 0) {
+            // One share for all under a tent, or pixel by pixel: tents of different sizes side by side do not keep a slope.
+            if (std::any_of(bounds_.begin(), bounds_.end(), [&](const Pyramid& p) { return lies(corners, p) == Lies::Across; })) return false;
+            if (std::any_of(corners.begin(), corners.end(), [&](dvec3 corner) { return std::abs(share_of(corner) - part) > kUneven; })) return false;
+        }
+        if (part == 0) return true;
         const double distance = shown_.angle_to(direction), apart = spacing(level, place);
         const auto entry = entry_of(direction);
         const double most = entry ? kNear * distance : far_apart(distance);
         if (apart > most && level > 0) return false;
         const uint32_t index = nodes_.index(level, node);
-        // A pixel of another resolution may be too large, and parts of one may not count.
-        const int parts = across ? kParts : std::clamp(int(std::ceil(apart / std::max(most, 1e-9))), 1, kParts);
-        if (level > 0 || parts == 1) {
-            give(index, level, place, direction, weight, distance);
+        // A pixel of another resolution may be too large. Over the guard, where little is to be put right, none is.
+        const bool within = bounds_.front().has(direction);
+        const int parts = level > 0 || within ? 1 : std::clamp(int(std::ceil(apart / std::max(most, 1e-9))), 1, kParts);
+        if (parts == 1) {
+            give(index, level, place, direction, weight * part, distance);
             return true;
         }
         for (int y = 0; y < parts; ++y)
             for (int x = 0; x < parts; ++x) {
-                const dvec2 part = dvec2(node) + (dvec2(x, y) + 0.5) / double(parts);
-                const dvec3 towards = from_.towards(part);
-                const bool counts = std::none_of(not_here_.begin(), not_here_.end(), [&](const Pyramid& p) { return p.has(towards); });
-                if (counts) give(index, 0, part, glm::normalize(towards), weight / (parts * parts), distance);
+                const dvec2 at = dvec2(node) + (dvec2(x, y) + 0.5) / double(parts);
+                const dvec3 towards = glm::normalize(from_.towards(at));
+                if (const double there = share_of(towards); there != 0) give(index, 0, at, towards, weight * there / (parts * parts), distance);
             }
         return true;
     }
 
+    double share_of(dvec3 direction) const { return share(pictures_, own_, giver_.picture, direction); }
     static double far_apart(double distance) { return std::min(kFar * distance, kWidest); }
     // Between nodes of a level at a place, rad.
     double spacing(int level, dvec2 place) const {
@@ -217,10 +227,12 @@ private:
     }
 
     const LightElsewhere& to_;
+    std::span<const EyePicture> pictures_;
+    size_t own_;
     const EyePicture& from_;
     LightNodes nodes_;
     Shown shown_;
-    std::vector<Pyramid> not_here_;  // directions that count as others have them
+    std::vector<Pyramid> bounds_;  // at which shares have kinks; that of the own picture first
     std::map<std::tuple<int, int, int>, uint32_t> columns_;
     Giver giver_;
 };
@@ -229,8 +241,7 @@ LightElsewhere::LightElsewhere(const EyeScatter& psf, std::span<const EyePicture
     : own_(pictures[own]), levels_(scatter_levels(own_.image)), veil_(psf), rows_(scatter_size(own_.image, levels_) + 2 * (kScatterReach + 1)) {
     for (int y = 0; y < rows_.y; ++y)
         for (int x = 0; x < rows_.x; ++x) places_.push_back(glm::normalize(own_.towards(std::exp2(levels_) * (dvec2(x, y) - (kScatterReach + 0.5)))));
-    for (size_t other = 0; other < pictures.size(); ++other)
-        if (other != own) givers_.push_back(Finder(*this, pictures, own, other).find());
+    for (size_t other = 0; other < pictures.size(); ++other) givers_.push_back(Finder(*this, pictures, own, other).find());
 }
 
 LightElsewhere::Splash LightElsewhere::splash(const ScatterEntry& entry) const {

@@ -33,7 +33,8 @@ struct LightBeyond {
 };
 
 /// Finds, for the pictures of one eye, what light of the others one of them takes, once, and then adds it up for every frame.
-/// Every direction counts once: as that picture has it, if it does, or else as that one has it whose middle is nearest. Light falls into the margins of
+/// Every direction counts once: as that picture has it, or where it does not, as the others have it, in proportion to their depths there; over its guard they
+/// take over gradually. Light falls into the margins of
 /// the pyramid at the angle it comes from, or, beyond them, veils by the angle to each texel of the top: all of it up to 90 degrees, none from 100 on.
 class LightElsewhere {
 public:

@@ -39,12 +39,19 @@ Response srgb_response() {
 
 std::array<double, 256> code_precisions(const std::array<double, 256>& g) {
     constexpr int kHalf = 4, kEnd = 32;  // codes: the slope is taken over 2 kHalf
-    constexpr double kLeastSlope = 1e-3;  // a curve rises by more than half of that per code: 255 of them would be a factor of 1.3
+    const auto slope = [&](int z) {
+        const int low = std::max(z - kHalf, 1), high = std::min(z + kHalf, 254);
+        return (g[size_t(high)] - g[size_t(low)]) / (high - low);
+    };
+    // Where a curve that was recovered is flatter than in its middle, that is for want of data, not precision.
+    std::array<double, 128> middle{};
+    for (int i = 0; i < 128; ++i) middle[size_t(i)] = slope(64 + i);
+    std::nth_element(middle.begin(), middle.begin() + 64, middle.end());
+    const double least = std::max(0.5 * middle[64], 1e-3);
     std::array<double, 256> made{};
     for (int z = 1; z < 255; ++z) {
-        const int low = std::max(z - kHalf, 1), high = std::min(z + kHalf, 254);
-        const double slope = std::max((g[size_t(high)] - g[size_t(low)]) / (high - low), kLeastSlope);
-        made[size_t(z)] = std::min(1.0, double(std::min(z, 255 - z)) / kEnd) / (slope * slope);
+        const double s = std::max(slope(z), least);
+        made[size_t(z)] = std::min(1.0, double(std::min(z, 255 - z)) / kEnd) / (s * s);
     }
     return made;
 }

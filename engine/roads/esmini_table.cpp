@@ -194,7 +194,7 @@ void read_table(const std::filesystem::path& file, EsminiRun& run) {
     if (!columns)
         throw Error(one_line(file.string()) +
                     ": is no table of esmini: no line has the columns time, id, name, x, y, z, h of dat2csv, nor those of its CSV logger");
-    if (run.entities.empty()) throw Error(one_line(file.string()) + ": the table has no rows");
+    if (run.entities.empty()) throw Error(one_line(file.string()) + ": no row of the table has all columns of an entity");
     if (!columns->index.contains("speed"))
         for (RunEntity& entity : run.entities) find_speeds(entity);
 }

@@ -8,6 +8,7 @@
 #include <map>
 #include <tuple>
 
+#include "base/srgb.h"
 #include "scene/colour.h"
 #include "scene/light.h"
 #include "scene/reflectance.h"
@@ -35,6 +36,16 @@ std::string stem_of(std::string name) {
 auto group_of(const Light& l) {
     return std::tuple(stem_of(l.name), l.kind, l.intensity, l.colour.r, l.colour.g, l.colour.b, l.inner_cone, l.outer_cone,
                       l.exponent, l.distribution);
+}
+
+/// The greatest luminance of a colour times a picture of sRGB codes, of the colour's unit.
+double largest_luminance(glm::vec3 colour, const Image& image) {
+    std::array<double, 256> linear;
+    for (size_t code = 0; code < linear.size(); ++code) linear[code] = srgb_to_linear(double(code) / 255);
+    double largest = 0;
+    for (size_t i = 0; i < image.rgba.size(); i += 4)
+        largest = std::max(largest, luminance(glm::dvec3(colour) * glm::dvec3(linear[image.rgba[i]], linear[image.rgba[i + 1]], linear[image.rgba[i + 2]])));
+    return largest;
 }
 
 std::vector<PlacedLamp> placed_lamps(const Scene& scene, const std::vector<glm::mat4>& world, SceneReport& report) {
@@ -162,6 +173,8 @@ SceneReport report_scene(const Scene& scene) {
             made.picture = picture.name;
             made.mean_emission = made.emission * luminance(mean_colour(picture));
             made.emission *= largest_luminance(picture);
+        } else if (m.emission_texture.image != kNone) {
+            made.emission = largest_luminance(m.emission, scene.images[m.emission_texture.image]);
         }
         if (m.reflection_table != kNone) made.road_table = scene.reflection_tables[m.reflection_table].name;
         made.area = area;

@@ -205,7 +205,7 @@ TEST_F(ConvertSourcesTest, OwnStreetsAgree) {
         const ConversionReport report = convert(rivoli / (std::string(street) + ".gltf"), rivoli / (std::string(photometry) + ".photometry.json"), folder_ / "own.gltf");
         EXPECT_FALSE(report.changes.empty());
         for (const std::string& warning : report.warnings)
-            if (warning.starts_with("emitter")) EXPECT_TRUE(warning.starts_with("emitter 'lantern glass': 8000 cd/m^2 given")) << photometry << ": " << warning;
+            EXPECT_TRUE(!warning.starts_with("emitter") || warning.starts_with("emitter 'lantern glass': 8000 cd/m^2 given")) << photometry << ": " << warning;
     }
 }
 

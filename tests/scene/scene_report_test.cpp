@@ -90,6 +90,14 @@ TEST(SceneReport, ReflectanceOfATextureIsThroughItsTransfer) {
     EXPECT_NEAR(report_scene(street.scene).materials.at(0).reflectance, 0.25 * 0.21586, 1e-4);
 }
 
+TEST(SceneReport, WhatIsEmittedIsThroughItsTexture) {
+    Street street;
+    street.scene.images.push_back({.name = "pane", .width = 2, .height = 1, .rgba = {128, 128, 128, 255, 0, 0, 0, 255}});
+    street.scene.materials[0].emission = glm::vec3(100);
+    street.scene.materials[0].emission_texture.image = 0;
+    EXPECT_NEAR(report_scene(street.scene).materials.at(0).emission, 21.586, 1e-3);
+}
+
 TEST(SceneReport, WarnsOfLamps) {
     const auto with = [](float candela, glm::vec3 at) {
         Street street;

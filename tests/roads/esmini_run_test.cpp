@@ -222,7 +222,7 @@ TEST_F(EsminiRuns, EventsSetLamps) {
 
 TEST_F(EsminiRuns, ErrorsNameFileAndLine) {
     EXPECT_NE(complaint("a,b,c\n1,2,3\n").find("is no table of esmini"), std::string::npos);
-    EXPECT_NE(complaint(kHeader).find("no rows"), std::string::npos);
+    EXPECT_NE(complaint(kHeader).find("no row of the table"), std::string::npos);
     EXPECT_NE(complaint(kHeader + "0, 0, A, 1, 2\n").find("line 2"), std::string::npos)
         << complaint(kHeader + "0, 0, A, 1, 2\n");
     EXPECT_NE(complaint(kHeader + "0, 0, A, nan, 0, 0, 0, 0, 0, 0, 0, 0\n").find("x 'nan' is no number"),

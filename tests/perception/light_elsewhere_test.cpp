@@ -209,7 +209,7 @@ TEST(LightElsewhere, ALampCrossesASeam) {
     }
 }
 
-// What is far is taken together: two neighbours of 1280 x 800 take 17 MB of the host, one by one their pixels would take 10 GB.
+// What is far is taken together: those of 1280 x 800 take 15 and 18 MB of the host, one by one their pixels would take 10 GB.
 TEST(LightElsewhere, WhatIsFarIsTakenTogether) {
     const EyeScatter psf = eye_scatter({});
     const std::vector<EyePicture> pictures = three({1280, 800});

@@ -34,15 +34,15 @@ struct Pyramid {
     }
 };
 
-enum class Lies : uint8_t { Inside, Outside, Across };
-Lies lies(const std::array<dvec3, 4>& corners, const Pyramid& pyramid) {
+// Whether an edge of the pyramid may lie between the corners.
+bool crosses(const Pyramid& pyramid, const std::array<dvec3, 4>& corners) {
     bool all = true;
     for (const dvec3 n : pyramid.planes) {
         const auto inside = std::count_if(corners.begin(), corners.end(), [&](dvec3 c) { return glm::dot(n, c) > 0; });
-        if (inside == 0) return Lies::Outside;
+        if (inside == 0) return false;
         all = all && inside == 4;
     }
-    return all ? Lies::Inside : Lies::Across;
+    return !all;
 }
 
 double angle(dvec3 a, dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
@@ -85,9 +85,7 @@ double depth(const EyePicture& p, dvec3 direction) {
 // over as its edge comes nearer, and what it has itself counts as much less.
 double share(std::span<const EyePicture> pictures, size_t own, size_t from, dvec3 direction) {
     double others = 0, here = 0;
-    for (size_t i = 0; i < pictures.size(); ++i) {
-        (i == own ? here : others) += depth(pictures[i], direction);
-    }
+    for (size_t i = 0; i < pictures.size(); ++i) (i == own ? here : others) += depth(pictures[i], direction);
     if (others == 0) return 0;
     const double guard = std::max(pictures[own].guard, 1);
     const double taken = here > 0 ? std::max(0.0, 1 - here / guard) * std::min(1.0, others / guard) : 1;
@@ -161,7 +159,7 @@ private:
         const double part = share_of(direction);
         if (level > 0) {
             // One share for all under a tent, or pixel by pixel: tents of different sizes side by side do not keep a slope.
-            if (std::any_of(bounds_.begin(), bounds_.end(), [&](const Pyramid& p) { return lies(corners, p) == Lies::Across; })) return false;
+            if (std::any_of(bounds_.begin(), bounds_.end(), [&](const Pyramid& p) { return crosses(p, corners); })) return false;
             if (std::any_of(corners.begin(), corners.end(), [&](dvec3 corner) { return std::abs(share_of(corner) - part) > kUneven; })) return false;
         }
         if (part == 0) return true;

@@ -64,14 +64,14 @@ void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View>
     std::vector<EyePicture> pictures;
     for (size_t i = 0; i < guarded.size(); ++i) pictures.push_back({angles_of(guarded[i]), turns[i], kGuard});
     if (pictures != pictures_ || settings.scatter != settings_) {
+        if (pictures.size() != pictures_.size()) mapper_ = std::make_unique<ToneMapper>(device_, pictures.size());
         sums_.clear(), elsewhere_.clear(), pictures_.clear();  // before the next ones take their memory
         const EyeScatter psf = eye_scatter(settings.scatter);
         for (size_t i = 0; i < pictures.size(); ++i) {
             sums_.emplace_back(pictures[i].image);
             elsewhere_.emplace_back(psf, pictures, i);
         }
-        if (!mapper_ || pictures.size() != views_) mapper_ = std::make_unique<ToneMapper>(device_, pictures.size());
-        pictures_ = pictures, settings_ = settings.scatter, views_ = pictures.size();
+        pictures_ = pictures, settings_ = settings.scatter;
     }
     for (size_t i = 0; i < frames.size(); ++i) sums_[i].take(frames[i].scene);
     const std::vector<UnseenLamp> lamps = unseen(frames, pictures_, settings.lamps_elsewhere);

@@ -32,8 +32,7 @@ private:
     std::vector<EyePicture> pictures_;
     std::vector<LightSums> sums_;
     std::vector<LightElsewhere> elsewhere_;
-    std::unique_ptr<ToneMapper> mapper_;
-    size_t views_ = 0;  // of the mapper
+    std::unique_ptr<ToneMapper> mapper_;  // for as many views
 };
 
 }  // namespace vesper

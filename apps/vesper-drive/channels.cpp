@@ -48,7 +48,12 @@ Channels read_channels(const std::filesystem::path& file) {
     root.allow_only({"$schema", "version", "gaze", "channels"});
     if (root.at("version").integer() != 1) root.at("version").fail("this version of Vesper reads channels of version 1");
     Channels channels;
-    for (const JsonValue& value : root.at("channels").elements()) channels.screens.push_back(channel_of(value));
+    for (const JsonValue& value : root.at("channels").elements()) {
+        ScreenChannel c = channel_of(value);
+        if (std::any_of(channels.screens.begin(), channels.screens.end(), [&](const ScreenChannel& other) { return other.name == c.name; }))
+            value.at("name").fail("two channels have the name " + one_line(c.name));
+        channels.screens.push_back(std::move(c));
+    }
     if (channels.screens.empty() || channels.screens.size() > kMost) root.at("channels").fail("1 to " + std::to_string(kMost) + " are expected");
     uint64_t pixels = 0;
     for (const ScreenChannel& c : channels.screens) pixels += uint64_t(c.extent.width) * c.extent.height;

@@ -109,6 +109,8 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
     for (size_t i = 0; i < roads.size(); ++i) read_links(reader, roads[i], network.roads[i]);
     for (size_t i = 0; i < junctions.size(); ++i) read_junction(reader, junctions[i], network.junctions[i]);
     check_network(reader, file);
+    if (std::none_of(network.roads.begin(), network.roads.end(), [](const Road& road) { return road.length > 0 && !road.sections.empty(); }))
+        root.fail("none of its roads has lanes");
     network.origin = origin_of(network);
     return network;
 }

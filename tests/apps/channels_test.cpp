@@ -280,6 +280,8 @@ TEST(Channels, FilesAreReadOrRefused) {
                             R"({"version": 1, "channels": [{"name": "a", "size_px": [0, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1}]})"})
         EXPECT_THROW(read_channels(folder.write("bad.json", bad)), Error) << bad;
     const std::string huge = R"({"name": "x", "size_px": [16384, 16384], "left_deg": -20, "right_deg": 20, "bottom_deg": -10, "top_deg": 10})";
+    const std::string one = R"({"name": "x", "size_px": [8, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1})";
+    EXPECT_THROW(read_channels(folder.write("twice.json", R"({"version": 1, "channels": [)" + one + ", " + one + "]}")), Error);
     EXPECT_THROW(read_channels(folder.write("huge.json", R"({"version": 1, "channels": [)" + huge + "]}")), Error);
 }
 

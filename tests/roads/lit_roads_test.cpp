@@ -262,7 +262,7 @@ TEST(LitRoads, TooMuchIsRefused) {
     LitRoadOptions options;
     options.chord = 0;
     EXPECT_THROW(lit_roads(straight(), options), Error);
-    EXPECT_THROW(lit_roads(straight("", 90, "")), Error);
+    EXPECT_THROW(lit_roads({}), Error);
 }
 
 TEST(LitRoads, OfSharedFilesAreSound) {

@@ -41,6 +41,7 @@ TEST(OpenDrive, ErrorsNameFileLineAndReason) {
     EXPECT_NE(complaint("<a/>").find("file.xodr:1: a: the root of an OpenDRIVE file must be OpenDRIVE"),
               std::string::npos);
     EXPECT_NE(complaint(opendrive("")).find("has no road"), std::string::npos);
+    EXPECT_NE(complaint(opendrive("<road id=\"7\" length=\"10\"><planView>" + geometry(0, 0, 0, 0, 10, "<line/>") + "</planView></road>")).find("file.xodr:2: OpenDRIVE: none of its roads has lanes"), std::string::npos);
     EXPECT_NE(
         complaint(opendrive("<road id=\"7\" length=\"10\"/>")).find("file.xodr:4: road: road '7' has no planView"),
         std::string::npos);
@@ -137,7 +138,7 @@ TEST(OpenDrive, WhatBreaksARuleIsReadAndNoted) {
     EXPECT_TRUE(has_note(jump, "the reference line jumps by 3"));
     EXPECT_TRUE(has_note(network_of(road("1", 200, kLine, two_way_section())), "its geometry is 100.0"));
     EXPECT_EQ(network_of(road("1", 200, kLine, two_way_section())).roads[0].length, 100);
-    EXPECT_TRUE(has_note(network_of(road("1", 100, kLine, "")), "has no lanes"));
+    EXPECT_TRUE(has_note(network_of(road("1", 100, kLine, "") + road("2", 100, kLine, two_way_section())), "has no lanes"));
     EXPECT_TRUE(has_note(
         network_of(road("1", 100, kLine, two_way_section(),
                         "<link><successor elementType=\"road\" elementId=\"9\" contactPoint=\"start\"/></link>")),

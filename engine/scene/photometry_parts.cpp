@@ -57,7 +57,8 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
         file.fail(error.what());
     }
     try {
-        sky.environment = scaled(std::move(sky.environment), factor_of(source, sky.environment, white));
+        const double factor = factor_of(source, sky.environment, white);
+        sky.environment = scaled(std::move(sky.environment), factor);
     } catch (const Error& error) {
         source.fail(error.what());
     }

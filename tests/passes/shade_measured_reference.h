@@ -32,12 +32,13 @@ struct Measurements {
 };
 
 /// L / E of a road on the plane facing the lamp, sr^-1: r / cos^2(gamma) (CIE 144:2001), which beyond the table keeps its
-/// last value. beta is drawn to 90 degrees as sight rises from 1.5 to 10 degrees above the road.
-inline double road_coefficient(const ReflectionTable& table, dvec3 n, dvec3 l, dvec3 v) {
+/// last value. beta is drawn to 90 degrees as sight rises from 1.5 to 10 degrees above the road. `beside` is added to the cosine of
+/// the angle between light and sight in plan, to see what its rounding does.
+inline double road_coefficient(const ReflectionTable& table, dvec3 n, dvec3 l, dvec3 v, double beside = 0) {
     const double cosine = glm::dot(n, l), t = std::min(std::sqrt(1 - cosine * cosine) / cosine, table.tan_gamma.back());
     const dvec3 sight = -(v - n * glm::dot(n, v)), light = l - n * cosine;
     double plan = glm::length(sight) * glm::length(light);
-    plan = plan > 0 ? std::clamp(glm::dot(sight, light) / plan, -1.0, 1.0) : 0;
+    plan = plan > 0 ? std::clamp(glm::dot(sight, light) / plan + beside, -1.0, 1.0) : 0;
     const double low = std::sin(glm::radians(1.5)), high = std::sin(glm::radians(10.0));
     const double x = std::clamp((glm::dot(n, v) - low) / (high - low), 0.0, 1.0);
     const double beta = std::acos(plan * (1 - x * x * (3 - 2 * x)));

@@ -20,7 +20,7 @@ std::string png_uri(const std::vector<uint8_t>& rgba) {
 /// A file with a triangle of one material.
 GltfFile with_material(const json& material) {
     GltfFile file;
-    file.root["materials"] = {material};
+    file.root["materials"] = json::array({material});
     const size_t uv0 = file.vec2({0, 0, 1, 0, 0, 1}), uv1 = file.vec2({0.5f, 0.5f, 0.25f, 0.5f, 0, 0});
     file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}, {"TEXCOORD_0", uv0}, {"TEXCOORD_1", uv1}}},
                {"material", 0}});

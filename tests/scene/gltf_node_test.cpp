@@ -97,7 +97,7 @@ TEST(GltfLight, KeepsTheProductOfIntensityAndColour) {
 TEST(GltfLight, ReadsTheVesperBlock) {
     GltfFile file;
     file.root["extensions"] = lights({{{"type", "spot"}, {"intensity", 12000}}});
-    file.root["nodes"] = {light(0)};
+    file.root["nodes"] = json::array({light(0)});
     file.root["extras"]["vesper"] = {{"version", 1},
                                      {"transfer", {{"kind", "gamma"}, {"gamma", 2.2}}},
                                      {"ambient", {{"illuminance_lx", 0.4}, {"colour", {2, 2, 2}}}},
@@ -121,7 +121,7 @@ TEST(GltfLight, ReadsTheVesperBlock) {
 Scene animated(const std::string& path, const std::string& mode, const std::vector<float>& times,
                const std::vector<float>& values, int components) {
     GltfFile file;
-    file.root["nodes"] = {json::object()};
+    file.root["nodes"] = json::array({json::object()});
     const size_t input = file.accessor(times, 5126, "SCALAR", 1);
     const size_t output =
         file.accessor(values, 5126, components == 4 ? "VEC4" : "VEC3", static_cast<size_t>(components));

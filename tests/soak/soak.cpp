@@ -79,7 +79,7 @@ struct Memory {
 class Soak {
 public:
     int run(uint64_t frames) {
-        const uint64_t rounds = std::max<uint64_t>(frames / kRound, 2), warm_up = std::max<uint64_t>(rounds / 10, 1);
+        const uint64_t rounds = std::max<uint64_t>((frames + kRound - 1) / kRound, 2), warm_up = std::max<uint64_t>(rounds / 10, 1);
         Memory warm, after;
         std::printf("%9s %14s %12s %12s %9s\n", "frames", "resident, MiB", "used, MiB", "device, MiB", "messages");
         for (uint64_t round = 0; round < rounds; ++round) {

@@ -33,8 +33,8 @@ if ((${#missing[@]})); then
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 fi
 
-# build_preset NAME: configures and builds; quick when nothing has changed.
+# build_preset NAME [SETTING...]: configures and builds; quick when nothing has changed.
 build_preset() {
-    cmake --preset "$1" >/dev/null
+    cmake --preset "$@" >/dev/null
     cmake --build --preset "$1"
 }

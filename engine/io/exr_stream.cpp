@@ -76,8 +76,12 @@ void see_exr_attributes(std::span<const uint8_t> bytes, const std::function<void
         rest = rest.subspan(length + 1);
         return made;
     };
+    // Where one of these is missing OpenEXR 3.1 takes what a new picture would have, 64 x 64 pixels.
+    constexpr std::string_view kRequired[] = {"channels", "compression", "dataWindow", "displayWindow"};
     do {
+        bool has[std::size(kRequired)]{};
         for (std::string_view name = text(); !name.empty(); name = text()) {
+            if (const auto required = std::ranges::find(kRequired, name); required != std::end(kRequired)) has[required - kRequired] = true;
             const std::string_view type = text();
             if (rest.size() < 4 || exr_word(rest, 0) > rest.size() - 4) throw cut_off();
             const size_t size = exr_word(rest, 0);
@@ -85,6 +89,8 @@ void see_exr_attributes(std::span<const uint8_t> bytes, const std::function<void
             see(name, rest.subspan(4, size));
             rest = rest.subspan(4 + size);
         }
+        for (size_t i = 0; i < std::size(has); ++i)
+            if (!has[i]) throw Error("its header has no '" + std::string(kRequired[i]) + "'");
         if (parts && rest.empty()) throw cut_off();
     } while (parts && rest.front() != 0);
 }

@@ -35,6 +35,8 @@ void limit_openexr() {
     static_cast<void>(limited);
 }
 
+constexpr int64_t kMostUncovered = int64_t{1} << 25;  // px that no data fill: a picture of 8K; files of some bytes must not ask for more
+
 struct Window {
     int64_t x0, y0, x1, y1;  // inclusive
     explicit Window(const Imath::Box2i& box) : x0(box.min.x), y0(box.min.y), x1(box.max.x), y1(box.max.y) {}
@@ -167,6 +169,9 @@ HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, con
     const Window data(exr.dataWindow()), display(exr.displayWindow());
     check_size("OpenEXR: data window", data.width(), data.height(), limits);
     check_size("OpenEXR: display window", display.width(), display.height(), limits);
+    if (display.width() * display.height() - data.width() * data.height() > kMostUncovered)
+        throw Error("OpenEXR: its data cover " + std::to_string(data.width()) + " x " + std::to_string(data.height()) + " pixels of a picture of " +
+                    std::to_string(display.width()) + " x " + std::to_string(display.height()) + "; at most " + std::to_string(kMostUncovered) + " may be left black");
     if (exr.hasTileDescription())
         check_size("OpenEXR: tile", exr.tileDescription().xSize, exr.tileDescription().ySize,
                    {limits.max_side, std::min(limits.max_pixels, uint64_t{1} << 24)});

@@ -16,12 +16,21 @@ std::string_view local_part(std::string_view name) {
     return colon == name.npos ? name : name.substr(colon + 1);
 }
 
+/// Which byte of a unit of UTF-16 comes first; neither: UTF-8.
+struct Encoding {
+    bool low_first, high_first;
+    explicit Encoding(std::string_view text) {
+        const auto begins = [&](const char (&with)[3]) { return text.starts_with(std::string_view(with, 2)); };
+        low_first = begins("\xFF\xFE") || begins("<\0"), high_first = begins("\xFE\xFF") || begins("\0<");
+    }
+    bool is_utf8() const { return !low_first && !high_first; }
+};
+
 /// Where lines begin in the UTF-8 that the parser makes of a text, which may be UTF-16.
 std::vector<uint32_t> line_starts_of(std::string_view text) {
     std::vector<uint32_t> starts{0};
-    const auto begins = [&](const char (&with)[3]) { return text.starts_with(std::string_view(with, 2)); };
-    const bool low_first = begins("\xFF\xFE") || begins("<\0"), high_first = begins("\xFE\xFF") || begins("\0<");
-    if (!low_first && !high_first) {
+    const Encoding encoding(text);
+    if (encoding.is_utf8()) {
         for (size_t i = 0; i < text.size(); ++i)
             if (text[i] == '\n') starts.push_back(static_cast<uint32_t>(i + 1));
         return starts;
@@ -29,22 +38,45 @@ std::vector<uint32_t> line_starts_of(std::string_view text) {
     uint32_t at = 0;
     for (size_t i = 0; i + 1 < text.size(); i += 2) {
         const auto byte = [&](size_t k) { return static_cast<uint32_t>(static_cast<unsigned char>(text[i + k])); };
-        const uint32_t unit = low_first ? byte(0) | byte(1) << 8 : byte(1) | byte(0) << 8;
+        const uint32_t unit = encoding.low_first ? byte(0) | byte(1) << 8 : byte(1) | byte(0) << 8;
         at += unit < 0x80 ? 1 : unit < 0x800 || (unit & 0xF800) == 0xD800 ? 2 : 3;  // half of a pair: half of four
         if (unit == '\n') starts.push_back(at);
     }
     return starts;
 }
 
+/// The node after this one in the order of the file, below a root.
+pugi::xml_node next_in(pugi::xml_node root, pugi::xml_node node) {
+    if (const pugi::xml_node child = node.first_child()) return child;
+    while (node != root && !node.next_sibling()) node = node.parent();
+    return node == root ? pugi::xml_node() : node.next_sibling();
+}
+
 }  // namespace
 
 XmlFile::XmlFile(std::string_view text, const std::string& name) : name_(one_line(name)) {
     line_starts_ = line_starts_of(text);
-    const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
+    const auto refuse = [&](ptrdiff_t offset, const std::string& reason) { throw Error(name_ + ":" + std::to_string(line_of(offset)) + ": is no XML: " + reason); };
+    const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
     if (!result) {
         std::string reason = result.description();
         if (!reason.empty()) reason[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(reason[0])));
-        throw Error(name_ + ":" + std::to_string(line_of(result.offset)) + ": is no XML: " + reason);
+        refuse(result.offset, reason);
+    }
+    // What the parser lets pass (XML 1.0, 2.1, 2.2 and 3.1). Of a fragment it keeps text beside the root.
+    if (const size_t nul = text.find('\0'); Encoding(text).is_utf8() && nul != text.npos) refuse(static_cast<ptrdiff_t>(nul), "a NUL");
+    const pugi::xml_node root = document_.document_element();
+    if (!root) refuse(0, "no document element found");
+    for (const pugi::xml_node node : document_.children()) {
+        if (node.type() == pugi::node_element && node != root) refuse(node.offset_debug(), "a second root");
+        if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) refuse(node.offset_debug(), "text beside the root");
+    }
+    std::vector<std::string_view> names;
+    for (pugi::xml_node node = root; node; node = next_in(root, node)) {
+        names.clear();
+        for (const pugi::xml_attribute attribute : node.attributes()) names.emplace_back(attribute.name());
+        std::sort(names.begin(), names.end());
+        if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end()) refuse(node.offset_debug(), "the attribute " + vesper::quoted(std::string(*twice)) + " is there twice");
     }
 }
 
@@ -82,11 +114,13 @@ std::vector<XmlElement> XmlElement::children_of(std::string_view holder, std::st
 }
 
 std::optional<std::string_view> XmlElement::attribute(std::string_view name) const {
+    const auto found = given(name);
+    return found && !found->empty() ? found : std::nullopt;
+}
+
+std::optional<std::string_view> XmlElement::given(std::string_view name) const {
     for (const pugi::xml_attribute attribute : node_.attributes())
-        if (local_part(attribute.name()) == name) {
-            const std::string_view text = trimmed(attribute.value());
-            return text.empty() ? std::nullopt : std::optional(text);
-        }
+        if (local_part(attribute.name()) == name) return trimmed(attribute.value());
     return std::nullopt;
 }
 
@@ -102,7 +136,9 @@ std::string XmlElement::text_or(std::string_view name, const std::string& fallba
 }
 
 double XmlElement::number(std::string_view name, double low, double high) const {
-    const std::string whole = text(name);
+    const auto found = given(name);
+    if (!found) fail(std::string(name) + " is missing");
+    const std::string whole(*found);
     const auto value = number_of(whole, false);
     if (!value) fail(std::string(name) + " " + vesper::quoted(whole) + " is no number");
     if (*value < low || *value > high) fail(std::string(name) + " " + vesper::quoted(whole) + " is out of range");
@@ -110,7 +146,7 @@ double XmlElement::number(std::string_view name, double low, double high) const 
 }
 
 double XmlElement::number_or(std::string_view name, double fallback, double low, double high) const {
-    return attribute(name) ? number(name, low, high) : fallback;
+    return given(name) ? number(name, low, high) : fallback;
 }
 
 int XmlElement::integer(std::string_view name, int low, int high) const {

@@ -34,7 +34,7 @@ public:
     std::optional<std::string_view> attribute(std::string_view name) const;
     std::string text(std::string_view name) const;
     std::string text_or(std::string_view name, const std::string& fallback) const;
-    /// Finite numbers.
+    /// Finite numbers. An empty one is none.
     double number(std::string_view name, double low = -kMaxNumber, double high = kMaxNumber) const;
     double number_or(std::string_view name, double fallback, double low = -kMaxNumber, double high = kMaxNumber) const;
     int integer(std::string_view name, int low, int high) const;
@@ -45,6 +45,9 @@ public:
     [[noreturn]] void fail(const std::string& reason) const;
 
 private:
+    /// As attribute, but empty where it is.
+    std::optional<std::string_view> given(std::string_view name) const;
+
     const XmlFile* file_;
     pugi::xml_node node_;
 };

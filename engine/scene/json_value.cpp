@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/limits.h"
 #include "io/atomic_file.h"
+#include "scene/json_text.h"
 
 namespace vesper {
 namespace {
@@ -44,18 +45,12 @@ void check_size(std::span<const uint8_t> text, const std::string& name) {
     }
 }
 
-std::string escaped(std::string_view key) {
-    std::string token;
-    for (const char c : key) token += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
-    return token;
-}
-
 /// The JSON pointer from `here` to the value at an address; depth is bounded by parse_json.
 std::optional<std::string> pointer_to(const nlohmann::json& here, const nlohmann::json* wanted) {
     if (&here == wanted) return "";
     if (here.is_object()) {
         for (const auto& [key, member] : here.items())
-            if (auto rest = pointer_to(member, wanted)) return "/" + escaped(key) + *rest;
+            if (auto rest = pointer_to(member, wanted)) return "/" + json_pointer_token(key) + *rest;
     } else if (here.is_array()) {
         for (size_t i = 0; i < here.size(); ++i)
             if (auto rest = pointer_to(here[i], wanted)) return "/" + std::to_string(i) + *rest;
@@ -83,8 +78,13 @@ JsonFile::~JsonFile() { empty(root); }
 JsonFile parse_json(std::span<const uint8_t> text, const std::string& name) {
     const std::string file = one_line(name);
     check_size(text, file);
+    refuse_text_behind_nul(text, file);
     try {
-        return JsonFile(file, nlohmann::json::parse(text.begin(), text.end()));
+        UniqueKeys keys(file);
+        return JsonFile(file, nlohmann::json::parse(text.begin(), text.end(), [&](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+            keys.see(event, value);
+            return true;
+        }));
     } catch (const nlohmann::json::parse_error& error) {
         throw Error(file + ": byte " + std::to_string(error.byte) + ": not valid JSON");
     } catch (const nlohmann::json::exception& error) {  // a number beyond double

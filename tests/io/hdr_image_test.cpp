@@ -304,6 +304,30 @@ TEST(HdrExr, RefusesDeepPicturesOtherFilesAndLargeOnes) {
     EXPECT_THROW(read_radiance(folder / "x.exr"), Error);
 }
 
+// OpenEXR 3.1 would take what a new picture has: 64 x 64 pixels.
+TEST(HdrExr, WhatAHeaderMustHaveIsThere) {
+    const TempFolder folder;
+    write(folder / "x.exr", Imf::Header(9, 5), ramp(9, 5));
+    const std::vector<uint8_t> whole = read_file(folder / "x.exr", 1 << 20);
+    for (const std::string name : {"channels", "compression", "dataWindow", "displayWindow"}) {
+        std::vector<uint8_t> other = whole;
+        const std::string mark = name + '\0';
+        const auto found = std::search(other.begin(), other.end(), mark.begin(), mark.end());
+        ASSERT_NE(found, other.end()) << name;
+        *found = 'x';
+        replace_file(folder / "other.exr", other);
+        EXPECT_TRUE(contains(refusal(folder / "other.exr"), "its header has no '" + name + "'")) << name;
+    }
+}
+
+TEST(HdrExr, FewDataFillNoHugePicture) {
+    const TempFolder folder;
+    Imf::Header header(32768, 8001);
+    header.dataWindow() = {{0, 0}, {3, 2}};
+    write(folder / "x.exr", header, ramp(4, 3));
+    EXPECT_TRUE(contains(refusal(folder / "x.exr"), "its data cover 4 x 3 pixels"));
+}
+
 // OpenEXR reads a value by its type and goes on after that, wherever the file says that it ends: what it then takes for the next one's size
 // may be gigabytes.
 TEST(HdrExr, ValuesInHeadersAreAsLongAsTheirTypes) {

@@ -38,6 +38,14 @@ bool has_note(const RoadNetwork& network, const std::string& what) {
 TEST(OpenDrive, ErrorsNameFileLineAndReason) {
     EXPECT_NE(complaint("<OpenDRIVE><road").find("file.xodr:1: is no XML"), std::string::npos);
     EXPECT_NE(complaint("").find("is no XML"), std::string::npos);
+    const std::string sound = opendrive(road("1", 100, kLine, two_way_section()));
+    EXPECT_EQ(complaint(sound), "");
+    EXPECT_EQ(complaint(sound + "\n<!-- the end -->\n"), "");
+    EXPECT_NE(complaint(sound + "\n<OpenDRIVE/>").find("is no XML: a second root"), std::string::npos);
+    EXPECT_NE(complaint(sound + "more").find("is no XML: text beside the root"), std::string::npos);
+    EXPECT_NE(complaint(sound + '\0' + sound).find("is no XML: a NUL"), std::string::npos);
+    EXPECT_NE(complaint("<OpenDRIVE>\n<road id=\"1\"\nid=\"2\"/></OpenDRIVE>").find("file.xodr:2: is no XML: the attribute 'id' is there twice"), std::string::npos);
+    EXPECT_NE(complaint_of_plan("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\" \" length=\"100\"><line/></geometry>").find("hdg '' is no number"), std::string::npos);
     EXPECT_NE(complaint("<a/>").find("file.xodr:1: a: the root of an OpenDRIVE file must be OpenDRIVE"),
               std::string::npos);
     EXPECT_NE(complaint(opendrive("")).find("has no road"), std::string::npos);

@@ -115,10 +115,10 @@ std::string place_of(const DriveEvent& event) { return "/events/" + std::to_stri
 // Takes events as they are parsed, so that a long drive is never in memory as JSON, and gives back the rest of the file.
 class DriveParser {
 public:
-    DriveParser(const std::string& name, Drive& drive) : name_(name), keys_(name), drive_(drive) {}
+    DriveParser(std::string name, Drive& drive) : name_(std::move(name)), drive_(drive) {}
 
     JsonFile parse(std::span<const uint8_t> text) {
-        refuse_text_behind_nul(text, name_);
+        check_json_text(text, name_);
         try {
             std::ignore = json::parse(text.begin(), text.end(), [this](int depth, json::parse_event_t at, json& value) { return take(depth, at, value); });
         } catch (const json::parse_error& error) {
@@ -139,7 +139,6 @@ private:
     bool take(int depth, json::parse_event_t at, json& value) {
         using Event = json::parse_event_t;
         if (depth > kMostDepth || ++values_ > kMostValues) throw Error(name_ + ": /" + one_line(key_) + ": has more in it than a drive has");
-        keys_.see(at, value);
         if (depth == 1 && at == Event::key) key_ = value.get<std::string>();
         const bool ends = at == Event::value || at == Event::object_end || at == Event::array_end;
         if (depth == 1 && ends) rest_[key_] = std::move(value);
@@ -151,7 +150,6 @@ private:
     }
 
     std::string name_;
-    UniqueKeys keys_;
     Drive& drive_;
     json rest_;
     std::string key_;  // of the root, where the parser is

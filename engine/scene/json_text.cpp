@@ -1,17 +1,80 @@
 #include "scene/json_text.h"
 
 #include <algorithm>
+#include <set>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "io/atomic_file.h"
 
 namespace vesper {
+namespace {
 
-void refuse_text_behind_nul(std::span<const uint8_t> text, const std::string& file) {
-    const auto nul = std::find(text.begin(), text.end(), uint8_t{0});
-    if (std::any_of(nul, text.end(), [](uint8_t byte) { return byte != 0; }))
-        throw Error(file + ": byte " + std::to_string(nul - text.begin() + 1) + ": not valid JSON: a NUL");
-}
+using nlohmann::json;
+
+constexpr size_t kMostDepth = 200, kMostKeys = 1'000'000;  // of an object
+
+/// Follows a parser from key to key.
+class UniqueKeys {
+public:
+    explicit UniqueKeys(std::string file) : file_(std::move(file)) {}
+
+    bool key(std::string& name) {
+        Level& object = levels_.back();
+        object.key = name;
+        if (!object.keys.insert(std::move(name)).second) fail("is there twice");
+        if (object.keys.size() > kMostKeys) fail("is beyond the " + std::to_string(kMostKeys) + " keys that an object may have");
+        return true;
+    }
+    bool start_object(size_t) { return start(false); }
+    bool start_array(size_t) { return start(true); }
+    bool end_object() { return end(); }
+    bool end_array() { return end(); }
+    bool null() { return value(); }
+    bool boolean(bool) { return value(); }
+    bool number_integer(json::number_integer_t) { return value(); }
+    bool number_unsigned(json::number_unsigned_t) { return value(); }
+    bool number_float(json::number_float_t, const std::string&) { return value(); }
+    bool string(std::string&) { return value(); }
+    bool binary(json::binary_t&) { return value(); }
+    bool parse_error(size_t, const std::string&, const json::exception&) { return false; }
+
+private:
+    // An object or an array that the parser is in.
+    struct Level {
+        bool array;
+        size_t index;
+        std::string key;
+        std::set<std::string> keys;
+    };
+
+    bool start(bool array) {
+        if (levels_.size() == kMostDepth) throw Error(file_ + ": JSON nested deeper than " + std::to_string(kMostDepth));
+        levels_.push_back({array, 0, {}, {}});
+        return true;
+    }
+    bool end() {
+        levels_.pop_back();
+        return value();
+    }
+    bool value() {
+        if (!levels_.empty()) ++levels_.back().index;
+        return true;
+    }
+
+    [[noreturn]] void fail(const std::string& reason) const {
+        std::string pointer;
+        for (const Level& level : levels_) pointer += "/" + (level.array ? std::to_string(level.index) : json_pointer_token(level.key));
+        throw Error(file_ + ": " + one_line(pointer) + ": " + reason);
+    }
+
+    std::string file_;
+    std::vector<Level> levels_;
+};
+
+}  // namespace
 
 std::string json_pointer_token(std::string_view key) {
     std::string token;
@@ -19,21 +82,12 @@ std::string json_pointer_token(std::string_view key) {
     return token;
 }
 
-void UniqueKeys::see(nlohmann::json::parse_event_t event, const nlohmann::json& value) {
-    using Event = nlohmann::json::parse_event_t;
-    if (event == Event::object_start || event == Event::array_start) {
-        levels_.push_back({.array = event == Event::array_start, .key = {}, .keys = {}});
-    } else if (event == Event::key) {
-        Level& object = levels_.back();
-        object.key = value.get<std::string>();
-        if (object.keys.insert(object.key).second) return;
-        std::string pointer;
-        for (const Level& level : levels_) pointer += "/" + (level.array ? std::to_string(level.index) : json_pointer_token(level.key));
-        throw Error(file_ + ": " + one_line(pointer) + ": is there twice");
-    } else {
-        if (event != Event::value) levels_.pop_back();
-        if (!levels_.empty() && levels_.back().array) ++levels_.back().index;
-    }
+void check_json_text(std::span<const uint8_t> text, const std::string& file) {
+    const auto nul = std::find(text.begin(), text.end(), uint8_t{0});
+    if (std::any_of(nul, text.end(), [](uint8_t byte) { return byte != 0; }))
+        throw Error(file + ": byte " + std::to_string(nul - text.begin() + 1) + ": not valid JSON: a NUL");
+    UniqueKeys keys(file);
+    json::sax_parse(text.begin(), text.end(), &keys);
 }
 
 }  // namespace vesper

@@ -78,13 +78,9 @@ JsonFile::~JsonFile() { empty(root); }
 JsonFile parse_json(std::span<const uint8_t> text, const std::string& name) {
     const std::string file = one_line(name);
     check_size(text, file);
-    refuse_text_behind_nul(text, file);
+    check_json_text(text, file);
     try {
-        UniqueKeys keys(file);
-        return JsonFile(file, nlohmann::json::parse(text.begin(), text.end(), [&](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
-            keys.see(event, value);
-            return true;
-        }));
+        return JsonFile(file, nlohmann::json::parse(text.begin(), text.end()));
     } catch (const nlohmann::json::parse_error& error) {
         throw Error(file + ": byte " + std::to_string(error.byte) + ": not valid JSON");
     } catch (const nlohmann::json::exception& error) {  // a number beyond double

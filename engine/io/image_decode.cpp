@@ -2,6 +2,7 @@
 // functions that call setjmp. SPDX-License-Identifier: MIT
 #include "io/image_file.h"
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -118,11 +119,15 @@ void jpeg_message(j_common_ptr jpeg, int level) {
 }
 
 void jpeg_progress(j_common_ptr jpeg) {
-    // Some kilobytes can ask for thousands of passes over a large picture.
-    if (jpeg->is_decompressor && reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > 500) {
-        std::snprintf(static_cast<Job*>(jpeg->client_data)->reason, JMSG_LENGTH_MAX, "more than 500 scans");
-        std::longjmp(static_cast<Job*>(jpeg->client_data)->escape, 1);
-    }
+    // Some kilobytes can ask for thousands of passes over a large picture; encoders make some ten.
+    constexpr uint64_t kMostScans = 500, kMostOfTheLargest = 16, kLargest = uint64_t{1} << 28;
+    if (!jpeg->is_decompressor) return;
+    Job& job = *static_cast<Job*>(jpeg->client_data);
+    const auto& reading = *reinterpret_cast<j_decompress_ptr>(jpeg);
+    const auto scans = static_cast<uint64_t>(std::max(reading.input_scan_number, 0));
+    if (scans <= kMostScans && scans * reading.image_width * reading.image_height <= kMostOfTheLargest * std::min(job.max_texels, kLargest)) return;
+    std::snprintf(job.reason, JMSG_LENGTH_MAX, "%llu scans are too many for its size", static_cast<unsigned long long>(scans));
+    std::longjmp(job.escape, 1);
 }
 
 void expand_row(const uint8_t* row, int components, bool inverted, std::span<uint8_t> rgba) {

@@ -140,6 +140,19 @@ TEST(ImageFile, RefusesWhatIsTooLarge) {
     EXPECT_THROW(decode_image(bomb, 16384), Error);
 }
 
+// Scans of nothing take some bytes each, and as long to read as others.
+TEST(ImageFile, ScansAreBoundedByThePicturesThatMayBe) {
+    const Codes grey(16 * 16, 90), jpeg = jpeg_of(16, 16, 1, JCS_GRAYSCALE, grey, {}, false, 40);
+    EXPECT_EQ(decode_image(jpeg, 16).rgba.size(), 16u * 16 * 4);
+    EXPECT_EQ(decode_image(jpeg, 16, 1000).rgba.size(), 16u * 16 * 4);
+    try {
+        decode_image(jpeg, 16, 256);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("17 scans are too many"), std::string::npos) << error.what();
+    }
+}
+
 TEST(ImageFile, SurvivesCutAndChangedFiles) {
     Codes noise(16 * 16 * 3);
     uint32_t state = 1;

@@ -130,4 +130,42 @@ TEST(Layering, EveryTestOfAPassHasAReference) {
     }
 }
 
+/// The types that a file defines outside of anonymous namespaces, with their namespaces.
+std::vector<std::string> types_of(const std::string& text) {
+    static const std::regex line(R"((?:^|\n)(?:namespace ([\w:]*) ?\{|\}  // (namespace)|(?:template <[^\n]*>\n?)?(?:struct|class|enum|enum class|union) (\w+)(?: final)?(?: :[^:\n][^\n;]*)? \{))");
+    std::vector<std::string> inside, found;
+    // Matches begin with the end of the line before: one at a time, that none is passed over.
+    for (auto at = text.begin(); at != text.end();) {
+        std::smatch match;
+        if (!std::regex_search(at, text.end(), match, line)) break;
+        if (match[3].matched) {
+            std::string name;
+            for (const std::string& space : inside) name += (space.empty() ? "<anonymous>" : space) + "::";
+            if (name.find("<anonymous>") == name.npos) found.push_back(name + match[3].str());
+        } else if (match[2].matched) {
+            if (!inside.empty()) inside.pop_back();
+        } else {
+            inside.push_back(match[1]);
+        }
+        at = match[0].second;
+    }
+    return found;
+}
+
+// Two types of one name and namespace are one to the linker: it takes the functions of either for both.
+TEST(Layering, NoTypeIsDefinedTwice) {
+    EXPECT_EQ(types_of("namespace a {\nnamespace {\nstruct X {\n};\n}  // namespace\nstruct Y : Z {\nenum class E { f };\n}  // namespace a\nclass V;\nstruct W {"),
+              (std::vector<std::string>{"a::Y", "a::E", "W"}));
+    std::map<std::string, fs::path> defined;
+    for (const char* folder : {"engine", "apps", "tests"})
+        for (const fs::path& file : files_under(kSource / folder, {".h", ".cpp"})) {
+            if (fs::relative(file, kSource / "apps").begin()->string() == "examples") continue;  // programs of their own
+            for (const std::string& type : types_of(text_of(file))) {
+                const auto [other, is_new] = defined.emplace(type, file);
+                EXPECT_TRUE(is_new) << type << " is defined in " << other->second << " and in " << file;
+            }
+        }
+    EXPECT_GT(defined.size(), 300u);
+}
+
 }  // namespace

@@ -46,7 +46,7 @@ void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, co
     draw_contours(canvas, picture, levels, corner);
     const Panel panel{seen.view, corner, {kPanelWidth, kPanelHeight}};
     outline_field(canvas, panel, road);
-    for (const RoadPoint& point : result.points) {
+    for (const FieldPoint& point : result.points) {
         canvas.disc(panel.at({point.x, point.y, 0}), 2.5, Colour(1));
         canvas.disc(panel.at({point.x, point.y, 0}), 1.5, Colour(0));
     }

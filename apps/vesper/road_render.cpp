@@ -110,7 +110,7 @@ GlareReport read_glare(const RoadLayout& road, const RoadObserver& observer, Dev
     return report_glare(image, frame.scene, beside, {.eye = {road.age}, .gaze = sight, .source_luminance = 0, .average_luminance = average});
 }
 
-double read_point(const std::vector<float>& rgba, const View& view, const RoadPoint& point) {
+double read_point(const std::vector<float>& rgba, const View& view, const FieldPoint& point) {
     return luminance_at(rgba, view.extent, project(view, {point.x, point.y, 0}));
 }
 
@@ -129,7 +129,7 @@ std::string worst_line(const RoadResult& result, const RenderedRoad& rendered, R
         if (std::abs(reading.largest_difference) > std::abs(worst->largest_difference)) worst = &reading;
         if (std::abs(reading.average_difference) > std::abs(average)) average = reading.average_difference;
     }
-    const RoadPoint& at = result.points[worst->largest_at];
+    const FieldPoint& at = result.points[worst->largest_at];
     return format("%+.2f %% at x = %.2f m, y = %.2f m; of Lav: %+.2f %%\n", worst->largest_difference, at.x, at.y, average);
 }
 
@@ -145,7 +145,7 @@ RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const
         seen.view = road_view(road, result.observers[i]);
         seen.rgba = whole.render(seen.view);
         seen.longest_pixel = depth_of_pixel(seen.view, result.observers[i], result.field.x.back());
-        for (const RoadPoint& point : result.points) seen.every.luminance.push_back(read_point(seen.rgba, seen.view, point));
+        for (const FieldPoint& point : result.points) seen.every.luminance.push_back(read_point(seen.rgba, seen.view, point));
         seen.counted.luminance.resize(result.points.size());
         made.observers.push_back(std::move(seen));
         if (result.observers[i].average_luminance < result.observers[made.darkest].average_luminance) made.darkest = i;

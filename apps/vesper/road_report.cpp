@@ -109,7 +109,7 @@ std::string grid_text_of(const RoadResult& result) {
         for (size_t row = result.field.y.size(); row-- > 0;) {
             text += format("\n %7.3f", result.field.y[row]);
             for (size_t i = 0; i < columns; ++i) {
-                const RoadPoint& point = result.points[row * columns + i];
+                const FieldPoint& point = result.points[row * columns + i];
                 text += table == 0 ? format(" %7.2f", point.illuminance) : format(" %7.3f", point.luminance[table - 1]);
             }
         }
@@ -125,7 +125,7 @@ std::string csv_of(const RoadLayout& road, const RoadResult& result, const Rende
     if (rendered)
         for (const RoadObserver& o : result.observers) text += format(",L_lane%d_rendered_cd_m2", o.lane);
     for (size_t i = 0; i < result.points.size(); ++i) {
-        const RoadPoint& point = result.points[i];
+        const FieldPoint& point = result.points[i];
         text += format("\n%.4f,%.4f,%.6g", point.x, point.y, point.illuminance);
         for (const double luminance : point.luminance) text += format(",%.6g", luminance);
         if (!rendered) continue;
@@ -153,7 +153,7 @@ std::string json_of(const RoadLayout& road, const RoadResult& result, const Ligh
                                      {"threshold_increment_percent", o.threshold_increment},
                                      {"veiling_luminance_cd_m2", o.veil},
                                      {"glare_eye_m", {o.glare_eye.x, o.glare_eye.y, o.glare_eye.z}}});
-    for (const RoadPoint& p : result.points)
+    for (const FieldPoint& p : result.points)
         json["points"].push_back(
             {{"x_m", p.x}, {"y_m", p.y}, {"illuminance_lx", p.illuminance}, {"luminance_cd_m2", p.luminance}});
     if (rendered) {

@@ -45,7 +45,7 @@ void find_worst_glare(const RoadLayout& road, std::span<const RoadLuminaire> lam
 /// Averages and uniformities of what one observer sees; his lane's middle is the middle one of its three rows.
 void summarise(const RoadLayout& road, const RoadResult& result, size_t index, RoadObserver& observer) {
     double sum = 0, least = HUGE_VAL, lane_least = HUGE_VAL, lane_greatest = 0;
-    for (const RoadPoint& point : result.points) {
+    for (const FieldPoint& point : result.points) {
         const double value = point.luminance[index];
         sum += value;
         least = std::min(least, value);
@@ -62,7 +62,7 @@ void summarise(const RoadLayout& road, const RoadResult& result, size_t index, R
 void summarise_illuminance(const RoadLayout& road, std::span<const RoadLuminaire> lamps, RoadResult& result) {
     double sum = 0;
     result.minimum_illuminance = HUGE_VAL;
-    for (const RoadPoint& point : result.points) {
+    for (const FieldPoint& point : result.points) {
         sum += point.illuminance;
         result.minimum_illuminance = std::min(result.minimum_illuminance, point.illuminance);
     }
@@ -146,7 +146,7 @@ RoadResult calculate_road(const RoadLayout& road) {
 
     for (const double y : result.field.y)
         for (const double x : result.field.x) {
-            RoadPoint point{x, y, horizontal_illuminance(road, lamps, {x, y}), {}};
+            FieldPoint point{x, y, horizontal_illuminance(road, lamps, {x, y}), {}};
             for (const RoadObserver& o : result.observers)
                 point.luminance.push_back(road_luminance(road, lamps, {x, y}, {o.eye.x, o.eye.y}));
             result.points.push_back(std::move(point));

@@ -98,7 +98,8 @@ constexpr double kGlareRange = 500;
 /// TI, %: 65 Lv / Lav^0.8, above 5 cd/m^2 95 Lv / Lav^1.05 (CIE 140; EN 13201-3, 8.5).
 double threshold_increment(double veil, double average_luminance);
 
-struct RoadPoint {
+/// A point of the field that is calculated (EN 13201-3, 7.1).
+struct FieldPoint {
     double x = 0, y = 0;            ///< m
     double illuminance = 0;         ///< E_h, lx
     std::vector<double> luminance;  ///< for each observer, cd/m^2
@@ -121,7 +122,7 @@ std::vector<RoadObserver> road_observers(const RoadLayout&);
 
 struct RoadResult {
     RoadField field;
-    std::vector<RoadPoint> points;  ///< field.x.size() for each field.y
+    std::vector<FieldPoint> points;  ///< field.x.size() for each field.y
     std::vector<RoadObserver> observers;
     // The worst of the observers.
     double average_luminance = 0, overall_uniformity = 0, lengthwise_uniformity = 0, threshold_increment = 0;

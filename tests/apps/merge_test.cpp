@@ -20,7 +20,7 @@ protected:
     std::string said, printed;
 
     void SetUp() override {
-        Noise random;
+        CameraNoise random;
         for (uint32_t i = 0; i < 8; ++i) {
             // 1/200 s, f/4, ISO 100, and two stops more each time: by time, then by f-number, then by ISO speed.
             const auto photo = photograph(scene, srgb_camera(), 0.005 * std::pow(4, i), random);

@@ -66,7 +66,7 @@ struct Sphere {
     double radius = 1;
     uint32_t surface = 0;
 };
-struct Plane {
+struct EndlessPlane {
     dvec3 point{0}, normal{0, 1, 0};
     uint32_t surface = 0;
 };
@@ -74,7 +74,7 @@ struct Plane {
 struct Geometry {
     std::vector<Triangle> triangles;
     std::vector<Sphere> spheres;
-    std::vector<Plane> planes;
+    std::vector<EndlessPlane> planes;
     std::vector<Surface> surfaces;
 };
 
@@ -125,7 +125,7 @@ inline std::vector<Meeting> meet(const Sphere& s, dvec3 ray) {
     return both;
 }
 
-inline std::optional<Meeting> meet(const Plane& p, dvec3 ray) {
+inline std::optional<Meeting> meet(const EndlessPlane& p, dvec3 ray) {
     const double along = glm::dot(p.normal, ray);
     if (along == 0) return std::nullopt;
     Meeting m;
@@ -189,7 +189,7 @@ inline Seen cast(const Geometry& g, const Rays& rays, dvec2 pixel, Filter filter
         for (const Meeting& m : meet(s, ray)) add(m, which);
         ++which;
     }
-    for (const Plane& p : g.planes) {
+    for (const EndlessPlane& p : g.planes) {
         if (const auto m = meet(p, ray)) add(*m, which);
         ++which;
     }

@@ -12,7 +12,7 @@
 namespace vesper::test {
 
 /// Numbers that look random, always the same ones.
-class Noise {
+class CameraNoise {
 public:
     double uniform() {
         return static_cast<double>((state_ = state_ * 6364136223846793005u + 1442695040888963407u) >> 11) * 0x1p-53;
@@ -28,7 +28,7 @@ struct KnownCamera {
     std::function<double(double, size_t)> value, exposure;
     double noise = 0;  ///< codes, standard deviation
 
-    int code(double x, size_t channel, Noise& random) const {
+    int code(double x, size_t channel, CameraNoise& random) const {
         const double z = 255 * value(x, channel) + (noise > 0 ? noise * random.normal() : 0);
         return static_cast<int>(std::clamp(std::round(z), 0.0, 255.0));
     }
@@ -71,7 +71,7 @@ inline KnownCamera filmic_camera(double noise = 0) {
 /// A night in five decades: a dark gradient, texture, and lamps with soft borders. Largest value near 100.
 inline HdrImage night(uint32_t width, uint32_t height) {
     HdrImage image{width, height};
-    Noise random;
+    CameraNoise random;
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x) {
             const double u = (x + 0.5) / width, v = (y + 0.5) / height;
@@ -91,7 +91,7 @@ inline HdrImage night(uint32_t width, uint32_t height) {
 
 /// One photograph of the scene without its outer `margin` px, through a camera that lets in `exposure`. What is at (x,
 /// y) comes to (x, y) + shift.
-inline Exposure photograph(const HdrImage& scene, const KnownCamera& camera, double exposure, Noise& random,
+inline Exposure photograph(const HdrImage& scene, const KnownCamera& camera, double exposure, CameraNoise& random,
                            glm::ivec2 shift = glm::ivec2(0), int margin = 0) {
     Exposure made;
     made.exposure = exposure;
@@ -114,7 +114,7 @@ inline Exposure photograph(const HdrImage& scene, const KnownCamera& camera, dou
 inline std::vector<Exposure> bracket(const HdrImage& scene, const KnownCamera& camera, double first, double ratio,
                                      int count) {
     std::vector<Exposure> made;
-    Noise random;
+    CameraNoise random;
     for (int i = 0; i < count; ++i) made.push_back(photograph(scene, camera, first * std::pow(ratio, i), random));
     return made;
 }

@@ -173,7 +173,7 @@ TEST(Align, FindsKnownShifts) {
     constexpr int kMargin = 40;
     const HdrImage scene = night(400, 320);
     const std::vector<glm::ivec2> shifts = {{3, -2}, {0, 0}, {-7, 5}, {1, 1}, {12, -9}, {0, 4}, {-20, 17}, {2, 2}};
-    Noise random;
+    CameraNoise random;
     std::vector<Exposure> exposures;
     for (size_t i = 0; i < shifts.size(); ++i)
         exposures.push_back(photograph(scene, gamma_camera(), 0.02 * std::pow(4, i), random, shifts[i], kMargin));

@@ -43,7 +43,7 @@ TEST(Response, NoticesPicturesThatDoNotAgree) {
     const HdrImage scene = night(160, 120);
     std::vector<Exposure> exposures = bracket(scene, gamma_camera(), 0.005, 4, 8);
     const double good = recover_response(exposures).error[1];
-    Noise random;
+    CameraNoise random;
     exposures[4] = photograph(scene, gamma_camera(), exposures[4].exposure, random, {40, 0});
     EXPECT_GT(recover_response(exposures).error[1], 0.15);
     EXPECT_LT(good, 0.02);
@@ -52,7 +52,7 @@ TEST(Response, NoticesPicturesThatDoNotAgree) {
 TEST(Response, UsesShifts) {
     const HdrImage scene = night(160, 120);
     std::vector<Exposure> exposures = bracket(scene, gamma_camera(), 0.005, 4, 8);
-    Noise random;
+    CameraNoise random;
     exposures[4] = photograph(scene, gamma_camera(), exposures[4].exposure, random, {7, -5});
     exposures[4].shift = {7, -5};
     EXPECT_LT(recover_response(exposures).error[1], 0.02);

@@ -273,7 +273,7 @@ TEST(Road, WorkedExampleAgreesPointByPoint) {
     const RoadResult r = calculate_road(worked_example("R3"));
     ASSERT_EQ(r.points.size(), 60u);
     for (const auto& e : expected) {
-        const auto found = std::find_if(r.points.begin(), r.points.end(), [&](const RoadPoint& p) {
+        const auto found = std::find_if(r.points.begin(), r.points.end(), [&](const FieldPoint& p) {
             return std::abs(p.x - e.x) < 1e-3 && std::abs(p.y - e.y) < 1e-3;
         });
         ASSERT_NE(found, r.points.end()) << e.x << " " << e.y;

@@ -167,7 +167,7 @@ TEST(RoadScene, HasTheLightOfTheCalculation) {
         const Scene scene = road_scene(road);
         const RoadResult result = calculate_road(road);
         for (size_t i = 0; i < result.points.size(); i += 5) {
-            const RoadPoint& p = result.points[i];
+            const FieldPoint& p = result.points[i];
             const double e = rendered_illuminance(scene, road_to_world({p.x, p.y, 0}), 5 * road.height);
             EXPECT_NEAR(e / p.illuminance, 1, 1e-4) << p.x << " " << p.y;
         }

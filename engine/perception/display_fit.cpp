@@ -36,6 +36,26 @@ std::optional<DisplayMeasurement> read_line(const LineReader& lines, std::string
     return DisplayMeasurement{uint32_t(*code), *luminance, 0};
 }
 
+/// No display has luminances that fall as codes rise, or two of one code: by more than 10 % and 0.1 % of the peak they are no noise.
+void check_rise(const LineReader& lines, const std::vector<DisplayMeasurement>& sorted, double peak) {
+    const auto falls = [peak](double from, double to) { return to < 0.9 * from && to < from - 1e-3 * peak; };
+    const DisplayMeasurement* brightest = nullptr;  // of all smaller codes
+    for (size_t first = 0, end = 0; first < sorted.size(); first = end) {
+        const DisplayMeasurement *low = &sorted[first], *high = low;
+        for (; end < sorted.size() && sorted[end].code == sorted[first].code; ++end) {
+            if (sorted[end].luminance < low->luminance) low = &sorted[end];
+            if (sorted[end].luminance > high->luminance) high = &sorted[end];
+        }
+        if (falls(high->luminance, low->luminance)) {
+            const auto [earlier, later] = std::minmax(high, low, [](const auto* a, const auto* b) { return a->line < b->line; });
+            lines.fail_at(later->line, "code " + std::to_string(later->code) + " has another luminance than in line " + std::to_string(earlier->line));
+        }
+        if (brightest && falls(brightest->luminance, low->luminance))
+            lines.fail_at(low->line, "code " + std::to_string(low->code) + " is darker than code " + std::to_string(brightest->code) + " in line " + std::to_string(brightest->line));
+        if (!brightest || high->luminance > brightest->luminance) brightest = high;
+    }
+}
+
 void check_measurements(const LineReader& lines, const std::vector<DisplayMeasurement>& measured, uint32_t largest) {
     std::vector<DisplayMeasurement> sorted = measured;
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.code < b.code; });
@@ -46,12 +66,8 @@ void check_measurements(const LineReader& lines, const std::vector<DisplayMeasur
     if (!codes.contains(0)) lines.fail_at(last, "after it there is no measurement of code 0");
     if (!codes.contains(largest)) lines.fail_at(last, "after it there is no measurement of code " + std::to_string(largest) + ", the largest");
     const double peak = peak_of(measured);
-    const DisplayMeasurement* brightest = &sorted.front();
-    for (const DisplayMeasurement& m : sorted) {
-        if (m.luminance < 0.9 * brightest->luminance && m.luminance < brightest->luminance - 1e-3 * peak && m.code > brightest->code)
-            lines.fail_at(m.line, "code " + std::to_string(m.code) + " is darker than code " + std::to_string(brightest->code) + " in line " + std::to_string(brightest->line));
-        if (m.luminance > brightest->luminance) brightest = &m;
-    }
+    check_rise(lines, sorted, peak);
+    const auto brightest = std::max_element(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.luminance < b.luminance; });
     if (!(peak >= 0.1)) lines.fail_at(brightest->line, "the brightest code has less than 0.1 cd/m^2");
     if (sorted.front().luminance > 0.9 * peak) lines.fail_at(sorted.front().line, "code 0 is as bright as the brightest");
 }
@@ -122,6 +138,19 @@ void fit_table(Display& display, std::span<const DisplayMeasurement> measured) {
     display.black = float(blocks.front().luminance), display.peak = float(blocks.back().luminance);
 }
 
+/// Moves what was pooled between codes along the curve to the nearest whole one: profiles hold whole codes.
+void move_to_codes(Display& display) {
+    const DisplayCurve curve(display);
+    std::vector<DisplaySample>& table = display.table;
+    for (size_t i = 1; i + 1 < table.size(); ++i) {
+        const double code = std::round(table[i].code * display.largest_code()) / display.largest_code();
+        const double luminance = curve.emitted(code);
+        // In the last digits a curve may be flatter than its table.
+        if (code != table[i].code && luminance > table[i - 1].luminance && luminance < table[i + 1].luminance) table[i].luminance = luminance;
+        table[i].code = code;
+    }
+}
+
 }  // namespace
 
 std::vector<DisplayMeasurement> read_display_measurements(const std::filesystem::path& file, uint32_t bits) {
@@ -167,6 +196,7 @@ DisplayFit fit_display(std::span<const DisplayMeasurement> measured, uint32_t bi
         if (eotf == Eotf::Table) display.table.front().luminance = double(display.black);
     }
     check_display(display);
+    if (eotf == Eotf::Table) move_to_codes(display);
     const DisplayCurve curve(display);
     for (const DisplayMeasurement& m : measured) {
         fit.residuals.push_back((curve.emitted(double(m.code) / display.largest_code()) - m.luminance) / std::max(m.luminance, floor));

@@ -18,7 +18,7 @@ struct DisplayMeasurement {
 /// Reads lines "code,cd/m^2" (comma, semicolon, tab or blank between them; # begins a comment; a first line of words is a
 /// heading) of a display with so many bits. Codes may come in any order and more than once. Throws Error, naming file,
 /// line and reason, for what no display does: fewer than three codes, none of the first or of the largest, codes beyond
-/// it, luminance that falls by more than 10 % as the code rises (and by more than 0.1 % of the largest), or hardly rises.
+/// it, luminance that falls by more than 10 % as the code rises (and by more than 0.1 % of the largest) or differs by as much between those of one code, or hardly rises.
 std::vector<DisplayMeasurement> read_display_measurements(const std::filesystem::path& file, uint32_t bits);
 
 /// A display and how far it is from its measurements, relative to each luminance, or to 1e-4 of the peak if that is more.
@@ -30,7 +30,7 @@ struct DisplayFit {
 
 /// The display with a transfer function that is nearest to measurements. Gamma: black, peak and gamma by least squares of
 /// the relative residuals; sRGB: black and peak; PQ: black and peak as measured; table: means of each code, where those
-/// fall the pooled means that do not (Ayer et al. 1955), as measured everywhere else.
+/// fall the pooled means that do not (Ayer et al. 1955), moved along the curve to whole codes; as measured everywhere else.
 DisplayFit fit_display(std::span<const DisplayMeasurement>, uint32_t bits, Eotf);
 
 /// The simplest that is as good as measurements are: gamma, sRGB or PQ if their residuals have a root mean square of at

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "io/atomic_file.h"
 #include "photometry/table.h"
@@ -29,6 +31,59 @@ std::optional<Goniometry> goniometry_of(std::string_view cell) {
     if (word == "b") return Goniometry::TypeB;
     if (number_of(word)) return std::nullopt;
     return Goniometry::TypeA;
+}
+
+/// The words of a heading in lower case, whatever stands between them: "V [°]" is one, "I_cd" are two.
+std::vector<std::string> words_of(std::string_view heading) {
+    std::vector<std::string> words;
+    bool within = false;
+    for (const char c : lower(readable(heading))) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool letter = std::isalnum(byte) || (byte >= 0x80 && byte != 0xc2 && byte != 0xb0);  // these two are a degree sign
+        if (letter && !within) words.emplace_back();
+        if (letter) words.back() += c;
+        within = letter;
+    }
+    return words;
+}
+
+enum class Column : uint8_t { Horizontal, Vertical, C, Gamma, Candela };
+
+/// What a column of a list holds, by its heading; nothing for other names and other units.
+std::optional<Column> column_of(std::string_view heading) {
+    static const std::map<std::string, Column, std::less<>> kNames{
+        {"h", Column::Horizontal}, {"horizontal", Column::Horizontal}, {"v", Column::Vertical}, {"vertical", Column::Vertical}, {"c", Column::C},
+        {"gamma", Column::Gamma},  {"γ", Column::Gamma},               {"cd", Column::Candela}, {"candela", Column::Candela},   {"intensity", Column::Candela},
+        {"i", Column::Candela}};
+    static const std::set<std::string, std::less<>> kBeside{"deg", "degree", "degrees", "angle", "plane", "luminous", "in"};
+    std::optional<Column> column;
+    for (const std::string& word : words_of(heading)) {
+        if (kBeside.contains(word)) continue;
+        const auto name = kNames.find(word);
+        if (name == kNames.end() || (column && *column != name->second)) return std::nullopt;
+        column = name->second;
+    }
+    return column;
+}
+
+/// Which columns of a list are the horizontal angle, the vertical one and the intensity.
+struct ListColumns {
+    size_t horizontal = 0, vertical = 0, candela = 0;
+    Goniometry goniometry = Goniometry::TypeA;
+};
+
+ListColumns list_columns_of(const std::vector<std::string_view>& header, const LineReader& lines) {
+    std::map<Column, size_t> at;
+    for (size_t i = 0; i < header.size(); ++i) {
+        const auto column = column_of(header[i]);
+        if (!column) lines.fail("the heading " + quoted(header[i]) + " is none of H, V and cd, nor of C, gamma and cd");
+        at[*column] = i;
+    }
+    const bool c = at.contains(Column::C);
+    const Column horizontal = c ? Column::C : Column::Horizontal, vertical = c ? Column::Gamma : Column::Vertical;
+    if (!at.contains(horizontal) || !at.contains(vertical) || !at.contains(Column::Candela))
+        lines.fail("the headings are not H, V and cd, nor C, gamma and cd");
+    return {at[horizontal], at[vertical], at[Column::Candela], c ? Goniometry::CGamma : Goniometry::TypeA};
 }
 
 /// A CSV file as rows of cells, without comments and empty lines.
@@ -133,8 +188,8 @@ std::vector<double> distinct(std::vector<double> values) {
     return values;
 }
 
-/// Rows of horizontal angle, vertical angle and intensity.
-Places read_list(Distribution& made, Rows& rows, const LineReader& lines) {
+/// Rows of two angles and an intensity.
+Places read_list(Distribution& made, Rows& rows, const ListColumns& columns_at, const LineReader& lines) {
     struct Sample {
         double horizontal, vertical, candela;
         size_t line;
@@ -146,8 +201,9 @@ Places read_list(Distribution& made, Rows& rows, const LineReader& lines) {
         if (cells.empty()) break;
         if (cells.size() != 3) lines.fail("has " + std::to_string(cells.size()) + " cells: 3 are expected");
         if (samples.size() == kMaxCells) lines.fail("more rows than are read");
-        samples.push_back({rows.number(0, "a horizontal angle"), rows.number(1, "a vertical angle"),
-                           rows.number(2, "an intensity in cd"), lines.line()});
+        samples.push_back({rows.number(columns_at.horizontal, "a horizontal angle"),
+                           rows.number(columns_at.vertical, "a vertical angle"),
+                           rows.number(columns_at.candela, "an intensity in cd"), lines.line()});
     }
     for (const Sample& sample : samples) {
         made.horizontal.push_back(sample.horizontal);
@@ -185,9 +241,18 @@ Distribution parse_grid_csv(std::span<const uint8_t> text, const std::string& na
     if (header.size() < 2) lines.fail("no row of horizontal angles");
     const auto stated = goniometry_of(header[0]);
     if (!stated) lines.fail("the corner cell holds a number: nothing, or A, B or C is expected");
-    made.goniometry = *stated;
-    const bool list = header.size() == 3 && !number_of(header[1]) && !number_of(header[2]);
-    const Places places = list ? read_list(made, rows, lines) : read_matrix(made, rows, header, lines);
+    Places places;
+    if (header.size() == 3 && !number_of(header[1]) && !number_of(header[2])) {
+        const ListColumns columns = list_columns_of(header, lines);
+        made.goniometry = columns.goniometry;
+        places = read_list(made, rows, columns, lines);
+    } else {
+        for (const std::string& word : words_of(header[0]))
+            for (const char* unit : {"lx", "lux", "lm", "klm", "kcd", "mcd"})
+                if (word == unit) lines.fail("the corner cell names " + quoted(unit) + ": intensities are read in cd");
+        made.goniometry = *stated;
+        places = read_matrix(made, rows, header, lines);
+    }
     if (rows.goniometry()) made.goniometry = *rows.goniometry();
     finish_table(made, false, [&](TablePart part, const std::string& fault) {
         lines.fail_at(part == TablePart::Horizontal ? places.horizontal

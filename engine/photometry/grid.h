@@ -2,7 +2,7 @@
 //
 // CSV: the first row holds the horizontal angles, the first column the vertical ones, deg, either way up; the rest is
 // cd. The corner may name the goniometry: A (also where it is empty or says V\H), B, or C (also gamma\C). Or three
-// columns, headed H_deg,V_deg,cd (C_deg,gamma_deg,cd): every pair of angles once, in any order. Lines that begin with #
+// columns in any order, headed H_deg, V_deg, cd (or C_deg, gamma_deg, cd; longer names will do, others and other units not): every pair of angles once. Lines that begin with #
 // are comments; "# goniometry: B" overrules. Cells are separated by commas, or by semicolons or tabs with either
 // decimal sign.
 //

@@ -131,7 +131,8 @@ Header read_header(LineReader& lines, Distribution& made) {
 
 /// The factor a table of tilts has for the lamp as it was measured, at tilt 0.
 double read_tilt_table(Numbers& numbers, LineReader& lines) {
-    numbers.next("the lamp-to-luminaire geometry");
+    const double geometry = numbers.next("the lamp-to-luminaire geometry");
+    if (geometry != 1 && geometry != 2 && geometry != 3) lines.fail("the lamp-to-luminaire geometry is none of 1, 2 and 3");
     const double count = numbers.next("the number of tilt angles", 1, kMaxAngles);
     if (count != std::floor(count)) lines.fail("the number of tilt angles is not whole");
     const std::vector<double> angles = numbers.list(count, "a tilt angle");
@@ -186,9 +187,16 @@ void read_numbers(Distribution& made, LineReader lines, const Header& header, bo
     else if (upper(header.tilt) != "NONE" && folder)
         factor = read_tilt_file(lines, header.tilt, *folder);
 
+    const auto positive = [&](const char* what) {
+        const double value = numbers.next(what);
+        if (!(value > 0)) lines.fail(std::string(what) + " must be more than 0");
+        return value;
+    };
+    // Some files of absolute photometry have 0 or -1 lamps, as they have -1 lm.
     const double lamps = numbers.next("the number of lamps");
+    if (!(lamps >= -1 && lamps <= 1e6 && lamps == std::floor(lamps))) lines.fail("the number of lamps must be a whole number from 1");
     const double lumens = numbers.next("the lumens per lamp");
-    factor *= numbers.next("the candela multiplier");
+    factor *= positive("the candela multiplier");
     const double verticals = numbers.next("the number of vertical angles");
     const double horizontals = numbers.next("the number of horizontal angles");
     const std::string reason = objection_to_size(horizontals, verticals);
@@ -200,8 +208,9 @@ void read_numbers(Distribution& made, LineReader lines, const Header& header, bo
     const double metres = units == 1 ? 0.3048 : 1;
     const double width = numbers.next("the width of the opening"), length = numbers.next("the length of the opening");
     made.opening = opening_of(width * metres, length * metres, numbers.next("the height of the opening") * metres);
-    factor *= numbers.next("the ballast factor");
-    const double second = numbers.next("the number after the ballast factor");
+    factor *= positive("the ballast factor");
+    const char* after = "the number after the ballast factor";
+    const double second = header.ballast_lamp_factor ? positive(after) : numbers.next(after);
     if (header.ballast_lamp_factor) factor *= second;
     if (!(factor > 0 && factor < 1e9)) lines.fail("multiplier, ballast and tilt factors multiply to nothing useful");
     numbers.next("the input watts");

@@ -2,6 +2,7 @@
 #include "photometry/response.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -25,6 +26,25 @@ Response response_of(const Exposure& exposure) {
         for (auto& channel : made.ln_exposure)
             channel[z] = std::log(exposure(z == 0 ? 0.5 / 255 : static_cast<double>(z) / 255)) - middle;
     return made;
+}
+
+/// The columns of R, G and B, by their headings: "ln_exposure_r", "g(R)" or "red".
+std::array<size_t, 3> channels_of(std::string_view header, const LineReader& lines) {
+    constexpr std::array<std::array<std::string_view, 2>, 3> kChannels{{{"r", "red"}, {"g", "green"}, {"b", "blue"}}};
+    const auto fields = fields_of(header, ',', 4);
+    std::array<size_t, 3> columns{};
+    for (size_t i = 1; i < fields.size(); ++i) {
+        std::string name;
+        for (const char c : fields[i]) name += std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
+        while (name.ends_with('_')) name.pop_back();
+        for (const std::string_view before : {"ln_exposure_", "g_"})
+            if (name.starts_with(before)) name.erase(0, before.size());
+        for (size_t c = 0; c < 3; ++c)
+            if (name == kChannels[c][0] || name == kChannels[c][1]) columns[c] = i;
+    }
+    if (fields.size() != 4 || columns[0] * columns[1] * columns[2] != 6)
+        lines.fail("the headings are not code and ln_exposure_r, ln_exposure_g and ln_exposure_b");
+    return columns;
 }
 
 }  // namespace
@@ -80,11 +100,12 @@ Response read_response(const std::filesystem::path& file) {
     const auto header = lines.next();
     if (!header || !header->starts_with("code,"))
         throw Error(one_line(file.string()) + ": is not a response curve: its first line does not start with 'code,'");
+    const std::array<size_t, 3> columns = channels_of(*header, lines);
     Response response;
     for (size_t z = 0; z < 256; ++z) {
         const auto fields = fields_of(lines.next().value_or(""), ',', 4);
         std::optional<double> value[4];
-        for (size_t i = 0; i < 4 && fields.size() == 4; ++i) value[i] = number_of(fields[i], false);
+        for (size_t i = 0; i < 4 && fields.size() == 4; ++i) value[i] = number_of(fields[i > 0 ? columns[i - 1] : 0], false);
         if (!value[0] || !value[1] || !value[2] || !value[3] || *value[0] != static_cast<double>(z))
             lines.fail("expected " + std::to_string(z) + " and three numbers");
         for (size_t c = 0; c < 3; ++c) {
@@ -92,6 +113,8 @@ Response read_response(const std::filesystem::path& file) {
             response.ln_exposure[c][z] = *value[c + 1];
         }
     }
+    while (const auto more = lines.next())
+        if (!trimmed(*more).empty()) lines.fail("nothing is expected after code 255");
     return response;
 }
 

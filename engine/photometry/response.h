@@ -55,7 +55,7 @@ RecoveredResponse recover_response(std::span<const Exposure>, double smoothness 
 /// How many codes from 1 to 254 stand for less light than the code below.
 std::array<int, 3> count_falls(const Response&);
 
-/// A table of 256 lines "code, g of R, G and B" under one line of headings. Throws Error.
+/// A table of 256 lines "code, g of R, G and B" under one line of headings, which say which column is of which channel. Throws Error.
 void write_response(const std::filesystem::path& file, const Response&);
 Response read_response(const std::filesystem::path& file);
 

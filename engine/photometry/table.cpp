@@ -85,13 +85,23 @@ bool close_planes(Distribution& table) {
     return true;
 }
 
-void drop_repeated_ends(Distribution& table) {
-    size_t count = table.vertical.size();
+/// Some files have the last angle twice, with the same intensities.
+void drop_repeated_ends(Distribution& table, const TableFault& fault) {
+    const size_t count = table.vertical.size();
+    const auto differ = [&](TablePart part, const char* what, double angle) {
+        fault(part, std::string(what) + " angle " + degrees(angle) + " is there twice, with other intensities");
+    };
     if (table.horizontal.size() > 1 && same(table.horizontal.back(), table.horizontal.end()[-2])) {
+        const auto last = table.candela.end() - static_cast<ptrdiff_t>(count);
+        if (!std::equal(last, table.candela.end(), last - static_cast<ptrdiff_t>(count)))
+            differ(TablePart::Horizontal, table.goniometry == Goniometry::CGamma ? "C" : "horizontal", table.horizontal.back());
         table.horizontal.pop_back();
         table.candela.resize(table.horizontal.size() * count);
     }
     if (count < 2 || !same(table.vertical.back(), table.vertical.end()[-2])) return;
+    for (size_t h = 0; h < table.horizontal.size(); ++h)
+        if (table.at(h, count - 1) != table.at(h, count - 2))
+            differ(TablePart::Vertical, table.goniometry == Goniometry::CGamma ? "gamma" : "vertical", table.vertical.back());
     table.vertical.pop_back();
     for (size_t h = 0; h < table.horizontal.size(); ++h)
         for (size_t v = 0; v + 1 < count; ++v) table.candela[h * (count - 1) + v] = table.candela[h * count + v];
@@ -126,7 +136,7 @@ std::string objection_to_size(double horizontal, double vertical) {
 
 void finish_table(Distribution& table, bool halves, const TableFault& fault) {
     const bool c = table.goniometry == Goniometry::CGamma, b = table.goniometry == Goniometry::TypeB;
-    drop_repeated_ends(table);
+    drop_repeated_ends(table, fault);
     std::string reason =
         objection_to_size(static_cast<double>(table.horizontal.size()), static_cast<double>(table.vertical.size()));
     if (!reason.empty()) fault(TablePart::Vertical, reason);

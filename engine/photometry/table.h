@@ -43,7 +43,7 @@ std::string_view trimmed(std::string_view text);
 std::string readable(std::string_view text);
 /// A text in a message, quoted and short.
 std::string quoted(std::string_view text);
-/// A finite number; the whole text must be one. A decimal comma will do where `comma` is set.
+/// A finite number; the whole text must be one. One too small for a double is 0. A decimal comma will do where `comma` is set.
 std::optional<double> number_of(std::string_view text, bool comma = true);
 
 /// The trimmed fields of a line. What is behind more than `most` of them is left off, so that there being more shows.

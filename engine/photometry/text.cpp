@@ -1,4 +1,5 @@
 // Text files of distributions: lines, numbers, names. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -18,6 +19,18 @@ size_t utf8_length(std::string_view text) {
     for (size_t i = 1; i < length; ++i)
         if ((byte(i) & 0xc0) != 0x80) return 0;
     return length;
+}
+
+/// Whether a number beyond what a double can be is too small for it, not too large.
+bool vanishes(std::string_view number) {
+    const size_t e = std::min(number.find_first_of("eE"), number.size());
+    const std::string_view digits = number.substr(0, e);
+    std::string_view exponent = number.substr(std::min(e + 1, number.size()));
+    if (exponent.starts_with('+')) exponent.remove_prefix(1);
+    double order = 0;
+    std::from_chars(exponent.data(), exponent.data() + exponent.size(), order);
+    const auto place = [&](const char* of) { return static_cast<double>(std::min(digits.find_first_of(of), digits.size())); };
+    return order + place(".") - place("123456789") < 0;
 }
 
 }  // namespace
@@ -72,12 +85,17 @@ std::optional<double> number_of(std::string_view text, bool comma) {
     text = trimmed(text);
     if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
     if (text.starts_with('+')) text.remove_prefix(1);
-    char digits[64];
-    if (text.empty() || text.size() > sizeof digits) return std::nullopt;
-    for (size_t i = 0; i < text.size(); ++i) digits[i] = comma && text[i] == ',' ? '.' : text[i];
+    std::string pointed;
+    if (comma && text.find(',') != text.npos) {
+        pointed = text;
+        std::replace(pointed.begin(), pointed.end(), ',', '.');
+        text = pointed;
+    }
     double value = 0;
-    const auto [end, error] = std::from_chars(digits, digits + text.size(), value);
-    if (error != std::errc() || end != digits + text.size() || !std::isfinite(value)) return std::nullopt;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size()) return std::nullopt;
+    if (error == std::errc::result_out_of_range && vanishes(text)) return 0;
+    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
     return value;
 }
 

@@ -49,6 +49,14 @@ File plain() {
 
 double at(const Distribution& d, double c) { return intensity(d, c_gamma(c, 45)); }
 
+TEST(Eulumdat, AnAngleThatIsThereTwiceMustSayTheSame) {
+    File file = plain();
+    file.gammas = "0\n45\n45\n";
+    EXPECT_TRUE(contains(complaint(file.text()), "gamma angle 45 is there twice, with other intensities"));
+    for (auto& plane : file.candela) plane[2] = plane[1];
+    EXPECT_EQ(read(file.text()).vertical, (std::vector<double>{0, 45}));
+}
+
 TEST(Eulumdat, ExpandsEverySymmetry) {
     const Distribution none = read(plain().text());
     EXPECT_EQ(none.horizontal, (std::vector<double>{0, 90, 180, 270, 360}));

@@ -42,6 +42,9 @@ TEST(Grid, TakesWhatLaboratoriesWrite) {
              ";-10;0;20\n\n-5;1,0;2,0;3\n5;4;5;6;\n",                                // semicolons and decimal commas
              "\t-10\t0\t20\n-5\t1\t2\t3\n5\t4\t5\t6\n",                              // tabs
              "H_deg,V_deg,cd\n0,5,5\n-10,5,4\n20,5,6\n-10,-5,1\n0,-5,2\n20,-5,3\n",  // a list
+             "V_deg,H_deg,cd\n5,0,5\n5,-10,4\n5,20,6\n-5,-10,1\n-5,0,2\n-5,20,3\n",  // in another order, and by other names
+             "I [cd],\"Vertical angle (deg)\",horizontal [°]\n5,5,0\n4,5,-10\n6,5,20\n1,-5,-10\n2,-5,0\n3,-5,20\n",
+             "Luminous intensity/cd;V (\xb0);H\xb0\n5;5;0\n4;5;-10\n6;5;20\n1;-5;-10\n2;-5;0\n3;-5;20\n",
          }) {
         const Distribution d = read(text);
         EXPECT_EQ(d.horizontal, wanted.horizontal) << text;
@@ -54,7 +57,11 @@ TEST(Grid, TakesWhatLaboratoriesWrite) {
     const Distribution c = read("gamma\\C,0,90\n0,1,1\n90,4,5\n");
     EXPECT_EQ(c.goniometry, Goniometry::CGamma);
     EXPECT_EQ(c.horizontal, (std::vector<double>{0, 90, 180, 270, 360}));
-    EXPECT_EQ(read("C_deg,gamma_deg,cd\n0,0,1\n0,90,0\n").goniometry, Goniometry::CGamma);
+    for (const char* text : {"C_deg,gamma_deg,cd\n0,0,1\n0,90,0\n", "γ,C-plane,cd\n0,0,1\n90,0,0\n"}) {
+        const Distribution list = read(text);
+        EXPECT_EQ(list.goniometry, Goniometry::CGamma);
+        EXPECT_EQ(list.vertical, (std::vector<double>{0, 90})) << text;
+    }
 }
 
 TEST(Grid, SaysWhereAndWhy) {
@@ -73,6 +80,13 @@ TEST(Grid, SaysWhereAndWhy) {
         {"H_deg,V_deg,cd\n0,0,1\n0,5,1\n1,0,1\n0,0,1\n", "line 5: this pair"},
         {",-10,0,20\n0,1,2,3\n", "one vertical angle"},
         {"," + std::string(10'000, ',') + "\n", "line 1: more columns"},
+        {"H_deg,V_deg,lx\n0,0,1\n", "line 1: the heading 'lx' is none of"},
+        {"H_deg,V_deg,I [kcd]\n0,0,1\n", "line 1: the heading 'I [kcd]'"},
+        {"H_rad,V_rad,cd\n0,0,1\n", "line 1: the heading 'H_rad'"},
+        {"H,V,cd/klm\n0,0,1\n", "line 1: the heading 'cd/klm'"},
+        {"H,H,cd\n0,0,1\n", "line 1: the headings are not"},
+        {"H,gamma,cd\n0,0,1\n", "line 1: the headings are not"},
+        {"# lx at 25 m\nE [lx],-10,0\n-5,1,2\n5,4,5\n", "line 2: the corner cell names 'lx'"},
     };
     for (const auto& c : cases) EXPECT_TRUE(contains(complaint(c.text), c.wanted)) << c.text.substr(0, 60);
 }

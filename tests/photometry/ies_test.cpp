@@ -103,6 +103,11 @@ TEST(Ies, TakesWhatFilesReallyHold) {
     same(replaced(kPlain, "100 50 25", "100 50\n\n 25\nEND OF DATA 3\n\x1a"));
     same(replaced(replaced(replaced(kPlain, "3 1 1 2", "4 1 1 2"), "0 45 90", "0 45 90 90"), "50 25", "50 25 25"));
     same(replaced(kPlain, "1 -1 1 3", "1 -1 1.0e0 3.0"));
+    same(replaced(kPlain, "1 -1 1 3", "0 -1 1 3"));
+    same(replaced(kPlain, "1 -1 1 3", "-1 -1 1 3"));
+    same(replaced(kPlain, "100 50 25", "100 50" + std::string(70, '0') + "e-70 25." + std::string(400, '0')));
+    EXPECT_EQ(read(replaced(kPlain, "100 50 25", "100 50 1e-400")).candela.back(), 0);
+    EXPECT_EQ(read(replaced(kPlain, "100 50 25", "100 50 0." + std::string(400, '0') + "1")).candela.back(), 0);
     same(replaced(kPlain, "IESNA:LM-63-2002\n", ""));
     same(replaced(kPlain, "IESNA:LM-63-2002\n[TEST] 1\n[MANUFAC] M\n", ""));
     // Decimal commas.
@@ -173,11 +178,20 @@ TEST(Ies, SaysWhereAndWhy) {
         {"1 -1 1 3 1", "1 -1 1 3.5 1", "line 5: 3.5 vertical angles"},
         {"1 -1 1 3 1", "1 -1 1 3 99999999", "line 5: 1e+08 horizontal angles"},
         {"1 -1 1 3 1", "1 -1 1 1 1", "line 5: one vertical angle"},
-        {"1 -1 1 3 1", "1 -1 0 3 1", "line 6: multiplier"},
+        {"1 -1 1 3 1", "1 -1 0 3 1", "line 5: the candela multiplier must be more than 0"},
+        {"1 -1 1 3 1 1 2 0 0 0\n1", "1 -1 -1 3 1 1 2 0 0 0\n-1", "line 5: the candela multiplier"},
+        {"0 0 0\n1 1 20", "0 0 0\n-1 1 20", "line 6: the ballast factor must be more than 0"},
+        {"1 -1 1 3 1", "1 -1 1e9 3 1", "line 6: multiplier"},
+        {"1 -1 1 3 1", "-7 -1 1 3 1", "line 5: the number of lamps"},
+        {"1 -1 1 3 1", "1.5 -1 1 3 1", "line 5: the number of lamps"},
+        {"TILT=NONE", "TILT=INCLUDE\n7\n2\n0 45\n1 0.9", "line 5: the lamp-to-luminaire geometry is none of 1, 2 and 3"},
+        {"0 45 90", "0 45 45", "line 7: gamma angle 45 is there twice, with other intensities"},
         {"1 -1 1 3 1 1 2", "1 -1 1 3 1 4 2", "line 5: the photometric type"},
         {"1 -1 1 3 1 1 2", "1 -1 1 3 1 1 3", "line 5: the type of units"},
     };
     for (const auto& c : cases) EXPECT_TRUE(contains(complaint(replaced(kPlain, c.what, c.with)), c.wanted)) << c.with;
+    EXPECT_TRUE(contains(complaint(file("IES:LM-63-2019", "2", "0 0", "100 50 25 100 60 25")), "line 8: C angle 0 is there twice, with other intensities"));
+    EXPECT_EQ(read(file("IES:LM-63-2019", "2", "0 0", "100 50 25 100 50 25")).horizontal.size(), 1u);
     EXPECT_TRUE(contains(complaint(""), "x.ies: line 1: the file ends"));
     const std::string many(60'000, '\n');
     EXPECT_TRUE(contains(complaint(many + kPlain), "no line TILT= in the first"));

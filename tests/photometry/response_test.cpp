@@ -112,7 +112,12 @@ TEST(Response, FilesComeBackOrSayWhyNot) {
         return changed.replace(changed.find(what), what.size(), with);
     };
     refused("", "is not a response curve");
-    refused("code,", "line 2");
+    refused("code,", "line 1: the headings");
+    refused("code,r,g,b\n", "line 2");
+    refused(replaced("ln_exposure_r", "log10_exposure_r"), "line 1: the headings");
+    refused(replaced("ln_exposure_g", "ln_exposure_r"), "line 1: the headings");
+    refused(text + "256,1,1,1\n", "line 258: nothing is expected after code 255");
+    refused(text + "\nthe end", "line 259");
     refused(text.substr(0, text.size() / 2), "line 1");
     refused(replaced("\n9,", "\n10,"), "line 11: expected 9");
     refused(replaced("-3.25", "nan"), "line 9");
@@ -121,6 +126,12 @@ TEST(Response, FilesComeBackOrSayWhyNot) {
     EXPECT_THROW(read_response(folder / "none.csv"), Error);
     folder.write("crlf.csv", replaced("\n9,", "\r\n 9 , "));
     EXPECT_NO_THROW(read_response(folder / "crlf.csv"));
+    // Columns go by their names.
+    for (const char* headings : {"code,ln_exposure_b,ln_exposure_g,ln_exposure_r", "code, B, G, R", "code,g(blue),g(green),g(red)"}) {
+        folder.write("swapped.csv", replaced("code,ln_exposure_r,ln_exposure_g,ln_exposure_b", headings) + "\n\n");
+        const Response swapped = read_response(folder / "swapped.csv");
+        for (size_t c = 0; c < 3; ++c) EXPECT_EQ(swapped.ln_exposure[c], read.ln_exposure[2 - c]) << headings;
+    }
 }
 
 }  // namespace

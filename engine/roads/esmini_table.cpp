@@ -16,12 +16,24 @@ constexpr uint64_t kMaxBytes = 1ull << 30;
 constexpr size_t kMaxRows = 20'000'000, kMaxEntities = 10'000, kMaxColumns = 100'000;
 constexpr double kTurn = 2 * std::numbers::pi;
 
+/// What is read, and what dat2csv calls it.
+enum class Field : uint8_t { Time, Id, Name, X, Y, Z, H, P, R, Speed, WheelAngle, WheelRotation, BoxX, BoxY, BoxZ, BoxLength, BoxWidth, BoxHeight, Count };
+constexpr size_t kFields = static_cast<size_t>(Field::Count);
+constexpr std::array<const char*, kFields> kFieldNames{"time", "id", "name", "x", "y", "z", "h", "p", "r", "speed", "wheel_angle", "wheel_rot",
+                                                       "bb_x", "bb_y", "bb_z", "bb_length", "bb_width", "bb_height"};
+
 /// Where the columns of an entity are, by the names dat2csv has for them.
 struct Columns {
     std::map<std::string, size_t, std::less<>> index;
-    size_t count = 0;   ///< fields that a row has at least
+    std::array<std::optional<size_t>, kFields> of{};  ///< the same by what is read
+    size_t count = 0;                                 ///< fields that a row has at least
     size_t stride = 0;  ///< columns from one entity to the next in the same row; 0: a row for each entity
     double angle = 1;   ///< rad in the unit of wheel_angle
+
+    void find_fields() {
+        for (size_t i = 0; i < kFields; ++i)
+            if (const auto found = index.find(kFieldNames[i]); found != index.end()) of[i] = found->second;
+    }
 };
 
 /// What the CSV logger calls them, without number and unit.
@@ -89,6 +101,9 @@ RunEntity::Kind kind_by_name(const std::string& name) {
     return RunEntity::Kind::Car;
 }
 
+/// An empty cell, or the NaN that C's printf writes.
+bool is_none(std::string_view cell) { return cell.empty() || cell == "nan" || cell == "-nan"; }
+
 /// Rows of a table on their way to entities.
 struct TableReader {
     const LineReader& lines;
@@ -99,37 +114,40 @@ struct TableReader {
     /// One entity of a row, `shift` columns to the right of the first.
     void take(const Columns& columns, const std::vector<std::string_view>& fields, size_t shift) {
         if (++rows > kMaxRows) lines.fail("more than " + std::to_string(kMaxRows) + " rows");
-        const auto number = [&](const char* name, bool needed) {
-            const auto column = columns.index.find(name);
-            if (column == columns.index.end()) return 0.0;
-            const std::string_view field = fields[column->second + (std::string_view(name) == "time" ? 0 : shift)];
-            const auto value = number_of(field, false);
-            if (!value || std::abs(*value) > 1e9) {
-                if (!needed && !value) return 0.0;
-                lines.fail(std::string(name) + " " + vesper::quoted(field) + " is no number that can be");
-            }
+        const auto text = [&](Field field) { return fields[*columns.of[static_cast<size_t>(field)] + (field == Field::Time ? 0 : shift)]; };
+        const auto refuse = [&](Field field, const char* reason) {
+            const size_t column = *columns.of[static_cast<size_t>(field)] + (field == Field::Time ? 0 : shift) + 1;
+            lines.fail("column " + std::to_string(column) + ": " + kFieldNames[static_cast<size_t>(field)] + " " + vesper::quoted(text(field)) + reason);
+        };
+        const auto number = [&](Field field) {
+            if (!columns.of[static_cast<size_t>(field)]) return 0.0;
+            const auto value = number_of(text(field), false);
+            if (!value || std::abs(*value) > 1e9) refuse(field, " is no number that can be");
             return *value;
         };
-        const int id = static_cast<int>(number("id", true));
+        // Some have no value: an empty cell, or none that a program could tell.
+        const auto number_or_none = [&](Field field) { return columns.of[static_cast<size_t>(field)] && is_none(text(field)) ? 0.0 : number(field); };
+        if (const double id = number(Field::Id); id != std::floor(id)) refuse(Field::Id, " is no whole number");
+        const int id = static_cast<int>(number(Field::Id));
         const auto [found, is_new] = by_id.try_emplace(id, run.entities.size());
         if (is_new) {
             if (run.entities.size() >= kMaxEntities)
                 lines.fail("more than " + std::to_string(kMaxEntities) + " entities");
             RunEntity entity;
-            entity.name = readable(fields[columns.index.at("name") + shift]);
+            entity.name = readable(text(Field::Name));
             entity.id = id;
             entity.kind = kind_by_name(entity.name);
-            const auto size = [&](const char* name) { return std::max(0.0, number(name, false)); };
-            entity.length = size("bb_length"), entity.width = size("bb_width"), entity.height = size("bb_height");
-            entity.centre = {number("bb_x", false), number("bb_y", false), number("bb_z", false)};
+            const auto size = [&](Field field) { return std::max(0.0, number_or_none(field)); };
+            entity.length = size(Field::BoxLength), entity.width = size(Field::BoxWidth), entity.height = size(Field::BoxHeight);
+            entity.centre = {number_or_none(Field::BoxX), number_or_none(Field::BoxY), number_or_none(Field::BoxZ)};
             run.entities.push_back(std::move(entity));
         }
         RunPose pose;
-        pose.time = number("time", true);
-        pose.position = {number("x", true), number("y", true), number("z", true)};
-        pose.heading = number("h", true), pose.pitch = number("p", true), pose.roll = number("r", true);
-        pose.speed = number("speed", false), pose.wheel_angle = columns.angle * number("wheel_angle", false),
-        pose.wheel_rotation = number("wheel_rot", false);
+        pose.time = number(Field::Time);
+        pose.position = {number(Field::X), number(Field::Y), number(Field::Z)};
+        pose.heading = number(Field::H), pose.pitch = number(Field::P), pose.roll = number(Field::R);
+        pose.speed = number_or_none(Field::Speed), pose.wheel_angle = columns.angle * number_or_none(Field::WheelAngle);
+        pose.wheel_rotation = number_or_none(Field::WheelRotation);
         std::vector<RunPose>& poses = run.entities[found->second].poses;
         if (!poses.empty() && pose.time < poses.back().time)
             lines.fail("the times of '" + run.entities[found->second].name + "' do not ascend");
@@ -175,10 +193,11 @@ void read_table(const std::filesystem::path& file, EsminiRun& run) {
             columns = header_of(*line);
             // Some versions say first which files the run was made with.
             if (!columns && lines.line() > 20) break;
-            if (columns)
-                for (const char* needed : {"id", "name", "x", "y", "z", "h"})
-                    if (!columns->index.contains(needed))
-                        lines.fail(std::string("the table has no column '") + needed + "'");
+            if (!columns) continue;
+            for (const char* needed : {"id", "name", "x", "y", "z", "h"})
+                if (!columns->index.contains(needed))
+                    lines.fail(std::string("the table has no column '") + needed + "'");
+            columns->find_fields();
             continue;
         }
         const auto fields = fields_of(*line, ',', kMaxColumns);
@@ -186,7 +205,7 @@ void read_table(const std::filesystem::path& file, EsminiRun& run) {
             lines.fail(std::to_string(fields.size()) + " fields, " + std::to_string(columns->count) + " columns");
         // Entities that are gone leave a row of the CSV logger shorter, ones that came later make it longer than its header.
         for (size_t shift = 0; fields.size() >= columns->count + shift; shift += columns->stride) {
-            if (columns->stride > 0 && fields[columns->index.at("name") + shift].empty()) break;
+            if (columns->stride > 0 && fields[*columns->of[static_cast<size_t>(Field::Name)] + shift].empty()) break;
             reader.take(*columns, fields, shift);
             if (columns->stride == 0) break;
         }

@@ -25,6 +25,9 @@ PlanGeometry geometry_of(OpenDriveReader& reader, const XmlElement& element) {
     g.x = element.number("x"), g.y = element.number("y");
     g.heading = element.number_or("hdg", 0);
     g.length = element.number("length", 0, reader.limits.road_length);
+    size_t shapes = 0;
+    for (const char* shape : {"arc", "spiral", "poly3", "paramPoly3", "line"}) shapes += element.children(shape).size();
+    if (shapes > 1) reader.note(element, "has " + std::to_string(shapes) + " shapes: one is read, of arc, spiral, poly3, paramPoly3 and line the first");
     if (const auto arc = element.child("arc")) {
         g.kind = PlanGeometry::Kind::Arc;
         g.curvature = g.curvature_end = arc->number("curvature", -1e4, 1e4);
@@ -72,6 +75,10 @@ void check_joints(OpenDriveReader& reader, const XmlElement& element, Road& road
         if (gap > kJoint)
             reader.note(element, "road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
                                      " m at s = " + std::to_string(g.s));
+        const double end_s = before.s + before.length;
+        if (std::abs(g.s - end_s) > kJoint)
+            reader.note(element, "road '" + road.id + "': a geometry ends at s = " + std::to_string(end_s) + ", the next begins at " +
+                                     std::to_string(g.s));
     }
     const double end = road.plan.back().s + road.plan.back().length;
     if (std::abs(end - road.length) > kJoint)

@@ -10,7 +10,7 @@ namespace vesper {
 namespace {
 
 constexpr size_t kMaxSteps = 2'000'000, kMaxElements = 20'000;
-constexpr double kMaxWork = 1e9;  // elements times steps
+constexpr double kMaxWork = 5e8;  // elements and questions of conditions, times steps
 
 struct ActionPart {
     std::string name;
@@ -324,7 +324,6 @@ std::vector<double> steps_of(const EsminiRun& run) {
         for (const RunPose& pose : entity.poses) times.push_back(pose.time);
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
-    if (times.size() > kMaxSteps) throw Error("the run has more than " + std::to_string(kMaxSteps) + " steps");
     return times;
 }
 
@@ -334,9 +333,11 @@ void play_storyboard(ScenarioFile& scenario, const RoadNetwork* roads, EsminiRun
     const auto storyboard = scenario.root().child("Storyboard");
     if (!storyboard) return;
     Player player{scenario, run, StoryTime{run, roads, steps_of(run)}};
+    if (player.story.times.size() > kMaxSteps) storyboard->fail("the run has more than " + std::to_string(kMaxSteps) + " steps");
     player.read(*storyboard);
-    if (static_cast<double>(player.elements) * static_cast<double>(player.story.times.size()) > kMaxWork)
-        storyboard->fail("too many elements for so long a run");
+    const double asked = static_cast<double>(player.elements + player.story.questions);
+    if (asked * static_cast<double>(player.story.times.size()) > kMaxWork)
+        storyboard->fail("too many elements and conditions for so long a run");
     player.play();
     run.notes.insert(run.notes.end(), player.story.notes.begin(), player.story.notes.end());
 }

@@ -132,12 +132,16 @@ struct ConditionReader {
         }
         if (name == "StandStillCondition") {
             const double duration = number_in(element, "duration", scope, 0);
-            return [duration, now](const RunEntity& e, int step) {
-                auto pose = std::upper_bound(e.poses.begin(), e.poses.end(), now(step),
-                                             [](double at, const RunPose& p) { return at < p.time; });
-                while (pose != e.poses.begin() && (--pose)->time >= now(step) - duration)
-                    if (std::abs(pose->speed) > 0.01) return false;
-                return now(step) - e.poses.front().time >= duration;
+            struct Rest {
+                size_t at = 0;
+                double moved = -HUGE_VAL;  ///< time it last moved
+            };
+            auto rests = std::make_shared<std::map<const RunEntity*, Rest>>();
+            return [duration, now, rests](const RunEntity& e, int step) {
+                Rest& rest = (*rests)[&e];
+                for (; rest.at < e.poses.size() && e.poses[rest.at].time <= now(step); ++rest.at)
+                    if (std::abs(e.poses[rest.at].speed) > 0.01) rest.moved = e.poses[rest.at].time;
+                return rest.moved < now(step) - duration && now(step) - e.poses.front().time >= duration;
             };
         }
         if (name == "AccelerationCondition")
@@ -193,6 +197,7 @@ struct ConditionReader {
         if (who.empty() || !triggering || !holder || holder->children().empty()) return std::nullopt;
         const auto test = by_entity(holder->children()[0]);
         if (!test) return std::nullopt;
+        story.questions += who.size();
         const bool all = triggering->text_or("triggeringEntitiesRule", "any") == "all";
         return [=](int step) {
             const auto holds = [&](const RunEntity* e) { return (*test)(*e, step); };
@@ -219,6 +224,7 @@ struct ConditionReader {
 
     /// With its delay and edge: what it says was so `delay` ago.
     Condition delayed(const XmlElement& element) {
+        ++story.questions;
         const double delay = number_in(element, "delay", scope, 0);
         const std::string edge = resolved(element, "conditionEdge", scope).value_or("none");
         auto history = std::make_shared<std::vector<char>>();

@@ -19,6 +19,7 @@ struct StoryTime {
     std::map<std::string, ElementState> elements{};  ///< "event/NAME", "action/NAME", "maneuver/NAME", ...
     std::map<std::string, std::string> signals{};    ///< states of traffic lights now
     std::vector<std::string> notes{};
+    size_t questions = 0;                            ///< that conditions ask every step, one for each triggering entity
 
     const RunEntity* find(const std::string& name) const;
     void note(const std::string& what);

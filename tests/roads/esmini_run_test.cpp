@@ -232,6 +232,13 @@ TEST_F(EsminiRuns, ErrorsNameFileAndLine) {
                   .find("do not ascend"),
               std::string::npos);
     EXPECT_NE(complaint("time, id, name, x\n").find("no column 'y'"), std::string::npos);
+    EXPECT_NE(complaint(kHeader + "0, 0, A, 0, 0, 0, 0, 0, 0, abc, 0, 0\n").find("run.csv: line 2: column 10: speed 'abc' is no number"), std::string::npos);
+    EXPECT_NE(complaint(kHeader + "0, 0, A, 0, 0, 0, 0, 0, 0, 1, 0, 1e10\n").find("line 2: column 12: wheel_rot '1e10'"), std::string::npos);
+    EXPECT_NE(complaint(kHeader + "0, 1.5, A, 0, 0, 0, 0, 0, 0, 1, 0, 0\n").find("line 2: column 2: id '1.5' is no whole number"), std::string::npos);
+    // What an entity has none of is empty, or NaN.
+    const auto run = read_esmini_run(write("run.csv", kHeader + "0, 0, A, 0, 0, 0, 0, 0, 0, , nan, -nan\n"));
+    EXPECT_EQ(run.entities[0].poses[0].speed, 0);
+    EXPECT_EQ(run.entities[0].poses[0].wheel_rotation, 0);
     EXPECT_NE(complaint(braking_run(), "<OpenDRIVE/>").find("run.xosc:1: OpenDRIVE: the root"), std::string::npos);
     EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("$nothing"))))
                   .find("there is no parameter"),
@@ -239,6 +246,36 @@ TEST_F(EsminiRuns, ErrorsNameFileAndLine) {
     EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("${1 +}"))))
                   .find("is no expression"),
               std::string::npos);
+}
+
+// Conditions are asked every step, each for all its entities.
+TEST_F(EsminiRuns, StoryboardsThatAskTooMuchAreRefused) {
+    std::string table = kHeader, entities, conditions;
+    for (int i = 0; i < 20000; ++i) table += std::to_string(i) + ", 0, Ego, 0, 0, 0, 0, 0, 0, 1, 0, 0\n";
+    const auto asked = [&](int groups, int times) {
+        std::string who, trigger;
+        for (int i = 0; i < times; ++i) who += "<EntityRef entityRef=\"Ego\"/>";
+        for (int i = 0; i < groups; ++i)
+            trigger += "<ConditionGroup><Condition><ByEntityCondition><TriggeringEntities>" + who +
+                       "</TriggeringEntities><EntityCondition><SpeedCondition value=\"9\" rule=\"greaterThan\"/></EntityCondition></ByEntityCondition></Condition></ConditionGroup>";
+        return complaint(table, scenario("<Event name=\"e\"><StartTrigger>" + trigger + "</StartTrigger></Event>"));
+    };
+    EXPECT_EQ(asked(10, 10), "");
+    EXPECT_NE(asked(13000, 1).find("run.xosc:1: Storyboard: too many elements and conditions"), std::string::npos);
+    EXPECT_NE(asked(10, 2500).find("too many elements and conditions"), std::string::npos);
+}
+
+// At rest for a while: also where it was already, and where rows are many.
+TEST_F(EsminiRuns, StandingStillIsJudgedByTheLastMovement) {
+    const auto at = [&](const char* duration) {
+        const std::string condition = std::string("<ByEntityCondition><TriggeringEntities><EntityRef entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><StandStillCondition duration=\"") +
+                                      duration + "\"/></EntityCondition></ByEntityCondition>";
+        const auto run = read_esmini_run(write("run.csv", braking_run()), write("run.xosc", scenario(event("e", light("highBeam", "on"), condition))));
+        const auto& events = events_of(run, RunLamp::HighBeam);
+        return events.empty() ? -1 : events[0].time;
+    };
+    EXPECT_NEAR(at("0.3"), 9.3, 0.051) << "it stands from 9 to 9.5 s";
+    EXPECT_EQ(at("0.6"), -1);
 }
 
 TEST_F(EsminiRuns, WhatIsNotUnderstoodIsNoted) {

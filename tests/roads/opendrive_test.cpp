@@ -144,6 +144,12 @@ TEST(OpenDrive, WhatBreaksARuleIsReadAndNoted) {
         road("1", 100, geometry(50, 50, 3, 0, 50, "<line/>") + geometry(0, 0, 0, 0, 50, "<line/>"), two_way_section()));
     EXPECT_TRUE(has_note(jump, "not in ascending order of s: sorted"));
     EXPECT_TRUE(has_note(jump, "the reference line jumps by 3"));
+    const auto gap = network_of(road("1", 100, geometry(0, 0, 0, 0, 50, "<line/>") + geometry(80, 80, 0, 0, 20, "<line/>"), two_way_section()));
+    EXPECT_TRUE(has_note(gap, "road '1': a geometry ends at s = 50.000000, the next begins at 80.000000"));
+    EXPECT_TRUE(has_note(network_of(road("1", 100, geometry(0, 0, 0, 0, 60, "<line/>") + geometry(50, 50, 0, 0, 50, "<line/>"), two_way_section())),
+                         "a geometry ends at s = 60"));
+    EXPECT_TRUE(has_note(network_of(road("1", 100, geometry(0, 0, 0, 0, 100, "<line/><arc curvature=\"0.01\"/>"), two_way_section())), "geometry: has 2 shapes"));
+    EXPECT_TRUE(network_of(road("1", 100, geometry(0, 0, 0, 0, 50, "<line/>") + geometry(50, 50, 0, 0, 50, "<line/>"), two_way_section())).notes.empty());
     EXPECT_TRUE(has_note(network_of(road("1", 200, kLine, two_way_section())), "its geometry is 100.0"));
     EXPECT_EQ(network_of(road("1", 200, kLine, two_way_section())).roads[0].length, 100);
     EXPECT_TRUE(has_note(network_of(road("1", 100, kLine, "") + road("2", 100, kLine, two_way_section())), "has no lanes"));

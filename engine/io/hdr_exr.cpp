@@ -44,6 +44,17 @@ struct Window {
     int64_t height() const { return y1 - y0 + 1; }
 };
 
+/// cd/m^2 of white; 0, which some programs write, says nothing.
+double white_luminance_of(const Imf::Header& exr) {
+    const auto white = static_cast<double>(Imf::whiteLuminance(exr));
+    if (!(white >= 0 && white <= 1e12)) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%g", white);
+        throw Error(std::string("OpenEXR: whiteLuminance ") + text + " is no luminance");
+    }
+    return white;
+}
+
 /// Where pixel (0, 0) would lie if (x, y) lies at `memory`.
 char* origin(void* memory, int64_t x, int64_t y, int64_t x_stride, int64_t y_stride) {
     return reinterpret_cast<char*>(reinterpret_cast<intptr_t>(memory) - x * x_stride - y * y_stride);
@@ -185,7 +196,7 @@ HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, con
         read_chroma(image, part, layer, data, display);
     if (layer.colour || layer.chroma) transform(image, matrix);  // a luminance alone is the same grey for all primaries
     image.header = texts_of(exr);
-    if (Imf::hasWhiteLuminance(exr)) image.white_luminance = static_cast<double>(Imf::whiteLuminance(exr));
+    if (Imf::hasWhiteLuminance(exr)) image.white_luminance = white_luminance_of(exr);
     return image;
 }
 

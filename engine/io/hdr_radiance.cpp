@@ -104,6 +104,7 @@ Description read_description(Bytes& bytes) {
         made.header.emplace_back(line.substr(0, equals), line.substr(equals + 1));
         read_variable(made, made.header.back().first, made.header.back().second);
     }
+    if (!(made.exposure >= 1e-12 && made.exposure <= 1e12)) throw Error("Radiance: the EXPOSUREs multiply to no exposure of a picture");
     const std::string size = bytes.line();
     Axis &a = made.lines, &b = made.along;
     int lines = 0, along = 0, end = 0;

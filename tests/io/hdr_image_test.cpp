@@ -274,6 +274,15 @@ TEST(HdrExr, ReadsOurOwnWithHeaderAndUnit) {
               image.header.end());
     write(folder / "y.exr", Imf::Header(1, 1), {1, 1, 1});
     EXPECT_EQ(read_hdr_image(folder / "y.exr").white_luminance, 0.0);
+    for (const float white : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), -5.0f, 1e20f, 0.0f, 80.0f}) {
+        Imf::Header header(1, 1);
+        Imf::addWhiteLuminance(header, white);
+        write(folder / "z.exr", header, {1, 1, 1});
+        if (white >= 0 && white < 100)
+            EXPECT_EQ(read_hdr_image(folder / "z.exr").white_luminance, double(white));
+        else
+            EXPECT_TRUE(contains(refusal(folder / "z.exr"), "z.exr: OpenEXR: whiteLuminance")) << white;
+    }
 }
 
 TEST(HdrExr, RefusesDeepPicturesOtherFilesAndLargeOnes) {

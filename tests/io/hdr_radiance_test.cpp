@@ -93,6 +93,10 @@ TEST(HdrRadiance, RefusesWithAReason) {
     EXPECT_TRUE(contains(reason(kRgbe + "\n-Y 999999 +X 999999\nabcd"), "limit for one side"));
     EXPECT_TRUE(contains(reason(kRgbe + "\n-Y 999 +X 999\nabcd"), "cut off"));
     EXPECT_TRUE(contains(reason(kRgbe + "EXPOSURE=0\n\n-Y 1 +X 1\nabcd"), "EXPOSURE"));
+    for (const char* each : {"1e300", "1e-300"}) {
+        const std::string line = std::string("EXPOSURE=") + each + "\n";
+        EXPECT_TRUE(contains(reason(kRgbe + line + line + "\n-Y 1 +X 1\nabcd"), "the EXPOSUREs multiply")) << each;
+    }
     EXPECT_TRUE(contains(reason(kRgbe + "PRIMARIES=1 2 3\n\n-Y 1 +X 1\nabcd"), "PRIMARIES"));
     EXPECT_TRUE(contains(reason(kRgbe + "PRIMARIES=.1 .1 .1 .1 .1 .1 .1 .1\n\n-Y 1 +X 1\nabcd"), "primaries"));
     EXPECT_TRUE(contains(reason("#?RADIANCE\nFORMAT=other\n\n-Y 1 +X 1\nabcd"), "FORMAT"));

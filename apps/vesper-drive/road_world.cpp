@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "in_file.h"
 #include "io/atomic_file.h"
 #include "plain_car.h"
 #include "roads/esmini_run.h"
@@ -154,7 +155,7 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
     std::optional<EsminiRun> recorded;
     if (!run.empty()) recorded = read_esmini_run(run, scenario.empty() ? std::nullopt : std::optional(scenario), &network);
     const bool switched = recorded && !recorded->signals.empty();
-    LitRoads lit = lit_roads(network, {.headlamps = false, .every_lens = switched});
+    LitRoads lit = in_file(roads.string(), [&] { return lit_roads(network, {.headlamps = false, .every_lens = switched}); });
     RoadWorld made{.scene = std::move(lit.scene), .world = {}, .lenses = {}, .notes = std::move(lit.notes)};
     made.world.scene = roads;
     made.world.roles = plain_lamps();

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "commands.h"
+#include "in_file.h"
 #include "photometry/distribution.h"
 #include "roads/lit_roads.h"
 #include "roads/opendrive.h"
@@ -51,7 +52,7 @@ void run_roads(const ConvertArguments& arguments) {
         if (option->count() > 0) options.lamps = arguments.lamps;
     if (!arguments.luminaire.empty()) options.lamps->luminaire = read_distribution(arguments.luminaire);
     const RoadNetwork network = read_opendrive(input);
-    const LitRoads lit = lit_roads(network, options);
+    const LitRoads lit = in_file(arguments.input, [&] { return lit_roads(network, options); });
     save_gltf(lit.scene, input.filename().string(), output);
     print(lit.notes, network.notes, output);
 }

@@ -6,6 +6,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "commands.h"
+#include "in_file.h"
 #include "road_render.h"
 #include "road_report.h"
 #include "scene/road_file.h"
@@ -31,7 +32,7 @@ void run(const RoadArguments& arguments) {
     files.writes("--json", arguments.json);
     if (!arguments.device.empty() && arguments.pictures.empty()) throw Error("--device has a meaning only beside --render");
     const RoadFile file = read_road(arguments.layout, arguments.overrides);
-    const RoadResult result = calculate_road(file.layout);
+    const RoadResult result = in_file(arguments.layout, [&] { return calculate_road(file.layout); });
     const LightingClass* wanted = find_lighting_class(arguments.wanted.empty() ? file.wanted_class : arguments.wanted);
     std::fputs(text_of(file.layout, result, wanted ? wanted : reached_class(result)).c_str(), stdout);
     if (arguments.grid) std::fputs(grid_text_of(result).c_str(), stdout);

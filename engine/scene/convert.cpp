@@ -108,6 +108,16 @@ std::string in_quotes(const std::string& name) { return "'" + one_line(name) + "
 
 namespace {
 
+/// A scene has so many lamps at most, and it is the photometry file that asks for more.
+void check_count(const Conversion& conversion, const std::filesystem::path& photometry) {
+    size_t placed = conversion.photometry.directional.size();
+    for (const auto& nodes : conversion.lamp_nodes)
+        placed += static_cast<size_t>(std::count_if(nodes.begin(), nodes.end(), [&](uint32_t node) { return conversion.original.node_of[node] != kNone; }));
+    const size_t most = conversion.original.limits.lights;
+    if (placed > most)
+        throw Error(one_line(photometry.string()) + ": /lamps: " + std::to_string(placed) + " lamps, more than the limit of " + std::to_string(most));
+}
+
 ConversionReport convert_checked(const std::filesystem::path& input, const std::filesystem::path& photometry,
                                  const std::filesystem::path& output, const std::optional<Transfer>& transfer,
                                  const SceneLimits& limits) {
@@ -128,6 +138,7 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     ConversionReport report;
     Conversion conversion{document, original, rules, report};
     convert_lamps(conversion);
+    check_count(conversion, photometry);
     convert_materials(conversion);
     convert_sky(conversion);
     describe_rest(conversion);

@@ -85,8 +85,9 @@ void read_luminaires(RoadLayout& road, const JsonValue& source, const std::files
     road.colour_temperature = source.number_or("colour_temperature_K", 0, 1000, 25000);
 
     const std::string file = source.at("file").text();
-    road.distribution =
-        read_distribution(overrides.luminaire.empty() ? folder / file : std::filesystem::path(overrides.luminaire));
+    const auto luminaire = overrides.luminaire.empty() ? folder / file : std::filesystem::path(overrides.luminaire);
+    road.distribution = read_distribution(luminaire);
+    if (!(largest_intensity(road.distribution) > 0)) throw Error(one_line(luminaire.string()) + ": the luminaire gives no light");
 }
 
 ReflectionTable read_surface(const JsonValue& source, const std::filesystem::path& folder,
@@ -121,7 +122,11 @@ RoadFile read_road(const std::filesystem::path& file, const RoadOverrides& overr
     road.overhang = overrides.overhang.value_or(road.overhang);
     road.tilt = overrides.tilt.value_or(road.tilt);
     road.maintenance_factor = overrides.maintenance_factor.value_or(road.maintenance_factor);
-    check_road(road);
+    try {
+        check_road(road);
+    } catch (const Error& error) {
+        throw Error(one_line(file.string()) + ": " + error.what());
+    }
     return made;
 }
 

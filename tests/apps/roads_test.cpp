@@ -43,6 +43,10 @@ TEST_F(Roads, BadInputEndsInOneLine) {
     std::ofstream(folder / "bad.xodr") << "<OpenDRIVE>\n<road id=\"1\" length=\"5\"/>\n</OpenDRIVE>";
     expect_refused("convert bad.xodr", {"bad.xodr:2: road: road '1' has no planView"});
     EXPECT_FALSE(exists("bad.gltf"));
+    std::ofstream(folder / "long.xodr") << "<OpenDRIVE><road id=\"1\" length=\"301000\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"301000\"><line/></geometry>"
+                                           "</planView><lanes><laneSection s=\"0\"><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"4\"/></lane></right></laneSection>"
+                                           "</lanes></road></OpenDRIVE>";
+    expect_refused("convert long.xodr", {"long.xodr: the network has 301 km of roads"});
     expect_refused("convert none.xodr", {"none.xodr"});
     expect_refused("convert " + kStreet + " -p a.json", {"--photometry has no meaning"});
     expect_refused("convert " + kStreet + " -o a.obj", {".gltf or .glb"});

@@ -233,6 +233,10 @@ TEST_F(ConvertTest, RefusesAndLeavesNothingBehind) {
     EXPECT_TRUE(contains(complaint_with(json::object(), "out.obj"), "out.obj"));
     EXPECT_TRUE(contains(complaint_with(json::object(), "in.gltf"), "would replace an input"));
     EXPECT_TRUE(contains(complaint_with({{"lamp", 1}}), "p.json: /lamp"));
+    json many = json::array();
+    for (int i = 0; i <= 21000; ++i) many.push_back({{"name", "l"}, {"nodes", "light"}, {"type", "point"}, {"intensity_cd", 5}});
+    EXPECT_TRUE(contains(complaint_with({{"lamps", many}}), "p.json: /lamps: "));
+    EXPECT_TRUE(contains(complaint_with({{"lamps", many}}), " lamps, more than the limit of 21000"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.gltf"));
     EXPECT_TRUE(contains(complaint_with(json::object(), "no/out.gltf"), "no/out.gltf"));
     std::filesystem::remove(folder_ / "wall.png");

@@ -126,6 +126,12 @@ TEST(RoadFile, NamesThePlaceOfWhatIsWrong) {
     }
     const TempFolder folder;
     EXPECT_THROW(read_road(folder.write("road.json", "{\"version\": 1")), Error);
+    json dark = layout();
+    dark["luminaires"]["file"] = folder.write("dark.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n0 0\n").string();
+    EXPECT_TRUE(contains(complaint_of([&] { read(dark); }), "dark.ies: the luminaire gives no light"));
+    RoadOverrides narrow;
+    narrow.spacing = 1;
+    EXPECT_TRUE(contains(complaint_of([&] { read(layout(), narrow); }), "road.json: test road: the spacing must be"));
 }
 
 TEST(RoadFile, EveryExampleIsCalculated) {

@@ -1,6 +1,7 @@
 #include "settings.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <set>

@@ -1,6 +1,7 @@
 // Cameras, and the driver's way along the lanes. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "photometry/standard_lamps.h"

@@ -1,6 +1,7 @@
 // Street lamps along roads. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/error.h"
 #include "photometry/standard_lamps.h"

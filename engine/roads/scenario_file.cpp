@@ -1,6 +1,7 @@
 // OpenSCENARIO files: parameters, expressions, catalogs. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/error.h"
 #include "io/atomic_file.h"

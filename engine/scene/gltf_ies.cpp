@@ -1,6 +1,7 @@
 // Measured lamps of a glTF file: EXT_lights_ies. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/error.h"
 #include "photometry/ies.h"

@@ -1,4 +1,6 @@
 // `vesper display` as people run it. SPDX-License-Identifier: MIT
+#include <cstdio>
+
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "perception/display.h"

@@ -1,4 +1,5 @@
 // Allocations of every reader fail, one at a time: that is reported, and nothing is lost. SPDX-License-Identifier: MIT
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <new>

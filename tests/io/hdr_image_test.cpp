@@ -1,6 +1,7 @@
 // OpenEXR pictures of every kind, read back; what is not read; damaged files. SPDX-License-Identifier: MIT
 #include "io/hdr_image.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,8 @@
 // The reference of needles and halo: which lights are lamps, and that what they add has a mean of nothing. SPDX-License-Identifier: MIT
 #include "passes/corona_reference.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "resident/eye_corona.h"

@@ -1,6 +1,8 @@
 // The reference of daylight in tunnels against closed forms and sums. SPDX-License-Identifier: MIT
 #include "passes/daylight_reference.h"
 
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 namespace vesper::test {

@@ -1,6 +1,7 @@
 // Light scattered in the eye: the definition, and the fitted pyramid step by step, in double. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>

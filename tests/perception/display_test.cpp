@@ -1,6 +1,7 @@
 // Displays: transfer functions against their standards, tables, what is refused. SPDX-License-Identifier: MIT
 #include "perception/display.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

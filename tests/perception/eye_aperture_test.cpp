@@ -1,6 +1,7 @@
 // What stands in the way of light within the eye, and what that does to a lamp far away. SPDX-License-Identifier: MIT
 #include "perception/eye_aperture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

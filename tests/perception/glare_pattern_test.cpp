@@ -1,6 +1,7 @@
 // Needles and halo: means, energy, radii and colours, and how they move. SPDX-License-Identifier: MIT
 #include "perception/glare_pattern.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "passes/scatter_reference.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <random>

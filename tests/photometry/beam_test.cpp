@@ -1,6 +1,8 @@
 // Widths, symmetry and cut-off of distributions of known shape. SPDX-License-Identifier: MIT
 #include "photometry/beam.h"
 
+#include <algorithm>
+
 #include "photometry/distributions.h"
 #include "places.h"
 

@@ -1,5 +1,7 @@
 // The distributions of data/photometry: the limits of UN Regulation No. 112 for a class B passing beam (right-hand
 // traffic), and what a road luminaire should be like. SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "photometry/distributions.h"
 #include "places.h"
 

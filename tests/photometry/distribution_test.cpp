@@ -1,6 +1,9 @@
 // Intensity and flux of distributions against closed forms. SPDX-License-Identifier: MIT
 #include "photometry/distribution.h"
 
+#include <algorithm>
+#include <tuple>
+
 #include "photometry/distributions.h"
 
 namespace vesper::test {

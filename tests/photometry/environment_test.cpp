@@ -2,6 +2,7 @@
 // MIT
 #include "photometry/environment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>

@@ -1,6 +1,7 @@
 // Pictures of light sources: what they may hold, and means over parts of them. SPDX-License-Identifier: MIT
 #include "photometry/luminance_picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

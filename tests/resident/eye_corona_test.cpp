@@ -1,6 +1,9 @@
 // The pattern as the device reads it: means keep its light, and the eye of a frame depends on its moment alone. SPDX-License-Identifier: MIT
 #include "resident/eye_corona.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "base/luminance.h"

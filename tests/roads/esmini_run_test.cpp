@@ -1,5 +1,6 @@
 // Runs recorded by esmini, and the lamps of their scenarios. SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <functional>
 

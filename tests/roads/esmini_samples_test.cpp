@@ -1,5 +1,6 @@
 // The centre line and the outer border of every lane against those that esmini samples of the same files.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>

@@ -1,4 +1,5 @@
 // Scenes of road networks: where their surfaces, paint and lamps are. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <functional>
 

@@ -1,6 +1,7 @@
 // Small OpenDRIVE files for tests. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdio>
 #include <string>
 
 #include "roads/opendrive.h"

@@ -1,6 +1,8 @@
 // Colours of black bodies against published chromaticities. SPDX-License-Identifier: MIT
 #include "scene/colour.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/error.h"

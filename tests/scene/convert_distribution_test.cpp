@@ -1,5 +1,6 @@
 // Conversion with measured lamps: what is read back shines where and as strong as the photometry file says.
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 
 #include "photometry/ies.h"

@@ -1,4 +1,5 @@
 // Pictures of light sources, from the photometry file to the scene that is read. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,7 @@
 // Conversion, from file to file: what the reader gets is what the photometry file states. SPDX-License-Identifier: MIT
 #include "scene/convert.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/colour.h"

@@ -1,4 +1,5 @@
 // Meshes: what any accessors become. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

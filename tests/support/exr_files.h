@@ -1,6 +1,7 @@
 // One picture as OpenEXR in every layout. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>

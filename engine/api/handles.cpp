@@ -1,20 +1,28 @@
 #include "api/handles.h"
 
+#include <array>
 #include <cstring>
 #include <new>
 
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "io/atomic_file.h"
+
 namespace vesper::api {
 namespace {
 
 constexpr uint32_t kMostPixels = 16384;  // in width or height
 
+// One line, cut between characters: names of others' may hold anything.
 void say(VesperError* error, const char* message) {
     if (!error) return;
-    std::strncpy(error->message, message, sizeof error->message - 1);
-    error->message[sizeof error->message - 1] = 0;
+    try {
+        const std::string line = one_line(message, sizeof error->message - sizeof "...");
+        error->message[line.copy(error->message, line.size())] = 0;
+    } catch (const std::bad_alloc&) {
+        std::strcpy(error->message, "out of memory");
+    }
 }
 
 template <class T>
@@ -29,9 +37,16 @@ struct KeptEye {
     shared::EyeState eye;
 };
 
+// What an image of colours can be in, by Vulkan 1.3 and in a host that presents.
+constexpr std::array kLayouts{VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_PREINITIALIZED, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                              VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
+                              VK_IMAGE_LAYOUT_ATTACHMENT_FEEDBACK_LOOP_OPTIMAL_EXT};
+
 ForeignImage image_of(const VesperImage* given) {
     const VesperImage i = known(given, "an image without its size");
     require(i.image != VK_NULL_HANDLE, "no image");
+    for (const VkImageLayout layout : {i.layout_before, i.layout_after}) require(std::ranges::find(kLayouts, layout) != kLayouts.end(), "colours have no such layout");
     require(i.layout_after != VK_IMAGE_LAYOUT_UNDEFINED && i.layout_after != VK_IMAGE_LAYOUT_PREINITIALIZED, "an image has a layout after the call");
     return {i.image, i.format, extent_of(i.width, i.height), i.layout_before, i.layout_after};
 }
@@ -94,18 +109,21 @@ Outputs wanted(const VesperOutputs& to) { return {.display = to.codes != nullptr
 
 void give(const ToneMapped& frame, const VesperOutputs& to) {
     give(frame.display, to.codes), give(frame.scene, to.luminance), give(frame.light, to.display_light);
-    give(&frame, to.report);
+    if (to.report) *to.report = report_of(frame);
 }
 
 void check_report(const VesperFrameReport* report) { require(!report || report->size >= sizeof(VesperFrameReport), "a report without its size"); }
 
-void give(const ToneMapped* frame, VesperFrameReport* report) {
-    if (!report) return;
-    *report = {sizeof *report};
-    if (!frame) return;
-    report->adaptation = frame->curve.adaptation, report->log_average = frame->curve.log_average;
-    report->not_finite = frame->histogram.non_finite;
-    report->milliseconds = frame->milliseconds;
+VesperFrameReport report_of(const ToneMapped& frame) {
+    return {.size = sizeof(VesperFrameReport), .adaptation = frame.curve.adaptation, .log_average = frame.curve.log_average, .not_finite = frame.histogram.non_finite,
+            .milliseconds = frame.milliseconds};
+}
+
+VesperFrameReport report_of_handed_over(const ToneMapped& frame) {
+    VesperFrameReport report = report_of(frame);
+    report.milliseconds = 0;
+    for (const Timing& pass : frame.timings) report.milliseconds += pass.milliseconds;
+    return report;
 }
 
 void give_eye(const shared::EyeState& eye, void* bytes) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "renderer.h"
@@ -23,7 +24,8 @@ struct VesperToneMapper {
     static constexpr const char* kNone = "no tone mapper";
     explicit VesperToneMapper(vesper::Device& device) : engine(device) {}
     vesper::ToneMapper engine;
-    vesper::shared::EyeState eye{};  // what the last picture left
+    vesper::shared::EyeState eye{};           // what the last picture left
+    std::optional<VesperFrameReport> report;  // of the last one that was handed over and waited for, until it is asked for
 };
 
 struct VesperScene {
@@ -38,9 +40,10 @@ struct VesperRenderer {
     const VesperScene& scene;
     uint64_t version;  // of the scene on the device
     vesper::Renderer engine;
-    std::map<uint32_t, glm::mat4> places;  // of nodes that were put somewhere: node frame to world
-    std::map<uint32_t, float> dimming;     // of lamps at nodes
-    vesper::shared::EyeState eye{};        // what the last frame left
+    std::map<uint32_t, glm::mat4> places;     // of nodes that were put somewhere: node frame to world
+    std::map<uint32_t, float> dimming;        // of lamps at nodes
+    vesper::shared::EyeState eye{};           // what the last frame left
+    std::optional<VesperFrameReport> report;  // of the last one that was handed over and waited for, until it is asked for
 };
 
 namespace vesper::api {
@@ -90,33 +93,36 @@ RenderSettings settings_of(const VesperToneSettings* given);  ///< null: the def
 VesperOutputs outputs_of(const VesperOutputs* given);
 Outputs wanted(const VesperOutputs& to);
 void give(const ToneMapped& frame, const VesperOutputs& to);
-/// A report that may be asked for, checked; what a frame brought is written to it, or zero.
+/// A report that may be asked for, checked; what a frame in arrays brought, and one that was handed over.
 void check_report(const VesperFrameReport* report);
-void give(const ToneMapped* frame, VesperFrameReport* report);
+VesperFrameReport report_of(const ToneMapped& frame);
+VesperFrameReport report_of_handed_over(const ToneMapped& frame);
 
 /// What the eye remembers, as bytes.
 void give_eye(const shared::EyeState& eye, void* bytes);
 shared::EyeState eye_of(const void* bytes, size_t size);
 
-/// What the last frame of a tone mapper or renderer left; nothing where it is known already.
+/// Waits for what a tone mapper or renderer was handed over. What the last of it left stays known, whatever comes of the call that waits.
 template <class Handle>
-auto finish(Handle& handle) {
-    auto frame = handle.engine.finish();
-    if (frame) handle.eye = frame->eye;
-    return frame;
+void finish(Handle& handle) {
+    const auto frame = handle.engine.finish();
+    if (frame) handle.eye = frame->eye, handle.report = report_of_handed_over(*frame);
 }
-/// Before a frame that is handed over: where its settings wait for the one before, what that left stays known should this one fail.
-template <class Handle>
-void look_back(Handle& handle, const ToneChainSettings& settings) {
+/// Hands over a frame: where its settings look back, the one before is waited for.
+template <class Handle, class... Arguments>
+void hand_over(Handle& handle, const RenderSettings& settings, const Arguments&... arguments) {
     if (EyeKeeper::looks_back(settings)) finish(handle);
+    handle.engine.submit(settings, arguments...);
+    handle.report.reset();
 }
 template <class Handle>
 VesperResult finish(Handle* handle, VesperFrameReport* report, VesperError* error) {
     return guarded(error, [&] {
         require(handle, Handle::kNone);
         check_report(report);
-        const auto frame = finish(*handle);
-        give(frame ? &*frame : nullptr, report);
+        finish(*handle);
+        if (report) *report = handle->report.value_or(VesperFrameReport{sizeof *report});
+        handle->report.reset();
     });
 }
 
@@ -125,7 +131,7 @@ template <class Handle>
 VesperResult reset_eye(Handle* handle, VesperError* error) {
     return guarded(error, [&] {
         require(handle, Handle::kNone);
-        handle->engine.finish();
+        finish(*handle);
         handle->engine.reset_adaptation();
         handle->eye = {};
     });
@@ -145,7 +151,7 @@ VesperResult set_eye(Handle* handle, const void* bytes, size_t size, VesperError
         require(handle, Handle::kNone);
         require(bytes, "nothing to remember");
         const shared::EyeState eye = eye_of(bytes, size);
-        handle->engine.finish();
+        finish(*handle);
         handle->eye = eye;
         handle->engine.set_eye(eye);
     });

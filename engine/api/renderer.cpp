@@ -30,21 +30,24 @@ View view_of(const VesperView& v, const Scene& scene, const SceneFrame& frame) {
     return View::symmetric(extent, v.vertical_fov, glm::mat4(glm::lookAt(eye, eye + forward, up)), v.near_plane);
 }
 
-/// What is drawn and from where, with all that changed in the scene.
+/// What is drawn and from where.
 struct Seen {
     SceneFrame frame;
     View view;
 };
-Seen see(VesperRenderer& renderer, const VesperView* view) {
+Seen see(const VesperRenderer& renderer, const VesperView* view) {
     const VesperView v = known(view, "a view without its size");
     require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
     Seen seen{frame_of(renderer, v.scene_seconds), {}};
     seen.view = view_of(v, renderer.scene.scene, seen.frame);
-    if (renderer.version != renderer.scene.version) {
-        renderer.engine.set_scene(renderer.scene.scene);
-        renderer.version = renderer.scene.version;
-    }
     return seen;
+}
+
+/// With all that changed in it. After everything a call is given has been checked: a call that is refused changes nothing.
+void take_over_scene(VesperRenderer& renderer) {
+    if (renderer.version == renderer.scene.version) return;
+    renderer.engine.set_scene(renderer.scene.scene);
+    renderer.version = renderer.scene.version;
 }
 
 void require_node(const VesperRenderer& renderer, uint32_t node) { require(node < renderer.scene.scene.nodes.size(), "the scene has no such node"); }
@@ -83,7 +86,8 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
         const RenderSettings how = settings_of(settings);
         const float passed = seconds_of(seconds);
         const Seen seen = see(*renderer, view);
-        finish(*renderer);  // its eye stays should this frame fail
+        finish(*renderer);  // what it left stays should this frame fail
+        take_over_scene(*renderer);
         const Frame frame = renderer->engine.render(how, seen.view, seen.frame, passed, wanted(to));
         renderer->eye = frame.eye;
         give(frame, to);
@@ -98,8 +102,9 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
         const float passed = seconds_of(seconds);
         const Handover semaphores = handover_of(handover);
         const Seen seen = see(*renderer, view);
-        look_back(*renderer, how);
-        renderer->engine.submit(how, seen.view, seen.frame, passed, {.display = false, .shown = shown_image(shown, seen.view.extent)}, semaphores);
+        const Outputs to{.display = false, .shown = shown_image(shown, seen.view.extent)};
+        take_over_scene(*renderer);
+        hand_over(*renderer, how, seen.view, seen.frame, passed, to, semaphores);
     });
 }
 

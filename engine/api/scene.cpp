@@ -67,7 +67,8 @@ uint32_t distribution_of(VesperScene& scene, const std::string& file) {
     return scene.distributions[file] = added(scene.scene.distributions.size());
 }
 
-Light light_of(VesperScene& scene, const VesperLamp& l) {
+/// A lamp, but for what was measured.
+Light light_of(const VesperLamp& l) {
     require(finite(l.position) && finite(l.axis) && finite(l.up) && finite(l.colour) && l.intensity >= 0 && std::isfinite(l.intensity), "a lamp has a place, an axis, at least 0 cd and a colour");
     const auto [y, colour] = split(l.colour, "a lamp's colour has no negative part");
     require(y > 0, "a lamp's colour has luminance");
@@ -77,10 +78,6 @@ Light light_of(VesperScene& scene, const VesperLamp& l) {
     light.intensity = l.intensity, light.colour = colour;
     light.inner_cone = l.inner_cone, light.outer_cone = l.outer_cone;
     light.kind = l.distribution ? Light::Kind::Measured : l.outer_cone > 0 ? Light::Kind::Spot : Light::Kind::Point;
-    if (l.distribution) {
-        light.distribution = distribution_of(scene, l.distribution);
-        light.opening = scene.scene.distributions[light.distribution].opening;
-    }
     if (l.opening_length > 0 && l.opening_width > 0) light.opening = {l.opening_length, l.opening_width, 0, false};
     return light;
 }
@@ -159,11 +156,15 @@ VesperResult vesper_scene_add_lamp(VesperScene* scene, const VesperLamp* lamp, u
     return guarded(error, [&] {
         require(scene, "no scene");
         const VesperLamp l = known(lamp, "a lamp without its size");
-        Light light = light_of(*scene, l);
+        Light light = light_of(l);
         Node placed;
         placed.name = "lamp", placed.light = uint32_t(scene->scene.lights.size());
         placed.translation = vector(l.position);
         if (light.kind != Light::Kind::Point) placed.rotation = turned(l);
+        if (l.distribution) {
+            light.distribution = distribution_of(*scene, l.distribution);
+            if (light.opening.length == 0) light.opening = scene->scene.distributions[light.distribution].opening;
+        }
         scene->scene.nodes.reserve(scene->scene.nodes.size() + 1);
         scene->scene.lights.push_back(std::move(light));
         add(scene->scene, std::move(placed), node);

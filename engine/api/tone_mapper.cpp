@@ -31,8 +31,10 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
         require(p.values && (p.channels == 3 || p.channels == 4), "a picture has values, of 3 or 4 channels");
         check_picture(p.scale, p.vertical_fov);
         const HostPicture host{.extent = extent, .values = {p.values, size_t{p.width} * p.height * p.channels}, .channels = p.channels, .scale = p.scale, .vertical_fov = double(p.vertical_fov)};
-        finish(*mapper);  // its eye stays should this picture fail
-        const ToneMapped shown = mapper->engine.map(settings_of(settings), host, seconds_of(seconds), wanted(to));
+        const RenderSettings how = settings_of(settings);
+        const float passed = seconds_of(seconds);
+        finish(*mapper);  // what it left stays should this picture fail
+        const ToneMapped shown = mapper->engine.map(how, host, passed, wanted(to));
         mapper->eye = shown.eye;
         give(shown, to);
     });
@@ -47,9 +49,7 @@ VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSet
         const DevicePicture given{picture_image(p.image), p.scale, double(p.vertical_fov)};
         const ForeignImage to = shown_image(shown, given.image.extent);
         require(to.image != given.image.image, "a picture is shown in another image");
-        const RenderSettings how = settings_of(settings);
-        look_back(*mapper, how);
-        mapper->engine.submit(how, given, to, seconds_of(seconds), handover_of(handover));
+        hand_over(*mapper, settings_of(settings), given, to, seconds_of(seconds), handover_of(handover));
     });
 }
 

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "io/atomic_file.h"
 #include "renderer.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"
@@ -282,6 +283,31 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     vesper_tone_mapper_destroy(mapper);
     vesper_version(nullptr);
     vesper_tone_mapper_destroy(nullptr), vesper_renderer_destroy(nullptr), vesper_scene_destroy(nullptr), vesper_device_close(nullptr);
+}
+
+// Whatever a caller's names hold: one line of whole characters, cut off where it does not fit.
+TEST_F(CInterface, MessagesAreALineOfWholeCharacters) {
+    std::string accents;
+    while (accents.size() < 1400) accents += "\u00e9";
+    VesperScene* scene = nullptr;
+    VesperRenderer* renderer = nullptr;
+    ASSERT_EQ(vesper_scene_create(&scene, &error), VESPER_OK);
+    ASSERT_EQ(vesper_renderer_create(device, scene, &renderer, &error), VESPER_OK) << error.message;
+    VesperView view = VESPER_INIT(VesperView);
+    view.width = view.height = 8;
+    const VesperOutputs nothing = VESPER_INIT(VesperOutputs);
+    for (const std::string& name : {accents, "x" + accents, std::string("two\nlines\r\x1b[31m"), std::string("no \xff UTF-8")}) {
+        view.camera = name.c_str();
+        EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, &nothing, &error), VESPER_FAILED);
+        EXPECT_EQ(one_line(error.message, sizeof error), error.message);
+        EXPECT_NE(std::string(error.message).find(name.substr(0, 2)), std::string::npos) << error.message;
+        VesperDeviceOptions options = VESPER_INIT(VesperDeviceOptions);
+        options.select = name.c_str();
+        VesperDevice* other = nullptr;
+        EXPECT_EQ(vesper_device_open(&options, &other, &error), VESPER_FAILED);
+        EXPECT_EQ(one_line(error.message, sizeof error), error.message);
+    }
+    vesper_renderer_destroy(renderer), vesper_scene_destroy(scene);
 }
 
 // Fields are added at the end: a caller that knows more may say so, one with less than the first version has made a mistake.

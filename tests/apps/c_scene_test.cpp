@@ -365,6 +365,10 @@ TEST(CSceneOnAHost, RendersIntoImages) {
         ASSERT_EQ(vesper_render_image(images, nullptr, &view, 0.1f, &to, nullptr, &error), VESPER_OK) << error.message;
     }
     const std::vector<uint8_t> got = host->read(shown, extent, 1);
+    // The report stays, though a call before waits for the frame, and another is refused.
+    std::vector<uint8_t> eye(vesper_eye_size());
+    ASSERT_EQ(vesper_renderer_eye(images, eye.data(), &error), VESPER_OK);
+    EXPECT_EQ(vesper_render(images, nullptr, &view, -1, &outputs, &error), VESPER_BAD_ARGUMENT);
     VesperFrameReport report = VESPER_INIT(VesperFrameReport);
     ASSERT_EQ(vesper_renderer_finish(images, &report, &error), VESPER_OK);
     EXPECT_GT(report.adaptation, 0);

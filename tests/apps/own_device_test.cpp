@@ -2,6 +2,7 @@
 // the validation layer. SPDX-License-Identifier: MIT
 #include "support/host_device.h"
 
+#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <string>
@@ -172,6 +173,53 @@ TEST_F(OwnDevice, WaitsAndSignals) {
     vkDestroySemaphore(host.device(), binary, nullptr);
 }
 
+// What a picture brought is kept until it is asked for, whatever waits for it before; a call that is refused does not even wait.
+TEST_F(OwnDevice, ReportsStayUntilTheyAreAskedFor) {
+    make_images({16, 16}, VK_FORMAT_R8G8B8A8_UNORM);
+    VesperFrameReport report = VESPER_INIT(VesperFrameReport);
+    const auto finish = [&] {
+        EXPECT_EQ(vesper_tone_mapper_finish(mapper, &report, &error), VESPER_OK) << error.message;
+        return report.adaptation;
+    };
+    const std::vector<uint8_t> rested = eye_of(mapper);
+    const std::function<void()> waits[] = {[&] { eye_of(mapper); }, [&] { EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, rested.data(), rested.size(), &error), VESPER_OK); },
+                                           [&] { EXPECT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK); }, [&] { map_array(mapper, 3); },
+                                           [&] {
+                                               const float grey[3]{1, 1, 1};
+                                               VesperPicture given = VESPER_INIT(VesperPicture);
+                                               given.width = given.height = 1, given.channels = 3, given.values = grey, given.scale = 1, given.vertical_fov = 0.7f;
+                                               const VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+                                               EXPECT_EQ(vesper_tone_map(mapper, &settings, &given, -1, &outputs, &error), VESPER_BAD_ARGUMENT);
+                                           }};
+    for (const auto& wait : waits) {
+        draw(0);
+        ASSERT_EQ(map_image(), VESPER_OK) << error.message;
+        const float alone = finish();
+        EXPECT_GT(alone, 0);
+        ASSERT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK);
+        ASSERT_EQ(map_image(), VESPER_OK);
+        wait();
+        EXPECT_GT(finish(), 0);
+        EXPECT_EQ(finish(), 0) << "a second time there is none";
+        ASSERT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK);
+    }
+}
+
+// What the device took, however late the host asks.
+TEST_F(OwnDevice, TimesAreTheDevices) {
+    make_images({16, 16}, VK_FORMAT_R8G8B8A8_UNORM);
+    VesperFrameReport report = VESPER_INIT(VesperFrameReport);
+    const auto start = std::chrono::steady_clock::now();
+    draw(0);
+    ASSERT_EQ(map_image(), VESPER_OK) << error.message;
+    read();  // waits for both
+    const double all = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    ASSERT_EQ(vesper_tone_mapper_finish(mapper, &report, &error), VESPER_OK);
+    EXPECT_GT(report.milliseconds, 0);
+    EXPECT_LT(report.milliseconds, 1.01 * all);
+}
+
 // Sizes and settings change while frames are under way: what they use is kept until they are done.
 TEST_F(OwnDevice, ChangesUnderWay) {
     make_images({64, 48}, VK_FORMAT_R8G8B8A8_UNORM);
@@ -261,6 +309,9 @@ TEST_F(OwnDevice, RefusesWhatCannotBe) {
     refuses("RGBA or BGRA", [](auto&, auto& t, auto&, auto&) { t.format = VK_FORMAT_R16G16B16A16_SFLOAT; });
     refuses("layout after", [](auto& f, auto&, auto&, auto&) { f.layout_after = VK_IMAGE_LAYOUT_UNDEFINED; });
     refuses("layout after", [](auto&, auto& t, auto&, auto&) { t.layout_after = VK_IMAGE_LAYOUT_PREINITIALIZED; });
+    refuses("no such layout", [](auto& f, auto&, auto&, auto&) { f.layout_before = VkImageLayout(12345); });
+    refuses("no such layout", [](auto&, auto& t, auto&, auto&) { t.layout_before = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL; });
+    refuses("no such layout", [](auto&, auto& t, auto&, auto&) { t.layout_after = VkImageLayout(9); });
     refuses("layout before", [](auto& f, auto&, auto&, auto&) { f.layout_before = VK_IMAGE_LAYOUT_UNDEFINED; });
     refuses("extent", [](auto&, auto& t, auto&, auto&) { t.width = 9; });
     refuses("1 to 16384", [](auto& f, auto&, auto&, auto&) { f.height = 0; });

@@ -65,8 +65,8 @@ typedef struct VesperImage {
                                   * SRGB) or 10 bits. Codes of the display are copied to it as they are, with as many bits as it has */
     uint32_t width;              /**< px */
     uint32_t height;             /**< px */
-    VkImageLayout layout_before; /**< when the call's work begins; of an image to be shown VK_IMAGE_LAYOUT_UNDEFINED will do */
-    VkImageLayout layout_after;  /**< when it is done */
+    VkImageLayout layout_before; /**< when the call's work begins: one that colours can have; of an image to be shown VK_IMAGE_LAYOUT_UNDEFINED will do */
+    VkImageLayout layout_after;  /**< when it is done; of an image of a swapchain VK_IMAGE_LAYOUT_PRESENT_SRC_KHR */
 } VesperImage;
 
 /** Semaphores around a call's work, for what happens on other queues. Both lists may be empty. */

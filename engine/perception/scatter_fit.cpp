@@ -15,6 +15,7 @@ namespace {
 using glm::bvec2, glm::dvec2, glm::dvec3, glm::ivec2;
 
 constexpr int kTopTexels = 1100;   // at most so many texels of the top make the picture
+constexpr double kTopWeights = 8e6;  // and so many weights its matrix: of pictures of more than 20 : 1 most would be of margins
 constexpr double kNodeStep = 0.14;  // tangents between two nodes, at most,
 constexpr int kMostNodes = 17;     // of a row or column: beyond 2.4 tangents across (100 degrees) steps grow, so that a fit takes seconds at most
 constexpr int kPhases = 8;        // places of the eye's axis within a texel of the top
@@ -303,8 +304,13 @@ ivec2 scatter_size(const ImageAngles& image, int level) {
 }
 
 int scatter_levels(const ImageAngles& image) {
+    const auto fits = [&](int top) {
+        const ivec2 n = scatter_size(image, top);
+        const dvec2 rows = n + 2 * kScatterReach, columns = n + 2 * kScatterMargin;
+        return n.x * n.y <= kTopTexels && rows.x * rows.y * columns.x * columns.y <= kTopWeights;
+    };
     int levels = 1;
-    for (ivec2 n = scatter_size(image, levels); n.x * n.y > kTopTexels; n = scatter_size(image, levels)) ++levels;
+    while (!fits(levels)) ++levels;
     return levels;
 }
 

@@ -149,6 +149,18 @@ TEST(ScatterFit, WideViewsAreNearTheDefinition) {
     for (const ivec2 from : {ivec2(20, 820), {0, 420}}) expect_response(psf, tall, from, 3e-3);
 }
 
+// The matrix of the top has margins on all sides: of a picture of a few rows it must not be all margin.
+TEST(ScatterFit, LowAndNarrowPicturesCostNoMore) {
+    const EyeScatter psf = eye(35);
+    const double y = 0.8 * 4 / 4096;
+    const ScatterFit low = fit_scatter(psf, {4096, 4, {-0.8, -y}, {0.8, y}}, kStrip), narrow = fit_scatter(psf, {3, 1000, {-0.001, -0.3}, {0.001, 0.3}}, kStrip);
+    for (const ScatterFit* fit : {&low, &narrow}) EXPECT_LT(fit->top.size(), 8'000'000u);
+    for (const ivec2 from : {ivec2(2048, 2), {4095, 0}, {801, 3}}) expect_response(psf, low, from, 1e-3);
+    expect_response(psf, narrow, {1, 300}, 1e-3);
+    for (const auto& [width, height, levels] : {std::tuple{640, 400, 4}, {1920, 1080, 6}, {3840, 960, 6}, {7680, 1080, 7}, {16384, 1024, 7}})
+        EXPECT_EQ(scatter_levels({.width = width, .height = height}), levels) << width;
+}
+
 TEST(ScatterFit, SpencerWardAndSmallPictures) {
     const EyeScatter spencer = eye_scatter({ScatterSettings::Model::Spencer, {}, SpencerState::Photopic});
     expect_response(spencer, fit_scatter(spencer, driver(420, 262), kStrip), {300, 100}, 1e-3);

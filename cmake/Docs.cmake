@@ -1,6 +1,9 @@
 # The reference documentation of the public headers: cmake --build build/release --target docs. Whatever is not documented is an error.
+if(NOT PROJECT_IS_TOP_LEVEL)
+    return()
+endif()
 find_package(Doxygen QUIET OPTIONAL_COMPONENTS dot)
-if(DOXYGEN_FOUND AND PROJECT_IS_TOP_LEVEL)
+if(DOXYGEN_FOUND)
     set(DOXYGEN_PROJECT_NAME Vesper)
     set(DOXYGEN_PROJECT_BRIEF ${PROJECT_DESCRIPTION})
     set(DOXYGEN_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/docs)

@@ -20,6 +20,18 @@ for header in installed/include/vesper/*; do
     [[ $header == *.hpp ]] || "${CC:-cc}" -std=c99 -Wall -Wextra -Wpedantic -Werror -Iinstalled/include -fsyntax-only -x c alone.cpp
     [[ $header == */vulkan.h ]] || { ! "${CXX:-c++}" -std=c++17 -Iinstalled/include -M alone.cpp | grep -q vulkan_core; }
 done
+# With every warning, in whatever compilers there are.
+warnings="-Wall -Wextra -Wpedantic -Werror -Iinstalled/include -fsyntax-only"
+printf '#include <vesper/vesper.h>\nstatic VesperView view = VESPER_INIT(VesperView);\nint main(void) {\n    const VesperPicture picture = VESPER_INIT(VesperPicture);\n    return view.size != sizeof view || picture.size != sizeof picture;\n}\n' >init.c
+for compilers in "${CC:-cc} ${CXX:-c++}" "gcc g++" "clang clang++"; do
+    read -r c cxx <<<"$compilers"
+    command -v "$c" "$cxx" >/dev/null || continue
+    $c -std=c99 $warnings init.c
+    $cxx -std=c++17 $warnings -x c++ init.c
+    $c -std=c99 $warnings examples/whole-engine/main.c
+    $cxx -std=c++17 $warnings examples/tone-mapper/main.cpp
+    $cxx -std=c++17 $warnings -Wno-missing-field-initializers examples/own-device/*.cpp  # which Vulkan's structures live from
+done
 nm -D --defined-only "$library/libvesper-c.so" | grep -v " vesper_" && { echo "the library shows more than its interface"; exit 1; }
 
 echo "== whole engine: find_package"
@@ -52,12 +64,20 @@ echo "== tone mapper: pkg-config"
 ./tone_mapper | tee tone.txt
 [[ $(sed -n 's/^outside, 0.1 s: code //p' tone.txt) == $(sed -n 's/^outside once more.*code //p' tone.txt) ]]
 
+"${CXX:-c++}" -std=c++17 -O2 examples/tone-mapper/main.cpp -o tone_mapper_static $(pkg-config --cflags --libs vesper-static)
+./tone_mapper_static | diff - tone.txt
+ldd tone_mapper_static | grep libvesper && { echo "that is not static"; exit 1; }
+
 echo "== tone mapper: the static library, and the folder itself"
-mkdir stranger
+mkdir stranger stranger/cmake
+for module in Functions Docs; do echo 'message(FATAL_ERROR "a module of the stranger")' >stranger/cmake/$module.cmake; done
 cat >stranger/CMakeLists.txt <<'CMAKE'
 cmake_minimum_required(VERSION 3.24)
 project(stranger LANGUAGES C CXX)
+set(CMAKE_CXX_STANDARD 17)
 if(VESPER_FOLDER)
+    list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_SOURCE_DIR}/cmake)
+    set(CMAKE_CXX_VISIBILITY_PRESET hidden)
     add_subdirectory(${VESPER_FOLDER} vesper EXCLUDE_FROM_ALL)
     get_property(here DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
     if(TARGET docs OR NOT TARGET vesper::vesper-c OR here)
@@ -65,6 +85,10 @@ if(VESPER_FOLDER)
     endif()
 else()
     find_package(vesper 0.1 CONFIG REQUIRED COMPONENTS static)
+endif()
+get_target_property(features vesper::vesper INTERFACE_COMPILE_FEATURES)
+if(features)
+    message(FATAL_ERROR "the library changes the stranger's language: ${features}")
 endif()
 add_executable(stranger ../examples/tone-mapper/main.cpp)
 target_link_libraries(stranger PRIVATE vesper::vesper)
@@ -78,6 +102,9 @@ cmake --build built-static >/dev/null
 built-static/stranger | diff - tone.txt
 ldd built-static/stranger | grep libvesper && { echo "that is not static"; exit 1; }
 cmake -S stranger -B built-folder -DVESPER_FOLDER="$source" -DCMAKE_BUILD_TYPE=Release >/dev/null
+interface=vesper/engine/CMakeFiles/vesper-c.dir/api/device.cpp.o  # of a host that hides what it builds
+cmake --build built-folder --target $interface >/dev/null
+readelf --wide --symbols built-folder/$interface | grep -q "DEFAULT .* vesper_device_open$" || { echo "a host's visibility hides the interface"; exit 1; }
 if [[ -n ${VESPER_BUILD_FOLDER:-} ]]; then  # all of the engine once more: minutes
     cmake --build built-folder -j "$(nproc)" >/dev/null
     built-folder/stranger | diff - tone.txt

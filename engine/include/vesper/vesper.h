@@ -21,6 +21,12 @@
 #include <stdint.h>
 
 #ifdef __cplusplus
+template <class T>
+constexpr T vesper_init() {
+    T made{};
+    made.size = sizeof made;
+    return made;
+}
 extern "C" {
 #endif
 
@@ -51,7 +57,11 @@ typedef struct VesperError {
 } VesperError;
 
 /** A structure with its size set and everything else zero. */
-#define VESPER_INIT(type) {sizeof(type)}
+#ifdef __cplusplus
+#define VESPER_INIT(type) vesper_init<type>()
+#else
+#define VESPER_INIT(type) {.size = sizeof(type)}
+#endif
 
 /** In place of an index where there is nothing. */
 #define VESPER_NONE 0xffffffffu
@@ -162,7 +172,8 @@ typedef struct VesperFrameReport {
     float adaptation;     /**< luminance the eye adapts to, cd/m^2 */
     float log_average;    /**< of the luminance of the frame, cd/m^2 */
     uint64_t not_finite;  /**< pixels that are NaN or infinite: shown black */
-    double milliseconds;  /**< from the call to the device being done, on the host's clock */
+    double milliseconds;  /**< of a picture in arrays: from the call to the device being done, on the host's clock; of one that was handed over:
+                           * what the device took for it, from its first pass to its last, on the device's clock (0: it has none) */
 } VesperFrameReport;
 
 /** Where a frame goes; what is null is not made. Buffers are the caller's, width * height * 4 values each. */
@@ -202,7 +213,8 @@ VesperResult vesper_tone_map(VesperToneMapper *mapper, const VesperToneSettings 
                              const VesperOutputs *outputs, VesperError *error);
 /** Forgets what the eye was adapted to, as at a cut. */
 VesperResult vesper_tone_mapper_reset(VesperToneMapper *mapper, VesperError *error);
-/** Waits for the picture that vesper_tone_map_image handed over last, and reports it; without one `report` is all zero. */
+/** Waits for the picture that vesper_tone_map_image handed over last, and reports it, once, whatever else has waited for it before; without
+ * one `report` is all zero. */
 VesperResult vesper_tone_mapper_finish(VesperToneMapper *mapper, VesperFrameReport *report, VesperError *error);
 /** Bytes of what the eye remembers. */
 size_t vesper_eye_size(void);
@@ -323,7 +335,7 @@ typedef struct VesperView {
 /** Renders into arrays. `seconds` have passed since the last frame, for the eye. */
 VesperResult vesper_render(VesperRenderer *renderer, const VesperToneSettings *settings, const VesperView *view, float seconds,
                            const VesperOutputs *outputs, VesperError *error);
-/** Waits for the frame that vesper_render_image handed over last, and reports it; without one `report` is all zero. */
+/** Waits for the frame that vesper_render_image handed over last, and reports it (vesper_tone_mapper_finish). */
 VesperResult vesper_renderer_finish(VesperRenderer *renderer, VesperFrameReport *report, VesperError *error);
 /** Forgets what the eye was adapted to, as at a camera cut. */
 VesperResult vesper_renderer_reset(VesperRenderer *renderer, VesperError *error);

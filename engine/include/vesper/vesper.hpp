@@ -57,9 +57,7 @@ Owner make(VesperResult (*function)(Parameters...), Arguments&&... arguments) {
 /** A structure of vesper.h with its size set and everything else zero. */
 template <class T>
 T sized() {
-    T made{};
-    made.size = sizeof made;
-    return made;
+    return VESPER_INIT(T);
 }
 
 /** The settings of vesper_tone_settings_defaults. */

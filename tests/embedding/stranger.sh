@@ -21,7 +21,7 @@ for header in installed/include/vesper/*; do
     [[ $header == */vulkan.h ]] || { ! "${CXX:-c++}" -std=c++17 -Iinstalled/include -M alone.cpp | grep -q vulkan_core; }
 done
 # With every warning, in whatever compilers there are.
-warnings="-Wall -Wextra -Wpedantic -Werror -Iinstalled/include -fsyntax-only"
+warnings="-Wall -Wextra -Wpedantic -Wshadow -Werror -Iinstalled/include -fsyntax-only"
 printf '#include <vesper/vesper.h>\nstatic VesperView view = VESPER_INIT(VesperView);\nint main(void) {\n    const VesperPicture picture = VESPER_INIT(VesperPicture);\n    return view.size != sizeof view || picture.size != sizeof picture;\n}\n' >init.c
 for compilers in "${CC:-cc} ${CXX:-c++}" "gcc g++" "clang clang++"; do
     read -r c cxx <<<"$compilers"

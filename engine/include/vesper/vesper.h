@@ -21,6 +21,7 @@
 #include <stdint.h>
 
 #ifdef __cplusplus
+/** Behind VESPER_INIT. */
 template <class T>
 constexpr T vesper_init() {
     T made{};

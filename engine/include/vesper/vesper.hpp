@@ -18,7 +18,7 @@ namespace vesper::cpp {
 class Failure : public std::runtime_error {
 public:
     /** Of a result that is not VESPER_OK, with its message. */
-    Failure(VesperResult result, const std::string& message) : std::runtime_error(message), result(result) {}
+    Failure(VesperResult kind, const std::string& message) : std::runtime_error(message), result(kind) {}
     VesperResult result; /**< which kind it is */
 };
 

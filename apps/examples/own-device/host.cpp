@@ -25,7 +25,7 @@ bool has_layer() {
 
 }  // namespace
 
-Instance::Instance() {
+Instance::Instance(std::vector<const char*> extensions) {
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.apiVersion = VK_API_VERSION_1_3;
     VkDebugUtilsMessengerCreateInfoEXT messages{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
@@ -34,15 +34,15 @@ Instance::Instance() {
     messages.pfnUserCallback = count, messages.pUserData = &messages_;
     const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &messages, 1, &enable, 0, nullptr};
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
     info.pApplicationInfo = &application;
     const bool validated = has_layer();
     if (validated) {
         info.pNext = &features;
         info.enabledLayerCount = 1, info.ppEnabledLayerNames = &kLayer;
-        info.enabledExtensionCount = 1, info.ppEnabledExtensionNames = &extension;
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
+    info.enabledExtensionCount = uint32_t(extensions.size()), info.ppEnabledExtensionNames = extensions.data();
     check(vkCreateInstance(&info, nullptr, &instance_), "opening Vulkan");
     if (!validated) return;
     const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));

@@ -15,7 +15,8 @@ inline void check(VkResult result, const char* what) {
 /// An instance with the validation layer, where that is installed, whose messages are counted.
 class Instance {
 public:
-    Instance();
+    /// With further extensions, such as those of a window.
+    explicit Instance(std::vector<const char*> extensions = {});
     ~Instance();
     VkInstance get() const { return instance_; }
     VkPhysicalDevice first_device() const;

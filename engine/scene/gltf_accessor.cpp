@@ -168,7 +168,10 @@ Floats read_floats(GltfDocument& document, const JsonValue& reference, std::init
     floats.count = static_cast<uint32_t>(bounded_count(accessor, max_count));
     const uint32_t step = size_of(component), size = step * floats.components;
     // Zeros, as specified, where there is no buffer view. Ranges are checked before memory is taken for them.
-    if (accessor.find("bufferView")) elements_in(document, accessor, floats.count, size);
+    if (accessor.find("bufferView"))
+        elements_in(document, accessor, floats.count, size);
+    else
+        document.take_unwritten(accessor, floats.count);
     floats.values.resize(static_cast<size_t>(floats.count) * floats.components);
     for_each_element(document, accessor, floats.count, size, [&](uint64_t i, const uint8_t* bytes) {
         for (uint32_t c = 0; c < floats.components; ++c)
@@ -183,7 +186,10 @@ std::vector<uint32_t> read_indices(GltfDocument& document, const JsonValue& refe
     if (accessor.at("type").text() != "SCALAR") accessor.at("type").fail("indices must be of type SCALAR");
     const Component component = index_component_of(accessor);
     const uint64_t count = bounded_count(accessor, max_count);
-    if (accessor.find("bufferView")) elements_in(document, accessor, count, size_of(component));
+    if (accessor.find("bufferView"))
+        elements_in(document, accessor, count, size_of(component));
+    else
+        document.take_unwritten(accessor, count);
     std::vector<uint32_t> indices(count);
     for_each_element(document, accessor, count, size_of(component),
                      [&](uint64_t i, const uint8_t* bytes) { indices[i] = load_unsigned(bytes, component); });

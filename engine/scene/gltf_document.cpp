@@ -181,6 +181,13 @@ std::span<const uint8_t> GltfDocument::view(uint32_t index) {
     return bytes.subspan(offset, length);
 }
 
+void GltfDocument::take_unwritten(const JsonValue& accessor, uint64_t count) {
+    const uint64_t limit = limits_.vertices / 50;  // a file of a few bytes should not take gigabytes
+    if (count > limit - unwritten_)
+        accessor.fail("has no buffer view: its " + std::to_string(count) + " elements take those that the file does not hold over the limit of " + std::to_string(limit));
+    unwritten_ += count;
+}
+
 std::vector<uint8_t> GltfDocument::file_of(const JsonValue& holder) {
     if (const auto uri = holder.find("uri")) return bytes_of_uri(*uri);
     if (const auto number = holder.find("bufferView")) {

@@ -41,6 +41,9 @@ public:
     /// Bytes of a file that an object names by `uri` or `bufferView`.
     std::vector<uint8_t> file_of(const JsonValue& holder);
 
+    /// Counts elements that an accessor makes of no bytes; throws where all of them are over the limit.
+    void take_unwritten(const JsonValue& accessor, uint64_t count);
+
     /// What is wrong with the file around its JSON, without harm.
     const std::vector<std::string>& broken_rules() const { return broken_rules_; }
 
@@ -56,7 +59,7 @@ private:
     JsonFile json_;
     std::vector<uint8_t> binary_chunk_;
     bool has_binary_chunk_ = false;
-    uint64_t bytes_read_ = 0;
+    uint64_t bytes_read_ = 0, unwritten_ = 0;
     std::vector<std::string> broken_rules_;
     std::vector<std::pair<std::string, std::vector<JsonValue>>> lists_;
     std::vector<std::optional<std::vector<uint8_t>>> buffers_;

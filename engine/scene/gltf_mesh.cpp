@@ -47,9 +47,9 @@ std::vector<uint32_t> triangles(GltfReader& reader, const std::vector<uint32_t>&
 }
 
 /// Normals from the file; those of no direction are made from the triangles around.
-void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normals) {
+void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normals, const JsonValue& reference) {
     std::vector<char> missing(primitive.vertices.size(), 0);
-    bool any = false;
+    bool any = false, scaled = false;
     for (size_t i = 0; i < primitive.vertices.size(); ++i) {
         const auto n = normals[i];
         const glm::dvec3 normal(n[0], n[1], n[2]);
@@ -58,7 +58,9 @@ void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normal
         primitive.vertices[i].normal = usable ? glm::vec3(normal / length) : glm::vec3(0);
         missing[i] = !usable;
         any = any || !usable;
+        scaled = scaled || !(std::abs(length - 1) <= kUnitTolerance);
     }
+    if (scaled && reader.document.element("accessors", reference).find("bufferView")) reader.scaled_normals.insert(reference.index(UINT32_MAX, "accessors"));
     if (!any) return;
     reader.notes.add("a primitive with normals of no direction: those are made from its triangles");
     for (size_t i = 0; i < primitive.indices.size(); i += 3) {
@@ -189,7 +191,7 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& sou
         take_colours(reader, made, *colours);
     const auto normals = read_attribute(reader, attributes, "NORMAL", count, {"VEC3"});
     if (normals) {
-        take_normals(reader, made, *normals);
+        take_normals(reader, made, *normals, attributes.at("NORMAL"));
         drop_unused(made);
         spend(source, reader.vertices, made.vertices.size(), reader.limits.vertices, "vertices");
     } else {

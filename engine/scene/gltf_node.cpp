@@ -188,6 +188,18 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
             read_instances(reader, *instancing, made);
 }
 
+/// Meshes are kept once, but drawn and added up once for each node.
+void check_drawn(const GltfReader& reader) {
+    std::vector<uint64_t> triangles(reader.scene.meshes.size());
+    for (size_t i = 0; i < triangles.size(); ++i)
+        for (const Primitive& primitive : reader.scene.meshes[i].primitives) triangles[i] += primitive.indices.size() / 3;
+    uint64_t drawn = 0;
+    for (const Node& node : reader.scene.nodes)
+        if (node.mesh != kNone) drawn += triangles[node.mesh];
+    const uint64_t limit = reader.limits.indices / 3 * 10;  // triangles, those of meshes ten times
+    if (drawn > limit) reader.document.root().at("nodes").fail("show " + std::to_string(drawn) + " triangles together, more than the limit of " + std::to_string(limit));
+}
+
 }  // namespace
 
 void read_nodes(GltfReader& reader) {
@@ -219,6 +231,7 @@ void read_nodes(GltfReader& reader) {
                                    [](const Node& n) { return n.light != kNone; });
     if (static_cast<uint64_t>(lit) > reader.limits.lights)
         reader.document.root().fail("more lights than the limit of " + std::to_string(reader.limits.lights));
+    check_drawn(reader);
     if (reader.scene.nodes.empty() && !reader.document.list("meshes").empty())
         reader.notes.add("no node shows any of the file's meshes: the scene is empty");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -34,6 +35,9 @@ struct UvMapping {
     bool operator==(const UvMapping&) const = default;
 };
 
+/// How far directions may be from length 1: half a step of a signed byte in each component.
+constexpr double kUnitTolerance = 0.0069;
+
 /// In `image_of`: not looked at. kNone there: a format we do not read.
 constexpr uint32_t kUnread = kNone - 1;
 
@@ -45,6 +49,8 @@ struct GltfReader {
     Notes notes{};
     std::vector<UvMapping> uv_mappings{};  ///< one per scene material
     std::vector<uint32_t> mesh_of{}, node_of{}, image_of{};
+    std::map<uint32_t, std::string> image_types{};  ///< of the pictures read: what their bytes are
+    std::set<uint32_t> scaled_normals{};            ///< accessors whose normals are not of length 1
     uint32_t default_material = kNone;
     uint32_t punctual_lights = 0;  ///< those of KHR_lights_punctual, the first of the scene's
     /// Scene light of a distribution, with its multiplier and colour.

@@ -11,18 +11,12 @@
 namespace vesper {
 namespace {
 
-// A number that is whole, also where it is written as 1.0.
-std::optional<uint64_t> whole_number(const nlohmann::json& value) {
-    if (value.is_number_unsigned()) return value.get<uint64_t>();
-    if (!value.is_number_float()) return {};
-    const double number = value.get<double>();
-    return number >= 0 && number < 9e15 && number == std::floor(number) ? std::optional(uint64_t(number)) : std::nullopt;
-}
-
 using nlohmann::json;
 
 constexpr size_t kMostNotes = 100;
-constexpr uint64_t kMostNumbers = 1'000'000;  // of all accessors, that are compared with what is stated of them: large files are read once only
+constexpr size_t kMostAlike = 10;  // places that are named for one kind of break; the others are counted
+
+const std::string kMore = "breaks a rule of glTF 2.0 in more places: ";
 
 /// What a key outside of extensions names one of, or several.
 const std::map<std::string, const char*, std::less<>> kReferences{
@@ -30,62 +24,46 @@ const std::map<std::string, const char*, std::less<>> kReferences{
     {"mesh", "meshes"},            {"skin", "skins"},     {"joints", "nodes"},    {"nodes", "nodes"},    {"children", "nodes"},   {"skeleton", "nodes"},
     {"node", "nodes"},             {"material", "materials"}, {"input", "accessors"}, {"output", "accessors"}, {"inverseBindMatrices", "accessors"}};
 
-/// A property that elements of a list must have, in general or where they have another.
+/// A property that elements of a list must have where they have another.
 struct Needed {
     const char *list, *key, *with;
 };
-constexpr Needed kNeeded[]{{"accessors", "componentType", nullptr}, {"accessors", "count", nullptr}, {"accessors", "type", nullptr},
-                           {"accessors", "bufferView", "byteOffset"}, {"bufferViews", "buffer", nullptr}, {"bufferViews", "byteLength", nullptr},
-                           {"buffers", "byteLength", nullptr},      {"images", "mimeType", "bufferView"}, {"nodes", "mesh", "skin"},
-                           {"nodes", "mesh", "weights"}};
+constexpr Needed kNeeded[]{{"accessors", "bufferView", "byteOffset"}, {"images", "mimeType", "bufferView"}, {"nodes", "mesh", "skin"}, {"nodes", "mesh", "weights"}};
 
 class Rules {
 public:
-    explicit Rules(GltfReader& reader) : reader_(reader), root_(reader.document.root().json()) {}
+    explicit Rules(GltfReader& reader) : reader_(reader), lists_(reader.document.root().json()) {}
 
     void check() {
         for (const std::string& broken : reader_.document.broken_rules()) note("", broken);
-        walk(root_, "");
+        walk(lists_.root(), "");
         objects();
+        check_schema(lists_.root(), take_note_);
         needed();
-        check_required_extensions(root_, take_note_);
-        each("buffers", [&](const json& b, const std::string& at, uint32_t) {
-            if (b.contains("byteLength") && b["byteLength"] == 0) note(at, "is empty");
-            uri(b, at, {"application/octet-stream", "application/gltf-buffer"});
-        });
-        each("accessors", [&](const json& a, const std::string& at, uint32_t i) { accessor(a, at, i); });
-        each("images", [&](const json& p, const std::string& at, uint32_t i) { image(p, at, i); });
-        each("nodes", [&](const json& n, const std::string& at, uint32_t) { node(n, at); });
+        check_required_extensions(lists_.root(), take_note_);
+        lists_.each("buffers", [&](const json& b, const std::string& at, uint32_t) { uri(b, at, {"application/octet-stream", "application/gltf-buffer"}); });
+        const std::vector<AccessorUse> uses = check_uses(lists_, take_note_);
+        check_accessors(reader_, lists_, uses, take_note_);
+        check_primitives(lists_, take_note_);
+        lists_.each("images", [&](const json& p, const std::string& at, uint32_t i) { image(p, at, i); });
+        lists_.each("nodes", [&](const json& n, const std::string& at, uint32_t) { node(n, at); });
         roots();
+        check_cameras(lists_, take_note_);
+        check_animations(lists_, take_note_);
+        check_skins(lists_, take_note_);
     }
 
 private:
+    // The first places of each kind; then their number.
     void note(const std::string& at, const std::string& what) {
-        if (++notes_ <= kMostNotes) reader_.notes.add("breaks a rule of glTF 2.0: " + (at.empty() ? "" : at + ": ") + what);
-    }
-    size_t count(const char* list) const { return root_.contains(list) && root_[list].is_array() ? root_[list].size() : 0; }
-
-    template <class See>
-    void each(const char* list, const See& see) {
-        for (size_t i = 0; i < count(list); ++i)
-            if (const json& element = root_[list][i]; element.is_object()) see(element, "/" + std::string(list) + "/" + std::to_string(i), static_cast<uint32_t>(i));
-    }
-    static uint64_t whole(const json& holder, const char* key, uint64_t otherwise = 0) {
-        const auto found = holder.find(key);
-        return found != holder.end() ? whole_number(*found).value_or(otherwise) : otherwise;
+        const auto found = alike_.find(what);
+        if (found == alike_.end() && lines_ >= kMostNotes) return;
+        const size_t alike = ++(found == alike_.end() ? alike_[what] : found->second);
+        if (alike > kMostAlike + 1) return reader_.notes.add(kMore + what);
+        if (++lines_ <= kMostNotes) reader_.notes.add(alike > kMostAlike ? kMore + what : "breaks a rule of glTF 2.0: " + (at.empty() ? "" : at + ": ") + what);
     }
     /// Whether an extension brings other kinds of pictures.
-    bool extended_pictures() const {
-        const json used = root_.value("extensionsUsed", json::array());
-        return used.is_array() && std::any_of(used.begin(), used.end(), [](const json& e) {
-            return e == "KHR_texture_basisu" || e == "MSFT_texture_dds" || (e.is_string() && e.get_ref<const std::string&>().starts_with("EXT_texture_"));
-        });
-    }
-    /// The element of a list that a key names, if there is one.
-    const json* named(const json& holder, const char* key, const char* list) const {
-        const uint64_t i = whole(holder, key, UINT64_MAX);
-        return i < count(list) && root_[list][i].is_object() ? &root_[list][i] : nullptr;
-    }
+    bool extended_pictures() const { return lists_.uses("KHR_texture_basisu") || lists_.uses("MSFT_texture_dds") || lists_.uses("EXT_texture_", true); }
 
     // Extensions, empty lists, and references to what is not there, wherever they are.
     void walk(const json& value, const std::string& at, bool inside_extension = false) {
@@ -94,7 +72,7 @@ private:
             if (key == "extras") continue;
             const std::string here = at + "/" + key;
             if (key == "extensions" && value.is_object()) {
-                if (member.is_object()) check_extensions(root_, member, at, take_note_);
+                if (member.is_object()) check_extensions(lists_.root(), member, at, take_note_);
                 walk(member, here, true);
                 continue;
             }
@@ -107,19 +85,21 @@ private:
         }
     }
     void refer(const json& to, const std::string& at, const char* list) {
-        if (to.is_number() && whole_number(to).value_or(UINT64_MAX) >= count(list)) note(at, "names none of the " + std::to_string(count(list)) + " " + list);
+        if (to.is_number() && whole_number(to).value_or(UINT64_MAX) >= lists_.count(list)) note(at, "names none of the " + std::to_string(lists_.count(list)) + " " + list);
         if (to.is_array() && list == std::string_view("nodes"))
             for (size_t i = 0; i < to.size(); ++i) refer(to[i], at + "/" + std::to_string(i), list);
     }
     void objects() {
-        for (const char* list : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"})
-            for (size_t i = 0; i < count(list); ++i)
-                if (!root_[list][i].is_object()) note("/" + std::string(list) + "/" + std::to_string(i), "is no object");
+        for (const char* list : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
+            const json& elements = array_member(lists_.root(), list);
+            for (size_t i = 0; i < elements.size(); ++i)
+                if (!elements[i].is_object()) note("/" + std::string(list) + "/" + std::to_string(i), "is no object");
+        }
     }
     void needed() {
         for (const Needed& rule : kNeeded)
-            each(rule.list, [&](const json& element, const std::string& at, uint32_t) {
-                if (!element.contains(rule.key) && (!rule.with || element.contains(rule.with))) note(at, "has no " + std::string(rule.key) + (rule.with ? std::string(" to its ") + rule.with : ""));
+            lists_.each(rule.list, [&](const json& element, const std::string& at, uint32_t) {
+                if (element.contains(rule.with) && !element.contains(rule.key)) note(at, "has no " + std::string(rule.key) + " to its " + rule.with);
             });
     }
 
@@ -145,76 +125,37 @@ private:
         }
     }
 
-    void accessor(const json& a, const std::string& at, uint32_t index) {
-        static const std::map<uint64_t, uint64_t> kSizes{{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}};
-        static const std::map<std::string, uint64_t> kColumns{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 2}, {"MAT3", 3}, {"MAT4", 4}};
-        const uint64_t component = whole(a, "componentType"), elements = whole(a, "count");
-        const auto size = kSizes.find(component);
-        const auto type = kColumns.find(a.contains("type") && a["type"].is_string() ? a["type"].get<std::string>() : "");
-        if (size == kSizes.end() || type == kColumns.end()) return;  // noted as missing, or refused where it is read
-        if (a.value("normalized", json()) == true && (component == 5125 || component == 5126)) note(at, "is normalized, which numbers of its type cannot be");
-        if (a.contains("sparse") && a["sparse"].is_object() && whole(a["sparse"], "count") > elements) note(at + "/sparse/count", "is more than the " + std::to_string(elements) + " elements there are");
-        if (a.contains("sparse") && a["sparse"].is_object())
-            for (const char* part : {"indices", "values"})
-                if (a["sparse"].contains(part) && a["sparse"][part].is_object())
-                    if (const json* view = named(a["sparse"][part], "bufferView", "bufferViews"); view && view->contains("byteStride")) note(at + "/sparse/" + part, "lies in a buffer view with a stride");
-        const json* view = named(a, "bufferView", "bufferViews");
-        if (!view) return;
-        // Columns of matrices begin at multiples of four.
-        const bool matrix = type->first.starts_with("MAT");
-        const uint64_t column = type->second * size->second, padded = matrix ? (column + 3) / 4 * 4 * type->second : column;
-        const uint64_t offset = whole(a, "byteOffset"), stride = whole(*view, "byteStride", padded), bytes = whole(*view, "byteLength");
-        if (offset % (matrix ? 4 : size->second) != 0 || (offset + whole(*view, "byteOffset")) % size->second != 0) note(at, "does not begin at a multiple of the size of its numbers");
-        if (stride < padded || (view->contains("byteStride") && (stride % 4 != 0 || stride > 252))) note(at, "lies in a buffer view with a stride of " + std::to_string(stride) + " bytes");
-        if (elements > 0 && elements < UINT32_MAX && stride <= UINT32_MAX && offset <= bytes && (elements - 1) * stride + padded - (matrix ? (4 - column % 4) % 4 : 0) > bytes - offset) note(at, "reaches beyond its buffer view");
-        const uint64_t buffer = whole(*view, "buffer", UINT64_MAX);
-        if (!matrix && buffer < count("buffers") && reader_.document.has_bytes(uint32_t(buffer))) limits(a, at, index, type->first, elements * type->second);
-    }
-
-    // What is stated of the numbers of an accessor, and that they are numbers.
-    void limits(const json& a, const std::string& at, uint32_t index, const std::string& type, uint64_t numbers) {
-        if (a.value("normalized", json()) == true || numbers > kMostNumbers || (numbers_ += numbers) > kMostNumbers) return;
-        Floats floats;
-        try {
-            const JsonFile reference{"", json(index)};
-            floats = read_floats(reader_.document, JsonValue(reference), {type}, kMostNumbers);
-        } catch (const Error& error) {
-            return note(at, error.what());
-        }
-        for (size_t c = 0; c < floats.components; ++c) {
-            float least = INFINITY, most = -INFINITY;
-            for (size_t i = c; i < floats.values.size(); i += floats.components) {
-                if (!std::isfinite(floats.values[i])) return note(at, "holds numbers that are not finite");
-                least = std::min(least, floats.values[i]), most = std::max(most, floats.values[i]);
-            }
-            for (const auto& [key, found] : {std::pair{"min", least}, std::pair{"max", most}})
-                if (a.contains(key) && a[key].is_array() && c < a[key].size() && a[key][c].is_number() && a[key][c].get<float>() != found)
-                    return note(at + "/" + key, "is not that of its numbers");
-        }
-    }
-
     void image(const json& i, const std::string& at, uint32_t index) {
         if (i.contains("uri") == i.contains("bufferView")) note(at, "has not either a uri or a buffer view");
         uri(i, at, {"image/png", "image/jpeg"});
-        if (const json* view = named(i, "bufferView", "bufferViews"); view && view->contains("byteStride")) note(at, "lies in a buffer view with a stride");
-        if (index < reader_.image_of.size() && reader_.image_of[index] != kUnread) return;
-        try {
-            const std::vector<uint8_t> bytes = reader_.document.image(index);
-            const std::string type = media_type(bytes);
-            if (type == "image/png" || type == "image/jpeg" || !extended_pictures()) check_image(bytes, reader_.limits.image_side, reader_.limits.texels);
-        } catch (const Error& error) {
-            note(at, error.what());
+        if (const json* view = lists_.named(i, "bufferView", "bufferViews"); view && view->contains("byteStride")) note(at, "lies in a buffer view with a stride");
+        std::string type;
+        if (index < reader_.image_of.size() && reader_.image_of[index] != kUnread) {
+            type = reader_.image_types[index];
+        } else {
+            try {
+                const std::vector<uint8_t> bytes = reader_.document.image(index);
+                type = media_type(bytes);
+                if (type == "image/png" || type == "image/jpeg" || !extended_pictures()) check_image(bytes, reader_.limits.image_side, reader_.limits.texels);
+            } catch (const Error& error) {
+                return note(at, error.what());
+            }
         }
+        const std::string stated = i.value("mimeType", json()).is_string() ? i.value("mimeType", "") : "", text = i.value("uri", json()).is_string() ? i.value("uri", "") : "";
+        if (type.empty()) return;
+        if (!stated.empty() && stated != type) note(at + "/mimeType", "is not that of the picture, which is " + type);
+        if (text.starts_with("data:image/") && text.compare(5, type.size(), type) != 0) note(at + "/uri", "has not the type of the picture, which is " + type);
     }
 
     void node(const json& n, const std::string& at) {
         if (n.contains("matrix") && (n.contains("translation") || n.contains("rotation") || n.contains("scale"))) note(at, "has a matrix and its parts");
+        if (const json& m = array_member(n, "matrix"); m.size() == 16 && !decomposes(m)) note(at + "/matrix", "is no translation, rotation and scale");
         if (const auto q = n.find("rotation"); q != n.end() && q->is_array() && q->size() == 4) {
             double sum = 0;
             for (const json& part : *q) sum += part.is_number() ? part.get<double>() * part.get<double>() : 0;
             if (std::abs(std::sqrt(sum) - 1) > 0.01) note(at + "/rotation", "is no unit quaternion");
         }
-        const json* mesh = named(n, "mesh", "meshes");
+        const json* mesh = lists_.named(n, "mesh", "meshes");
         if (!mesh || !mesh->contains("primitives") || !(*mesh)["primitives"].is_array()) return;
         for (const json& primitive : (*mesh)["primitives"]) {
             if (!primitive.is_object()) continue;
@@ -224,16 +165,29 @@ private:
         }
     }
 
+    // Whether the columns of a matrix stand square on one another, and none is zero.
+    static bool decomposes(const json& m) {
+        double v[16];
+        for (size_t i = 0; i < 16; ++i) {
+            if (!m[i].is_number()) return true;  // noted as such
+            v[i] = m[i].get<double>();
+        }
+        const auto dot = [&](int a, int b) { return v[4 * a] * v[4 * b] + v[4 * a + 1] * v[4 * b + 1] + v[4 * a + 2] * v[4 * b + 2]; };
+        for (int a = 0; a < 3; ++a)
+            if (!(dot(a, a) > 0) || std::abs(dot(a, (a + 1) % 3)) > 1e-4 * std::sqrt(dot(a, a) * dot((a + 1) % 3, (a + 1) % 3))) return false;
+        return v[3] == 0 && v[7] == 0 && v[11] == 0 && v[15] == 1;
+    }
+
     // Scenes list nodes that hang on no other.
     void roots() {
-        std::vector<bool> child(count("nodes"));
+        std::vector<bool> child(lists_.count("nodes"));
         const auto mark = [&](const json& n, const std::string&, uint32_t) {
             if (n.contains("children") && n["children"].is_array())
                 for (const json& c : n["children"])
                     if (const auto which = whole_number(c); which && *which < child.size()) child[*which] = true;
         };
-        each("nodes", mark);
-        each("scenes", [&](const json& s, const std::string& at, uint32_t) {
+        lists_.each("nodes", mark);
+        lists_.each("scenes", [&](const json& s, const std::string& at, uint32_t) {
             if (s.contains("nodes") && s["nodes"].is_array())
                 for (const json& n : s["nodes"])
                     if (const auto which = whole_number(n); which && *which < child.size() && child[*which]) note(at, "lists a node that hangs on another");
@@ -241,10 +195,10 @@ private:
     }
 
     GltfReader& reader_;
-    const json& root_;
+    const GltfLists lists_;
     const RuleNote take_note_ = [this](const std::string& at, const std::string& what) { note(at, what); };
-    size_t notes_ = 0;
-    uint64_t numbers_ = 0;
+    std::map<std::string, size_t> alike_;  // by what is wrong
+    size_t lines_ = 0;
 };
 
 }  // namespace

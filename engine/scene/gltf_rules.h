@@ -1,8 +1,11 @@
 // Parts of the check of glTF's rules. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +13,59 @@ namespace vesper {
 
 /// Takes a place, as a JSON pointer, and what is wrong there.
 using RuleNote = std::function<void(const std::string& at, const std::string& what)>;
+
+/// A number that is whole, also where it is written as 1.0.
+std::optional<uint64_t> whole_number(const nlohmann::json& value);
+/// That of a member of an object.
+uint64_t whole_member(const nlohmann::json& holder, const char* key, uint64_t otherwise = 0);
+/// An object or array of a member; an empty one where there is none.
+const nlohmann::json& object_member(const nlohmann::json& holder, const char* key);
+const nlohmann::json& array_member(const nlohmann::json& holder, const char* key);
+
+/// The lists of a glTF file, whatever stands in them.
+class GltfLists {
+public:
+    explicit GltfLists(const nlohmann::json& root) : root_(root) {}
+
+    const nlohmann::json& root() const { return root_; }
+    size_t count(const char* list) const { return array_member(root_, list).size(); }
+    /// The element that a key of an object names, if there is one and it is an object.
+    const nlohmann::json* named(const nlohmann::json& holder, const char* key, const char* list) const;
+    /// `see(element, its place, its number)` for all that are objects.
+    template <class See>
+    void each(const char* list, const See& see) const {
+        each_of(array_member(root_, list), "/" + std::string(list), see);
+    }
+    template <class See>
+    static void each_of(const nlohmann::json& list, const std::string& at, const See& see) {
+        for (size_t i = 0; i < list.size(); ++i)
+            if (list[i].is_object()) see(list[i], at + "/" + std::to_string(i), static_cast<uint32_t>(i));
+    }
+    /// Whether the file uses an extension, or any whose name begins so.
+    bool uses(std::string_view extension, bool or_begins_so = false) const;
+
+private:
+    const nlohmann::json& root_;
+};
+
+/// What the numbers of an accessor are to be, by what it is used for.
+struct AccessorUse {
+    enum class Kind : uint8_t { None, Indices, Attribute, KeyTimes, KeyValues, Matrices };
+    Kind kind = Kind::None;
+    bool mixed = false;    ///< used as another kind as well, and noted
+    bool tangent = false;  ///< three numbers of length 1 and a sign
+};
+std::vector<AccessorUse> check_uses(const GltfLists&, const RuleNote&);
+/// Accessors and their numbers; those of large files as far as the first million.
+void check_accessors(struct GltfReader&, const GltfLists&, const std::vector<AccessorUse>&, const RuleNote&);
+
+/// Types, ranges and lengths of all that the specification names, required properties, lists without doubles.
+void check_schema(const nlohmann::json& root, const RuleNote&);
+/// Attributes, morph targets, and the texture coordinates that materials need.
+void check_primitives(const GltfLists&, const RuleNote&);
+void check_cameras(const GltfLists&, const RuleNote&);
+void check_animations(const GltfLists&, const RuleNote&);
+void check_skins(const GltfLists&, const RuleNote&);
 
 /// The extensions of the object at a place.
 void check_extensions(const nlohmann::json& root, const nlohmann::json& extensions, const std::string& at, const RuleNote&);

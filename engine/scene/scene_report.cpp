@@ -6,7 +6,9 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <unordered_map>
 
 #include "base/srgb.h"
 #include "scene/colour.h"
@@ -91,13 +93,75 @@ void look_for(PlacedLamp& lamp, const std::array<glm::dvec3, 3>& corner) {
     lamp.highest = std::max(lamp.highest, y);
 }
 
+/// A mesh's own figures, which placing it many times does not change.
+struct PrimitiveSize {
+    double area = 0;
+    glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
+};
+
+PrimitiveSize size_of(const Primitive& primitive) {
+    PrimitiveSize size;
+    for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+        std::array<glm::dvec3, 3> corner;
+        for (size_t k = 0; k < 3; ++k) {
+            corner[k] = glm::dvec3(primitive.vertices[primitive.indices[i + k]].position);
+            size.low = glm::min(size.low, corner[k]), size.high = glm::max(size.high, corner[k]);
+        }
+        size.area += glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])) / 2;
+    }
+    return size;
+}
+
+/// The factor that a transform has on every area; none where that depends on the direction.
+std::optional<double> area_factor(const glm::dmat4& m) {
+    const glm::dvec3 x(m[0]), y(m[1]), z(m[2]);
+    const double scale = glm::dot(x, x), near = 1e-6 * scale;
+    const bool same = std::abs(glm::dot(y, y) - scale) <= near && std::abs(glm::dot(z, z) - scale) <= near;
+    const bool square = std::abs(glm::dot(x, y)) <= near && std::abs(glm::dot(y, z)) <= near && std::abs(glm::dot(z, x)) <= near;
+    return same && square ? std::optional(scale) : std::nullopt;
+}
+
 class Measure {
 public:
     Measure(const Scene& scene, std::vector<PlacedLamp>& lamps) : lamps_(lamps), area_(scene.materials.size()) {
         std::sort(lamps_.begin(), lamps_.end(),
                   [](const PlacedLamp& a, const PlacedLamp& b) { return a.position.x < b.position.x; });
     }
+    /// Triangles are gone through only where the figures of the whole do not tell: a mesh may be shown by a million nodes.
     void add(const Primitive& primitive, const glm::dmat4& world) {
+        const auto [entry, added] = sizes_.try_emplace(&primitive);
+        PrimitiveSize& size = entry->second;
+        if (added) size = size_of(primitive);
+        triangles += primitive.indices.size() / 3;
+        const std::optional<double> factor = area_factor(world);
+        if (factor) area_[primitive.material] += size.area * *factor;
+        if (!factor || may_matter(size, world)) look_at_triangles(primitive, world, !factor);
+    }
+    glm::dvec3 extent() const { return triangles ? high_ - low_ : glm::dvec3(0); }
+    double area(size_t material) const { return area_[material]; }
+    uint64_t triangles = 0;
+
+private:
+    /// Whether the box around a placed primitive reaches beyond the extent so far, or a lamp stands over or under it.
+    bool may_matter(const PrimitiveSize& size, const glm::dmat4& world) const {
+        if (!(size.low.x <= size.high.x)) return false;
+        glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 corner(i & 1 ? size.high.x : size.low.x, i & 2 ? size.high.y : size.low.y, i & 4 ? size.high.z : size.low.z);
+            const glm::dvec3 placed(world * glm::dvec4(corner, 1));
+            low = glm::min(low, placed), high = glm::max(high, placed);
+        }
+        if (glm::any(glm::lessThan(low, low_)) || glm::any(glm::greaterThan(high, high_))) return true;
+        const glm::dvec3 margin = 1e-9 * (glm::abs(low) + glm::abs(high));  // of rounding
+        auto lamp = first_lamp(low.x - margin.x);
+        for (; lamp != lamps_.end() && lamp->position.x <= high.x + margin.x; ++lamp)
+            if (lamp->position.z >= low.z - margin.z && lamp->position.z <= high.z + margin.z) return true;
+        return false;
+    }
+    std::vector<PlacedLamp>::iterator first_lamp(double x) const {
+        return std::lower_bound(lamps_.begin(), lamps_.end(), x, [](const PlacedLamp& a, double from) { return a.position.x < from; });
+    }
+    void look_at_triangles(const Primitive& primitive, const glm::dmat4& world, bool add_area) {
         const glm::dvec3 none(HUGE_VAL);
         for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
             std::array<glm::dvec3, 3> corner;
@@ -107,22 +171,16 @@ public:
                 corner[k] = glm::dvec3(world * glm::dvec4(glm::dvec3(vertex.position), 1));
                 low = glm::min(low, corner[k]), high = glm::max(high, corner[k]);
             }
-            ++triangles;
-            area_[primitive.material] += glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])) / 2;
+            if (add_area) area_[primitive.material] += glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])) / 2;
             low_ = glm::min(low_, low), high_ = glm::max(high_, high);
-            auto lamp = std::lower_bound(lamps_.begin(), lamps_.end(), low.x,
-                                         [](const PlacedLamp& a, double x) { return a.position.x < x; });
-            for (; lamp != lamps_.end() && lamp->position.x <= high.x; ++lamp)
+            for (auto lamp = first_lamp(low.x); lamp != lamps_.end() && lamp->position.x <= high.x; ++lamp)
                 if (lamp->position.z >= low.z && lamp->position.z <= high.z) look_for(*lamp, corner);
         }
     }
-    glm::dvec3 extent() const { return triangles ? high_ - low_ : glm::dvec3(0); }
-    double area(size_t material) const { return area_[material]; }
-    uint64_t triangles = 0;
 
-private:
     std::vector<PlacedLamp>& lamps_;
     std::vector<double> area_;
+    std::unordered_map<const Primitive*, PrimitiveSize> sizes_;
     glm::dvec3 low_{HUGE_VAL}, high_{-HUGE_VAL};
 };
 

@@ -135,17 +135,34 @@ TEST(GltfMalformed, RefusesMoreThanTheLimits) {
     EXPECT_TRUE(contains(zeros.complaint(), "/accessors/0/count"));
     // Each within the limit, not all together.
     GltfFile often;
-    often.root["accessors"] = {{{"componentType", 5126}, {"count", 1000}, {"type", "VEC3"}}};
+    often.vec3(std::vector<float>(3000));
     for (int i = 0; i < 6; ++i) often.show({{"attributes", {{"POSITION", 0}}}});
     small = {};
     small.vertices = 5000;
     EXPECT_TRUE(contains(often.complaint(small), "/meshes/5/primitives/0: takes the meshes over the limit of 5000"));
     // Few vertices kept, but many read again and again.
     GltfFile again;
-    again.root["accessors"] = {{{"componentType", 5126}, {"count", 5000}, {"type", "VEC3"}}};
+    again.vec3(std::vector<float>(15000));
     const size_t corners = again.indices({0, 1, 2});
     for (int i = 0; i < 50; ++i) again.show({{"attributes", {{"POSITION", 0}, {"NORMAL", 0}}}, {"indices", corners}});
     EXPECT_TRUE(contains(again.complaint(small), "too often"));
+    // Elements of no bytes, at once or together: a fiftieth of the vertices.
+    zeros.root["accessors"][0]["count"] = 1'000'001;
+    EXPECT_TRUE(contains(zeros.complaint(), "/accessors/0: has no buffer view")) << zeros.complaint();
+    GltfFile empty;
+    empty.root["accessors"] = {{{"componentType", 5126}, {"count", 30}, {"type", "VEC3"}}};
+    for (int i = 0; i < 3; ++i) empty.show({{"attributes", {{"POSITION", 0}}}});
+    EXPECT_EQ(empty.complaint(small), "");
+    empty.show({{"attributes", {{"POSITION", 0}}}});
+    EXPECT_TRUE(contains(empty.complaint(small), "/accessors/0: has no buffer view: its 30 elements take those that the file does not hold over the limit of 100"));
+    // A mesh that many nodes show.
+    GltfFile shown = triangle();
+    small = {};
+    small.indices = 3;
+    for (int i = 0; i < 9; ++i) shown.root["nodes"].push_back({{"mesh", 0}});
+    EXPECT_EQ(shown.complaint(small), "");
+    shown.root["nodes"].push_back({{"mesh", 0}});
+    EXPECT_TRUE(contains(shown.complaint(small), "/nodes: show 11 triangles together, more than the limit of 10"));
 }
 
 TEST(GltfMalformed, RefusesNestingWithoutEnd) {

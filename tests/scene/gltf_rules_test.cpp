@@ -1,21 +1,10 @@
 // Rules of glTF that a file breaks without harm: read, and noted with the place. SPDX-License-Identifier: MIT
-#include "scene/scene_files.h"
+#include "scene/broken_rules.h"
 
 namespace vesper::test {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* kBroken = "breaks a rule of glTF 2.0: ";
-
-std::vector<std::string> broken(const json& root) {
-    GltfFile file;
-    file.root = root;
-    std::vector<std::string> rules;
-    for (const std::string& note : file.read().notes)
-        if (note.starts_with(kBroken)) rules.push_back(note.substr(std::string(kBroken).size()));
-    return rules;
-}
 
 /// A file that keeps all rules: a picture, a spot, data beside the JSON, extensions where they may be.
 json sound() {

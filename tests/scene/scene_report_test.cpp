@@ -66,6 +66,27 @@ TEST(SceneReport, AddsUp) {
     EXPECT_TRUE(report.warnings.empty()) << report.warnings.front();
 }
 
+// Nodes that show a mesh are added up without going through its triangles where they are only moved, turned and scaled evenly.
+TEST(SceneReport, MeshesCountForEveryNodeThatShowsThem) {
+    Street street;
+    street.scene.nodes.push_back({.name = "turned", .translation = {0, 1, 0}, .rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), .scale = glm::vec3(0.5f), .mesh = 0});
+    street.scene.nodes.push_back({.name = "drawn out", .translation = {0, 2, 40}, .scale = {1, 1, 3}, .mesh = 0});
+    street.scene.nodes.push_back({.name = "far", .translation = {200, 0, 0}, .mesh = 0});
+    street.add_lamp("over far", street.scene.lights[0], {200, 7, 0});
+    street.add_lamp("over drawn out", street.scene.lights[0], {10, 7, 40});
+    street.scene.nodes.push_back({.name = "inside", .translation = {199, 3, 0}, .scale = glm::vec3(0.25f), .mesh = 0});
+    const SceneReport report = report_scene(street.scene);
+    EXPECT_EQ(report.triangles, 10u);
+    EXPECT_NEAR(report.area, 2000 * (1 + 0.25 + 3 + 1 + 0.0625), 0.01);
+    EXPECT_NEAR(report.extent.x, 300, 1e-3);
+    EXPECT_NEAR(report.extent.y, 3, 1e-5);
+    EXPECT_NEAR(report.extent.z, 70 + 25 * std::sin(0.5) + 5 * std::cos(0.5), 1e-3);
+    ASSERT_EQ(report.lamps.size(), 3u);
+    EXPECT_NEAR(report.lamps[0].lowest.value_or(0), 6, 1e-5);
+    EXPECT_NEAR(report.lamps[1].lowest.value_or(0), 7, 1e-5);
+    EXPECT_NEAR(report.lamps[2].lowest.value_or(0), 5, 1e-5);
+}
+
 TEST(SceneReport, MeasuredLampsAreTheirDistribution) {
     Street street;
     Distribution d{.name = "sphere", .horizontal = {0}, .vertical = {0, 180}, .candela = {50, 50}};

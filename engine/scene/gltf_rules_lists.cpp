@@ -1,0 +1,50 @@
+// What the checks of glTF's rules share: looking at JSON that may hold anything. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "scene/gltf_rules.h"
+
+namespace vesper {
+
+using nlohmann::json;
+
+std::optional<uint64_t> whole_number(const json& value) {
+    if (value.is_number_unsigned()) return value.get<uint64_t>();
+    if (!value.is_number_float()) return {};
+    const double number = value.get<double>();
+    return number >= 0 && number < 9e15 && number == std::floor(number) ? std::optional(uint64_t(number)) : std::nullopt;
+}
+
+uint64_t whole_member(const json& holder, const char* key, uint64_t otherwise) {
+    const auto found = holder.find(key);
+    return found != holder.end() ? whole_number(*found).value_or(otherwise) : otherwise;
+}
+
+const json& object_member(const json& holder, const char* key) {
+    static const json kEmpty = json::object();
+    const auto found = holder.find(key);
+    return found != holder.end() && found->is_object() ? *found : kEmpty;
+}
+
+const json& array_member(const json& holder, const char* key) {
+    static const json kEmpty = json::array();
+    const auto found = holder.find(key);
+    return found != holder.end() && found->is_array() ? *found : kEmpty;
+}
+
+const json* GltfLists::named(const json& holder, const char* key, const char* list) const {
+    const json& elements = array_member(root_, list);
+    const uint64_t i = whole_member(holder, key, UINT64_MAX);
+    return i < elements.size() && elements[i].is_object() ? &elements[i] : nullptr;
+}
+
+bool GltfLists::uses(std::string_view extension, bool or_begins_so) const {
+    const json& used = array_member(root_, "extensionsUsed");
+    return std::any_of(used.begin(), used.end(), [&](const json& e) {
+        if (!e.is_string()) return false;
+        const std::string& name = e.get_ref<const std::string&>();
+        return or_begins_so ? name.starts_with(extension) : name == extension;
+    });
+}
+
+}  // namespace vesper

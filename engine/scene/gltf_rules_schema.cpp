@@ -1,0 +1,184 @@
+// Rules of glTF 2.0 for its JSON: what each property is, from where to where, and which there must be. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "scene/gltf_rules.h"
+
+namespace vesper {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRightAngle = 1.5707963268 * (1 + 1e-6);  // of a float that was rounded up, too
+
+enum class Is : uint8_t { Text, Flag, Whole, Number, Texts, Wholes, Numbers, Object, Objects };
+
+enum : uint8_t { kNeeded = 1, kNotLow = 2 };  // must be there; is more than `low`
+
+/// A property of a kind of object. The kind of those inside of it is its own key, or `kind`.
+struct Property {
+    Is is;
+    double low = -kInfinity, high = kInfinity;
+    size_t length = 0;  // of lists, where that is fixed
+    uint8_t flags = 0;
+    const char* kind = "";
+};
+
+using Properties = std::map<std::string, Property, std::less<>>;
+
+constexpr Property kText{Is::Text}, kFlag{Is::Flag}, kIndex{Is::Whole}, kNumber{Is::Number}, kTexts{Is::Texts}, kIndices{Is::Wholes}, kNumbers{Is::Numbers};
+constexpr Property kNeededText{.is = Is::Text, .flags = kNeeded}, kNeededIndex{.is = Is::Whole, .flags = kNeeded};
+constexpr Property kFromZero{.is = Is::Number, .low = 0}, kAboveZero{.is = Is::Number, .low = 0, .flags = kNotLow}, kUnit{.is = Is::Number, .low = 0, .high = 1};
+constexpr Property kColour{.is = Is::Numbers, .low = 0, .high = 1, .length = 3}, kNeededCount{.is = Is::Whole, .low = 1, .flags = kNeeded};
+
+constexpr Property object(const char* kind, uint8_t flags = 0) { return {.is = Is::Object, .flags = flags, .kind = kind}; }
+constexpr Property objects(const char* kind, uint8_t flags = 0) { return {.is = Is::Objects, .flags = flags, .kind = kind}; }
+constexpr Property numbers(size_t length, double low = -kInfinity, double high = kInfinity) { return {.is = Is::Numbers, .low = low, .high = high, .length = length}; }
+
+/// Kinds of objects, as the specification has them (chapter 5); extensions by their names.
+const std::map<std::string, Properties, std::less<>> kKinds{
+    {"glTF", {{"accessors", objects("accessor")}, {"animations", objects("animation")}, {"asset", object("asset", kNeeded)}, {"buffers", objects("buffer")},
+              {"bufferViews", objects("bufferView")}, {"cameras", objects("camera")}, {"extensions", object("extensions")}, {"extensionsRequired", kTexts}, {"extensionsUsed", kTexts},
+              {"images", objects("image")}, {"materials", objects("material")}, {"meshes", objects("mesh")}, {"nodes", objects("node")}, {"samplers", objects("sampler")},
+              {"scene", kIndex}, {"scenes", objects("scene")}, {"skins", objects("skin")}, {"textures", objects("texture")}}},
+    {"asset", {{"copyright", kText}, {"generator", kText}, {"minVersion", kText}, {"version", kNeededText}}},
+    {"accessor", {{"bufferView", kIndex}, {"byteOffset", kIndex}, {"componentType", kNeededIndex}, {"count", kNeededCount}, {"max", kNumbers}, {"min", kNumbers}, {"name", kText},
+                  {"normalized", kFlag}, {"sparse", object("sparse")}, {"type", kNeededText}}},
+    {"sparse", {{"count", kNeededCount}, {"indices", object("sparse indices", kNeeded)}, {"values", object("sparse values", kNeeded)}}},
+    {"sparse indices", {{"bufferView", kNeededIndex}, {"byteOffset", kIndex}, {"componentType", kNeededIndex}}},
+    {"sparse values", {{"bufferView", kNeededIndex}, {"byteOffset", kIndex}}},
+    {"animation", {{"channels", objects("channel", kNeeded)}, {"name", kText}, {"samplers", objects("animation sampler", kNeeded)}}},
+    {"channel", {{"sampler", kNeededIndex}, {"target", object("target", kNeeded)}}},
+    {"target", {{"node", kIndex}, {"path", kNeededText}}},
+    {"animation sampler", {{"input", kNeededIndex}, {"interpolation", kText}, {"output", kNeededIndex}}},
+    {"buffer", {{"byteLength", kNeededCount}, {"name", kText}, {"uri", kText}}},
+    {"bufferView", {{"buffer", kNeededIndex}, {"byteLength", kNeededCount}, {"byteOffset", kIndex}, {"byteStride", {.is = Is::Whole, .low = 4, .high = 252}}, {"name", kText}, {"target", kIndex}}},
+    {"camera", {{"name", kText}, {"orthographic", object("orthographic")}, {"perspective", object("perspective")}, {"type", kNeededText}}},
+    {"orthographic", {{"xmag", {.is = Is::Number, .flags = kNeeded}}, {"ymag", {.is = Is::Number, .flags = kNeeded}}, {"zfar", {.is = Is::Number, .low = 0, .flags = kNeeded | kNotLow}},
+                      {"znear", {.is = Is::Number, .low = 0, .flags = kNeeded}}}},
+    {"perspective", {{"aspectRatio", kAboveZero}, {"yfov", {.is = Is::Number, .low = 0, .flags = kNeeded | kNotLow}}, {"zfar", kAboveZero},
+                     {"znear", {.is = Is::Number, .low = 0, .flags = kNeeded | kNotLow}}}},
+    {"image", {{"bufferView", kIndex}, {"mimeType", kText}, {"name", kText}, {"uri", kText}}},
+    {"material", {{"alphaCutoff", kFromZero}, {"alphaMode", kText}, {"doubleSided", kFlag}, {"emissiveFactor", kColour}, {"emissiveTexture", object("textureInfo")}, {"name", kText},
+                  {"extensions", object("extensions")}, {"normalTexture", object("normalTexture")}, {"occlusionTexture", object("occlusionTexture")}, {"pbrMetallicRoughness", object("pbrMetallicRoughness")}}},
+    {"pbrMetallicRoughness", {{"baseColorFactor", numbers(4, 0, 1)}, {"baseColorTexture", object("textureInfo")}, {"metallicFactor", kUnit}, {"metallicRoughnessTexture", object("textureInfo")},
+                              {"roughnessFactor", kUnit}}},
+    {"textureInfo", {{"extensions", object("extensions")}, {"index", kNeededIndex}, {"texCoord", kIndex}}},
+    {"normalTexture", {{"extensions", object("extensions")}, {"index", kNeededIndex}, {"scale", kNumber}, {"texCoord", kIndex}}},
+    {"occlusionTexture", {{"extensions", object("extensions")}, {"index", kNeededIndex}, {"strength", kUnit}, {"texCoord", kIndex}}},
+    {"mesh", {{"name", kText}, {"primitives", objects("primitive", kNeeded)}, {"weights", kNumbers}}},
+    {"primitive", {{"attributes", object("attributes", kNeeded)}, {"indices", kIndex}, {"material", kIndex}, {"mode", {.is = Is::Whole, .low = 0, .high = 6}}, {"targets", objects("attributes")}}},
+    {"node", {{"camera", kIndex}, {"children", kIndices}, {"matrix", numbers(16)}, {"mesh", kIndex}, {"name", kText}, {"rotation", numbers(4, -1, 1)}, {"scale", numbers(3)}, {"skin", kIndex},
+              {"translation", numbers(3)}, {"weights", kNumbers}}},
+    {"sampler", {{"magFilter", kIndex}, {"minFilter", kIndex}, {"name", kText}, {"wrapS", kIndex}, {"wrapT", kIndex}}},
+    {"scene", {{"name", kText}, {"nodes", kIndices}}},
+    {"skin", {{"inverseBindMatrices", kIndex}, {"joints", {.is = Is::Wholes, .flags = kNeeded}}, {"name", kText}, {"skeleton", kIndex}}},
+    {"texture", {{"name", kText}, {"sampler", kIndex}, {"source", kIndex}}},
+    {"extensions", {{"KHR_lights_punctual", object("lights")}, {"KHR_materials_clearcoat", object("clearcoat")}, {"KHR_materials_dispersion", object("dispersion")},
+                    {"KHR_materials_emissive_strength", object("emissive strength")}, {"KHR_materials_iridescence", object("iridescence")}, {"KHR_materials_sheen", object("sheen")},
+                    {"KHR_materials_specular", object("specular")}, {"KHR_materials_transmission", object("transmission")}, {"KHR_materials_volume", object("volume")},
+                    {"KHR_texture_transform", object("texture transform")}}},
+    {"lights", {{"lights", objects("light")}}},
+    {"light", {{"color", kColour}, {"intensity", kFromZero}, {"name", kText}, {"range", kAboveZero}, {"spot", object("spot")}, {"type", kNeededText}}},
+    {"spot", {{"innerConeAngle", {.is = Is::Number, .low = 0, .high = kRightAngle}}, {"outerConeAngle", {.is = Is::Number, .low = 0, .high = kRightAngle, .flags = kNotLow}}}},
+    {"clearcoat", {{"clearcoatFactor", kUnit}, {"clearcoatRoughnessFactor", kUnit}}},
+    {"dispersion", {{"dispersion", kFromZero}}},
+    {"emissive strength", {{"emissiveStrength", kFromZero}}},
+    {"iridescence", {{"iridescenceFactor", kUnit}, {"iridescenceIor", {.is = Is::Number, .low = 1}}, {"iridescenceThicknessMaximum", kFromZero}, {"iridescenceThicknessMinimum", kFromZero}}},
+    {"sheen", {{"sheenColorFactor", kColour}, {"sheenRoughnessFactor", kUnit}}},
+    {"specular", {{"specularColorFactor", numbers(3, 0)}, {"specularFactor", kUnit}}},
+    {"transmission", {{"transmissionFactor", kUnit}}},
+    {"volume", {{"attenuationColor", kColour}, {"attenuationDistance", kAboveZero}, {"thicknessFactor", kFromZero}}},
+    {"texture transform", {{"offset", numbers(2)}, {"rotation", kNumber}, {"scale", numbers(2)}, {"texCoord", kIndex}}},
+};
+
+const char* name_of(Is is) {
+    constexpr const char* kNames[]{"text", "true or false", "a whole number", "a number", "a list of text", "a list of whole numbers", "a list of numbers", "an object", "a list of objects"};
+    return kNames[static_cast<size_t>(is)];
+}
+
+bool matches(const json& value, Is is) {
+    switch (is) {
+        case Is::Text:
+            return value.is_string();
+        case Is::Flag:
+            return value.is_boolean();
+        case Is::Whole:
+            return whole_number(value).has_value();
+        case Is::Number:
+            return value.is_number();
+        case Is::Object:
+            return value.is_object();
+        default:
+            return value.is_array();
+    }
+}
+
+/// What the elements of a list are; those that are no objects are noted elsewhere.
+std::optional<Is> element_of(Is list) {
+    if (list == Is::Texts) return Is::Text;
+    if (list == Is::Wholes) return Is::Whole;
+    return list == Is::Numbers ? std::optional(Is::Number) : std::nullopt;
+}
+
+class Schema {
+public:
+    explicit Schema(const RuleNote& note) : note_(note) {}
+
+    void check(const json& object, const char* kind, const std::string& at) const {
+        const auto properties = kKinds.find(kind);
+        if (properties == kKinds.end()) return;  // attributes, which have names of their own
+        const bool extensions = kind == std::string_view("extensions");  // those that are no objects are noted elsewhere
+        for (const auto& [key, property] : properties->second)
+            if (property.flags & kNeeded && !object.contains(key)) note_(at, "has no " + key);
+        for (const auto& [key, value] : object.items())
+            if (const auto property = properties->second.find(key); property != properties->second.end() && (!extensions || value.is_object())) check(value, property->second, at + "/" + key);
+    }
+
+private:
+    void check(const json& value, const Property& property, const std::string& at) const {
+        if (!matches(value, property.is)) return note_(at, std::string("is not ") + name_of(property.is));
+        if (property.is == Is::Object) return check(value, property.kind, at);
+        if (property.is == Is::Objects) return GltfLists::each_of(value, at, [&](const json& element, const std::string& place, uint32_t) { check(element, property.kind, place); });
+        if (value.is_number()) return range(value.get<double>(), property, at);
+        if (!value.is_array()) return;
+        if (property.length && value.size() != property.length) return note_(at, "has not " + std::to_string(property.length) + " elements");
+        elements(value, property, at);
+    }
+    void elements(const json& list, const Property& property, const std::string& at) const {
+        const Is is = *element_of(property.is);
+        std::set<json> seen;
+        for (size_t i = 0; i < list.size(); ++i) {
+            if (!matches(list[i], is)) return note_(at + "/" + std::to_string(i), std::string("is not ") + name_of(is));
+            if (is == Is::Number)
+                range(list[i].get<double>(), property, at + "/" + std::to_string(i));
+            else if (!seen.insert(list[i]).second)
+                return note_(at, "names something twice");
+        }
+    }
+    void range(double number, const Property& property, const std::string& at) const {
+        if (!std::isfinite(number)) return note_(at, "is not finite");
+        if (number < property.low || (number == property.low && property.flags & kNotLow)) {
+            note_(at, (property.flags & kNotLow ? "is not more than " : "is less than ") + decimal(property.low));
+        } else if (number > property.high) {
+            note_(at, "is more than " + decimal(property.high));
+        }
+    }
+    static std::string decimal(double number) {
+        char digits[32];
+        std::snprintf(digits, sizeof digits, "%g", number);
+        return digits;
+    }
+
+    const RuleNote& note_;
+};
+
+}  // namespace
+
+void check_schema(const json& root, const RuleNote& note) { Schema(note).check(root, "glTF", ""); }
+
+}  // namespace vesper

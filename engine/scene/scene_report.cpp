@@ -93,7 +93,7 @@ void look_for(PlacedLamp& lamp, const std::array<glm::dvec3, 3>& corner) {
     lamp.highest = std::max(lamp.highest, y);
 }
 
-/// A mesh's own figures, which placing it many times does not change.
+/// A primitive's own figures, which placing it many times does not change.
 struct PrimitiveSize {
     double area = 0;
     glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};

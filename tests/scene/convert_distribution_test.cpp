@@ -18,7 +18,6 @@ class ConvertDistributionTest : public ConversionTest {
 protected:
     ConvertDistributionTest() {
         street_.show({{"attributes", {{"POSITION", street_.vec3({0, 0, 0, 20, 0, 0, 0, 20, 0})}}}});
-        street_.root["accessors"][0]["min"] = {0, 0, 0}, street_.root["accessors"][0]["max"] = {20, 20, 0};
         json& nodes = street_.root["nodes"];
         nodes.push_back({{"name", "street_lamp"}, {"translation", {0, 8, 0}}});
         for (const char* name : {"car_0/headlamp", "car_1/headlamp"}) nodes.push_back({{"name", name}});

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -90,7 +91,18 @@ public:
                                      {"normalized", normalized}});
         return root["accessors"].size() - 1;
     }
-    size_t vec3(const std::vector<float>& values) { return accessor(values, 5126, "VEC3", 3); }
+    /// With the bounds that positions must have.
+    size_t vec3(const std::vector<float>& values) {
+        const size_t made = accessor(values, 5126, "VEC3", 3);
+        for (size_t i = 0; i < values.size(); ++i) {
+            const float value = values[i];
+            if (!std::isfinite(value)) continue;
+            nlohmann::json &low = root["accessors"][made]["min"][i % 3], &high = root["accessors"][made]["max"][i % 3];
+            if (!low.is_number() || value < low.get<float>()) low = value;
+            if (!high.is_number() || value > high.get<float>()) high = value;
+        }
+        return made;
+    }
     size_t vec2(const std::vector<float>& values) { return accessor(values, 5126, "VEC2", 2); }
     size_t indices(const std::vector<uint16_t>& values) { return accessor(values, 5123, "SCALAR", 1); }
 

@@ -1,12 +1,12 @@
 #include "controllers.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include "base/lower.h"
 #include "io/atomic_file.h"
 #include "scene/json_value.h"
 
@@ -15,11 +15,6 @@ namespace {
 
 constexpr size_t kMostAxes = 64, kMostButtons = 256, kMostMappings = 256;
 constexpr uint64_t kMostBytes = 1 << 20;
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
 
 /// The member that is an end of an axis.
 double end_of(const JsonValue& value, const char* key, double fallback) { return value.number_or(key, fallback, -1, 1); }

@@ -118,7 +118,7 @@ public:
     DriveParser(std::string name, Drive& drive) : name_(std::move(name)), drive_(drive) {}
 
     JsonFile parse(std::span<const uint8_t> text) {
-        check_json_text(text, name_);
+        check_json_text(text, name_, UINT64_MAX);  // take() has bounds of its own
         try {
             std::ignore = json::parse(text.begin(), text.end(), [this](int depth, json::parse_event_t at, json& value) { return take(depth, at, value); });
         } catch (const json::parse_error& error) {

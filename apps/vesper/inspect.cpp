@@ -2,7 +2,6 @@
 #include "inspect.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,6 +10,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/lower.h"
 #include "commands.h"
 #include "io/atomic_file.h"
 #include "photometry/distribution.h"
@@ -38,8 +38,7 @@ bool is_table(const std::string& file) {
 }
 
 Kind kind_of(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string extension = lower(std::filesystem::path(file).extension().string());
     if (extension == ".gltf" || extension == ".glb") return Kind::Scene;
     if (extension == ".ies" || extension == ".ldt") return Kind::Distribution;
     if (extension == ".csv") return is_table(file) ? Kind::Table : Kind::Distribution;

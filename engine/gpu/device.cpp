@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "base/lower.h"
 #include "gpu/commands.h"
 #include "gpu/requirements.h"
 
@@ -64,11 +65,6 @@ int rank(VkPhysicalDeviceType type) {
         case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
         default: return 3;
     }
-}
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
 }
 
 bool matches(const std::string& select, size_t index, const VkPhysicalDeviceProperties& properties) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "base/lower.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
 
@@ -15,36 +16,16 @@ namespace {
 
 constexpr size_t kMaxColumns = kMaxAngles + 2;  // a vertical angle before the others, nothing behind the last separator
 
-std::string lower(std::string_view text) {
-    std::string made(trimmed(text));
-    for (char& c : made) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return made;
-}
-
 /// The goniometry a word names: A, "type B", gamma\C; type A for other words, nothing for what is none.
 std::optional<Goniometry> goniometry_of(std::string_view cell) {
     std::string word = lower(cell);
     if (word.find("gamma") != word.npos) return Goniometry::CGamma;
-    if (word.starts_with("type")) word = lower(word.substr(4));
+    if (word.starts_with("type")) word = lower(trimmed(std::string_view(word).substr(4)));
     if (word == "c" || (word.starts_with("c") && !std::isalpha(static_cast<unsigned char>(word[1]))))
         return Goniometry::CGamma;
     if (word == "b") return Goniometry::TypeB;
     if (number_of(word)) return std::nullopt;
     return Goniometry::TypeA;
-}
-
-/// The words of a heading in lower case, whatever stands between them: "V [°]" is one, "I_cd" are two.
-std::vector<std::string> words_of(std::string_view heading) {
-    std::vector<std::string> words;
-    bool within = false;
-    for (const char c : lower(readable(heading))) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool letter = std::isalnum(byte) || (byte >= 0x80 && byte != 0xc2 && byte != 0xb0);  // these two are a degree sign
-        if (letter && !within) words.emplace_back();
-        if (letter) words.back() += c;
-        within = letter;
-    }
-    return words;
 }
 
 enum class Column : uint8_t { Horizontal, Vertical, C, Gamma, Candela };
@@ -116,8 +97,8 @@ public:
 private:
     void read_comment(std::string_view text) {
         const size_t colon = text.find(':');
-        if (colon == text.npos || lower(text.substr(0, colon)) != "goniometry") return;
-        const std::string word = lower(text.substr(colon + 1));
+        if (colon == text.npos || lower(trimmed(text.substr(0, colon))) != "goniometry") return;
+        const std::string word = lower(trimmed(text.substr(colon + 1)));
         if (word != "a" && word != "b" && word != "c") lines_.fail("the goniometry is none of A, B and C");
         goniometry_ = goniometry_of(word);
     }

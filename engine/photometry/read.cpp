@@ -1,7 +1,7 @@
 // Which reader a file is for. SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cctype>
 
+#include "base/lower.h"
 #include "io/atomic_file.h"
 #include "photometry/distribution.h"
 #include "photometry/eulumdat.h"
@@ -30,8 +30,7 @@ std::string format_of(std::span<const uint8_t> bytes) {
 }  // namespace
 
 Distribution read_distribution(const std::filesystem::path& file) {
-    std::string format = file.extension().string();
-    for (char& c : format) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    std::string format = lower(file.extension().string());
     if (format != ".ies" && format != ".ldt" && format != ".csv" && format != ".exr")
         format = format_of(read_file(file, kMaxTableBytes));
     if (format == ".ies") return read_ies(file);

@@ -2,7 +2,6 @@
 #include "photometry/response.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -31,14 +30,15 @@ Response response_of(const Exposure& exposure) {
 /// The columns of R, G and B, by their headings: "ln_exposure_r", "g(R)" or "red".
 std::array<size_t, 3> channels_of(std::string_view header, const LineReader& lines) {
     constexpr std::array<std::array<std::string_view, 2>, 3> kChannels{{{"r", "red"}, {"g", "green"}, {"b", "blue"}}};
+    using Words = std::vector<std::string>;
     const auto fields = fields_of(header, ',', 4);
     std::array<size_t, 3> columns{};
     for (size_t i = 1; i < fields.size(); ++i) {
-        std::string name;
-        for (const char c : fields[i]) name += std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
-        while (name.ends_with('_')) name.pop_back();
-        for (const std::string_view before : {"ln_exposure_", "g_"})
-            if (name.starts_with(before)) name.erase(0, before.size());
+        Words words = words_of(fields[i]);
+        if (words.empty()) continue;
+        const std::string name = words.back();
+        words.pop_back();
+        if (!words.empty() && words != Words{"ln", "exposure"} && words != Words{"g"}) continue;
         for (size_t c = 0; c < 3; ++c)
             if (name == kChannels[c][0] || name == kChannels[c][1]) columns[c] = i;
     }

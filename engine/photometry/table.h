@@ -43,6 +43,8 @@ std::string_view trimmed(std::string_view text);
 std::string readable(std::string_view text);
 /// A text in a message, quoted and short.
 std::string quoted(std::string_view text);
+/// The words of a heading in lower case, whatever stands between them: "V [°]" is one, "I_cd" are two.
+std::vector<std::string> words_of(std::string_view heading);
 /// A finite number; the whole text must be one. One too small for a double is 0. A decimal comma will do where `comma` is set.
 std::optional<double> number_of(std::string_view text, bool comma = true);
 

@@ -1,10 +1,12 @@
 // Text files of distributions: lines, numbers, names. SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "base/error.h"
+#include "base/lower.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
 
@@ -80,6 +82,19 @@ std::string readable(std::string_view text) {
 }
 
 std::string quoted(std::string_view text) { return "'" + one_line(readable(text.substr(0, 40)), 40) + "'"; }
+
+std::vector<std::string> words_of(std::string_view heading) {
+    std::vector<std::string> words;
+    bool within = false;
+    for (const char c : lower(readable(heading))) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool letter = std::isalnum(byte) || (byte >= 0x80 && byte != 0xc2 && byte != 0xb0);  // these two are a degree sign
+        if (letter && !within) words.emplace_back();
+        if (letter) words.back() += c;
+        within = letter;
+    }
+    return words;
+}
 
 std::optional<double> number_of(std::string_view text, bool comma) {
     text = trimmed(text);

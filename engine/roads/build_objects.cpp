@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/lower.h"
 #include "roads/lit_road_parts.h"
 #include "roads/road_lamps.h"
 
@@ -28,10 +29,7 @@ bool is_flat(const std::string& kind) {
 }
 
 std::string kind_of(const RoadObject& object) {
-    std::string all = object.type + " " + object.subtype + " " + object.name;
-    std::transform(all.begin(), all.end(), all.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return all;
+    return lower(object.type + " " + object.subtype + " " + object.name);
 }
 
 struct ObjectBuilder {

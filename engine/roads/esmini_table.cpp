@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/lower.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
 #include "roads/esmini_parts.h"
@@ -89,10 +90,7 @@ std::optional<Columns> header_of(std::string_view line) {
 }
 
 RunEntity::Kind kind_by_name(const std::string& name) {
-    std::string lower = name;
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto has = [&](const char* word) { return lower.find(word) != lower.npos; };
+    const auto has = [kind = lower(name)](const char* word) { return kind.find(word) != kind.npos; };
     if (has("pedestrian") || has("walker")) return RunEntity::Kind::Pedestrian;
     if (has("truck") || has("semi")) return RunEntity::Kind::Truck;
     if (has("bus")) return RunEntity::Kind::Bus;

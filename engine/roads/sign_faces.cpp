@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "base/lower.h"
+
 namespace vesper {
 namespace {
 
@@ -124,12 +126,6 @@ struct Panel {
         }
     }
 };
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 Face speed_limit(double value) {
     return {Shape::Round, Stuff::SignRed, Stuff::SignWhite, std::clamp(static_cast<int>(std::lround(value)), 0, 999)};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lower.h"
 #include "roads/road_surface.h"
 
 namespace vesper {
@@ -88,9 +89,7 @@ struct ConditionReader {
     }
 
     Condition element_state(const XmlElement& element) {
-        std::string kind = resolved(element, "storyboardElementType", scope).value_or("event");
-        std::transform(kind.begin(), kind.end(), kind.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        const std::string kind = lower(resolved(element, "storyboardElementType", scope).value_or("event"));
         std::string name = resolved(element, "storyboardElementRef", scope).value_or("");
         // References may be paths: the last part counts.
         if (const size_t colon = name.rfind("::"); colon != name.npos) name = name.substr(colon + 2);

@@ -1,9 +1,9 @@
 // What a conversion warns of: values that cannot be right, and lights that may have been forgotten.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "base/lower.h"
 #include "scene/convert_rules.h"
 #include "scene/reflectance.h"
 
@@ -121,10 +121,9 @@ void check_forgotten(Conversion& conversion, const std::set<size_t>& lamp_nodes)
 }  // namespace
 
 bool sounds_like_light(const std::string& name) {
-    std::string lower;
-    for (const char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string lowered = lower(name);
     for (const char* word : {"lamp", "light", "lantern", "headl", "taill", "glow", "neon", "bulb", "emissi", "emitter"})
-        if (lower.find(word) != std::string::npos) return true;
+        if (lowered.find(word) != std::string::npos) return true;
     return false;
 }
 

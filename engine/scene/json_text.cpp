@@ -16,10 +16,10 @@ using nlohmann::json;
 
 constexpr size_t kMostDepth = 200, kMostKeys = 1'000'000;  // of an object
 
-/// Follows a parser from key to key.
-class UniqueKeys {
+/// Follows a parser from value to value, of which it keeps the keys of those objects that it is in.
+class Bounds {
 public:
-    explicit UniqueKeys(std::string file) : file_(std::move(file)) {}
+    Bounds(std::string file, uint64_t most_values) : file_(std::move(file)), most_values_(most_values) {}
 
     bool key(std::string& name) {
         Level& object = levels_.back();
@@ -51,15 +51,23 @@ private:
     };
 
     bool start(bool array) {
+        count();
         if (levels_.size() == kMostDepth) throw Error(file_ + ": JSON nested deeper than " + std::to_string(kMostDepth));
         levels_.push_back({array, 0, {}, {}});
         return true;
     }
     bool end() {
         levels_.pop_back();
-        return value();
+        return step();
     }
     bool value() {
+        count();
+        return step();
+    }
+    void count() {
+        if (++values_ > most_values_) throw Error(file_ + ": JSON of more than " + std::to_string(most_values_) + " values");
+    }
+    bool step() {
         if (!levels_.empty()) ++levels_.back().index;
         return true;
     }
@@ -71,6 +79,7 @@ private:
     }
 
     std::string file_;
+    uint64_t most_values_, values_ = 0;
     std::vector<Level> levels_;
 };
 
@@ -82,12 +91,12 @@ std::string json_pointer_token(std::string_view key) {
     return token;
 }
 
-void check_json_text(std::span<const uint8_t> text, const std::string& file) {
+void check_json_text(std::span<const uint8_t> text, const std::string& file, uint64_t most_values) {
     const auto nul = std::find(text.begin(), text.end(), uint8_t{0});
     if (std::any_of(nul, text.end(), [](uint8_t byte) { return byte != 0; }))
         throw Error(file + ": byte " + std::to_string(nul - text.begin() + 1) + ": not valid JSON: a NUL");
-    UniqueKeys keys(file);
-    json::sax_parse(text.begin(), text.end(), &keys);
+    Bounds bounds(file, most_values);
+    json::sax_parse(text.begin(), text.end(), &bounds);
 }
 
 }  // namespace vesper

@@ -1,4 +1,4 @@
-// What a parser of JSON lets pass and a reader must not. Not a public header. SPDX-License-Identifier: MIT
+// What a parser of JSON lets pass and a reader must not; before the parser takes memory for it. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@ namespace vesper {
 std::string json_pointer_token(std::string_view key);
 
 /// Throws Error, with file and place, if a NUL stands in the text with anything but more of them behind, which parsers take for the end,
-/// or an object has a key twice: which one counts is for no reader to say (RFC 8259, 4). Other mistakes are the parser's.
-void check_json_text(std::span<const uint8_t> text, const std::string& file);
+/// or an object has a key twice: which one counts is for no reader to say (RFC 8259, 4). So it does where there are more values than
+/// `most_values`, they are nested deeper than 200, or an object has more than a million keys. Other mistakes are the parser's.
+void check_json_text(std::span<const uint8_t> text, const std::string& file, uint64_t most_values);
 
 }  // namespace vesper

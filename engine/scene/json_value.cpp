@@ -15,35 +15,7 @@
 namespace vesper {
 namespace {
 
-constexpr int kMaxDepth = 200;
-constexpr uint64_t kMaxValues = 32'000'000;  // a million nodes have about half of this
-
-/// Counts brackets and commas outside strings before the parser allocates anything for them.
-void check_size(std::span<const uint8_t> text, const std::string& name) {
-    const uint64_t most_values = scaled_limit(kMaxValues);
-    int depth = 0;
-    uint64_t values = 0;
-    bool in_string = false;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const uint8_t c = text[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            if (c == '"') in_string = false;
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '[' || c == '{') {
-            ++values;
-            if (++depth > kMaxDepth)
-                throw Error(name + ": byte " + std::to_string(i) + ": JSON nested deeper than " +
-                            std::to_string(kMaxDepth));
-        } else if (c == ']' || c == '}') {
-            --depth;
-        } else if (c == ',') {
-            ++values;
-        }
-        if (values > most_values) throw Error(name + ": JSON of more than " + std::to_string(most_values) + " values");
-    }
-}
+constexpr uint64_t kMostValues = 32'000'000;  // a million nodes have about half of this
 
 /// The JSON pointer from `here` to the value at an address; depth is bounded by parse_json.
 std::optional<std::string> pointer_to(const nlohmann::json& here, const nlohmann::json* wanted) {
@@ -77,8 +49,7 @@ JsonFile::~JsonFile() { empty(root); }
 
 JsonFile parse_json(std::span<const uint8_t> text, const std::string& name) {
     const std::string file = one_line(name);
-    check_size(text, file);
-    check_json_text(text, file);
+    check_json_text(text, file, scaled_limit(kMostValues));
     try {
         return JsonFile(file, nlohmann::json::parse(text.begin(), text.end()));
     } catch (const nlohmann::json::parse_error& error) {

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "roads/storyboard_conditions.h"
@@ -31,6 +33,7 @@ struct EventPart {
 struct ManeuverPart {
     std::string name;
     std::vector<EventPart> events;
+    std::set<EventPart*> running{};  ///< of these events
     bool complete = false;
 };
 
@@ -242,7 +245,6 @@ struct Player {
     }
 
     void end_event(EventPart& event, int step) {
-        if (!event.running) return;
         for (const ActionPart& action : event.actions)
             if (action.end >= 0) mark_end("action/" + action.name, step);
         event.running = false;
@@ -254,12 +256,10 @@ struct Player {
         const bool triggered = event.trigger(step);
         if (!event.running && event.executions < event.most && triggered) {
             if (event.priority == "override" || event.priority == "overwrite")
-                for (EventPart& other : maneuver.events)
-                    if (&other != &event) end_event(other, step);
-            const bool busy = event.priority == "skip" && std::any_of(maneuver.events.begin(), maneuver.events.end(),
-                                                                      [](const EventPart& e) { return e.running; });
-            if (busy) return;
+                for (EventPart* other : std::exchange(maneuver.running, {})) end_event(*other, step);
+            if (event.priority == "skip" && !maneuver.running.empty()) return;
             event.running = true;
+            maneuver.running.insert(&event);
             ++event.executions;
             mark_start("event/" + event.name, step);
             for (ActionPart& action : event.actions) {
@@ -279,6 +279,7 @@ struct Player {
             }
         }
         if (!all) return;
+        maneuver.running.erase(&event);
         event.running = false;
         mark_end("event/" + event.name, step);
     }

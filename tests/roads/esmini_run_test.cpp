@@ -221,6 +221,33 @@ TEST_F(EsminiRuns, EventsSetLamps) {
     EXPECT_NEAR(events_of(run, RunLamp::Brake)[0].time, 6.5, 0.11);
 }
 
+// The third ends the first, which the fourth waits for; the second does not begin beside another.
+TEST_F(EsminiRuns, EventsOverrideAndSkip) {
+    const auto with_priority = [](const char* priority, std::string text) { return text.replace(text.find("parallel"), 8, priority); };
+    const std::string seven_seconds =
+        "<PrivateAction><LongitudinalAction><SpeedAction><SpeedActionDynamics dynamicsShape=\"linear\" value=\"7\" dynamicsDimension=\"time\"/>"
+        "<SpeedActionTarget><AbsoluteTargetSpeed value=\"10\"/></SpeedActionTarget></SpeedAction></LongitudinalAction></PrivateAction>";
+    const auto begin_of_second_and_fourth = [&](const char* priority_of_third) {
+        const std::string text = scenario(event("first", seven_seconds, at_time("1")) +
+                                          with_priority("skip", event("second", light("brakeLights", "on"), at_time("2"))) +
+                                          with_priority(priority_of_third, event("third", light("indicatorLeft", "on"), at_time("3"))) +
+                                          event("fourth", light("highBeam", "on"),
+                                                "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"event\" "
+                                                "storyboardElementRef=\"first\" state=\"completeState\"/></ByValueCondition>"));
+        const auto run = read_esmini_run(write("run.csv", braking_run()), write("run.xosc", text));
+        const auto &second = events_of(run, RunLamp::Brake), &fourth = events_of(run, RunLamp::HighBeam);
+        EXPECT_EQ(second.size(), 1u);
+        EXPECT_EQ(fourth.size(), 1u);
+        return second.empty() || fourth.empty() ? std::pair(0.0, 0.0) : std::pair(second[0].time, fourth[0].time);
+    };
+    const auto [second, fourth] = begin_of_second_and_fourth("override");
+    EXPECT_NEAR(second, 3.05, 0.06);
+    EXPECT_NEAR(fourth, 3, 0.06);
+    const auto [last, complete] = begin_of_second_and_fourth("parallel");
+    EXPECT_NEAR(last, 8.05, 0.06);
+    EXPECT_NEAR(complete, 8, 0.06);
+}
+
 TEST_F(EsminiRuns, ErrorsNameFileAndLine) {
     EXPECT_NE(complaint("a,b,c\n1,2,3\n").find("is no table of esmini"), std::string::npos);
     EXPECT_NE(complaint(kHeader).find("no row of the table"), std::string::npos);

@@ -18,9 +18,11 @@ namespace fs = std::filesystem;
 
 constexpr unsigned kSafeEvery = 60;  // appends: one or two seconds of a drive
 
+std::string part_beside(const fs::path& target) { return target.string() + ".part"; }
+
 }  // namespace
 
-std::string GrowingFile::part_of(const std::string& file) { return file.empty() ? "" : target_of(file).string() + ".part"; }
+std::string GrowingFile::part_of(const std::string& file) { return file.empty() ? "" : part_beside(target_of(file)); }
 
 GrowingFile::GrowingFile(const fs::path& file) : file_(file), target_(target_of(file)) {
     std::error_code ignored;
@@ -31,7 +33,7 @@ GrowingFile::GrowingFile(const fs::path& file) : file_(file), target_(target_of(
         descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
     } else {
         // A file of its own: what the name, or a link of that name, led to before is not written to.
-        part_ = part_of(file.string());
+        part_ = part_beside(target_);
         ::unlink(part_.c_str());
         descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     }

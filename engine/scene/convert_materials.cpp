@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/luminance.h"
 #include "scene/convert_rules.h"
 #include "scene/photometry_parts.h"
 #include "scene/reflectance.h"
@@ -144,6 +145,16 @@ void set_roughness(Conversion& conversion, const SurfaceRule& rule, json& materi
         material["extensions"][kSpecularGlossiness]["glossinessFactor"] = 1 - *rule.roughness;
 }
 
+/// Coefficients are those of white: R_L is measured of the paint as it is, so what becomes of it is said.
+void note_marking(Conversion& conversion, const SurfaceRule& rule, const Material& original) {
+    const double reflectance = luminance(glm::min(glm::dvec3(original.base_colour) * rule.reflectance_scale, 1.0));
+    const bool textured = original.base_colour_texture.image != kNone;
+    if (!textured && reflectance > 0.995) return;
+    conversion.report.warnings.push_back("surface " + in_quotes(rule.name) + ": material " + in_quotes(original.name) + ": R_L is " + (textured ? "at most " : "") +
+                                         decimal(1000 * rule.retroreflector->coefficient.front() * reflectance) + " mcd/(m^2 lx): what is stated, times the base colour of " +
+                                         decimal(reflectance) + (textured ? " and its texture" : ""));
+}
+
 /// The place of something in a list of the extras block; what is equal is stored once.
 size_t index_in(json& tables, const json& whole) {
     const auto same = std::find(tables.begin(), tables.end(), whole);
@@ -209,6 +220,7 @@ void convert_materials(Conversion& conversion) {
             if (rule.reflection_table)
                 conversion.roads.push_back(
                     {{"material", m}, {"table", index_in(conversion.reflection_tables, json_of(*rule.reflection_table))}});
+            if (rule.retroreflector && rule.retroreflector->marking) note_marking(conversion, rule, conversion.original.scene.materials[m]);
             if (rule.retroreflector)
                 conversion.retroreflective.push_back(
                     {{"material", m}, {"retroreflector", index_in(conversion.retroreflectors, json_of(*rule.retroreflector))}});

@@ -118,7 +118,9 @@ TEST_F(ConvertSky, Retroreflection) {
         {{"materials", "sign"}, {"retroreflection", {{"class", "RA2"}, {"scale", 1.5}}}},
         {{"materials", "marking"}, {"retroreflection", {{"r_l_mcd", 150}}}},
         {{"materials", "wall"}, {"retroreflection", {{"table", {{"observation_deg", {0.1, 1}}, {"r_a", {90, 9}}}}}}}};
-    EXPECT_TRUE(mentions(convert_with({{"surfaces", rules}}).changes, "retroreflection RA2"));
+    const auto report = convert_with({{"surfaces", rules}});
+    EXPECT_TRUE(mentions(report.changes, "retroreflection RA2"));
+    EXPECT_FALSE(mentions(report.warnings, "R_L is"));
     const Scene scene = converted();
     ASSERT_EQ(scene.retroreflectors.size(), 3u);
     const auto of = [&](size_t material) { return scene.retroreflectors.at(scene.materials[material].retroreflector); };
@@ -126,6 +128,8 @@ TEST_F(ConvertSky, Retroreflection) {
     EXPECT_TRUE(of(1).marking);
     EXPECT_NEAR(retroreflection(of(1), 1.05, 88), 0.15, 1e-9);
     EXPECT_NEAR(retroreflection(of(2), 0.1, 5), 90, 1e-9);
+    const json grey = {{"materials", "marking"}, {"reflectance_scale", 0.55}, {"retroreflection", {{"r_l_mcd", 150}, {"scale", 2}}}};
+    EXPECT_TRUE(mentions(convert_with({{"surfaces", json::array({grey})}}).warnings, "R_L is 165 mcd/(m^2 lx): what is stated, times the base colour of 0.55"));
 }
 
 TEST_F(ConvertSky, RefusesWithPlaceAndReason) {

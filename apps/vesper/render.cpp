@@ -244,7 +244,7 @@ void add_render(CLI::App& program) {
     command->add_flag("--all-lights", a->settings.all_lights, "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what is below the threshold");
     command->footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"
-                    "  vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
+                    "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
     command->callback([a] { run(*a); });
 }
 

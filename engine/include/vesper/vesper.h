@@ -46,7 +46,7 @@ void vesper_version(uint32_t version[3]);
 typedef enum VesperResult {
     VESPER_OK = 0,                   /**< it did what it says */
     VESPER_BAD_ARGUMENT = 1,         /**< a null pointer, a size or a number that cannot be */
-    VESPER_FAILED = 2,               /**< a file, the device or a setting: see the message */
+    VESPER_FAILED = 2,               /**< a file, a display or the device: see the message */
     VESPER_OUT_OF_MEMORY = 3,        /**< of the host */
     VESPER_OUT_OF_DEVICE_MEMORY = 4, /**< smaller pictures may still fit; nothing is broken */
     VESPER_DEVICE_LOST = 5           /**< what was made from the device can only be destroyed; a new device may work */
@@ -132,7 +132,7 @@ typedef enum VesperAdaptTo {
     VESPER_ADAPT_TEXEL = 4        /**< one degree at the gaze, as Petit, Bremond and Vienne have it */
 } VesperAdaptTo;
 
-/** The options of vesper tonemap; what 0 means there is said by vesper_tone_settings_defaults, which sets them all. */
+/** Most options of vesper tonemap. Begin with vesper_tone_settings_defaults: zeros are not the defaults, and some are refused. */
 typedef struct VesperToneSettings {
     uint32_t size;             /**< of this structure */
     uint32_t tone_operator;    /**< a VesperOperator */
@@ -215,7 +215,7 @@ VesperResult vesper_tone_map(VesperToneMapper *mapper, const VesperToneSettings 
 /** Forgets what the eye was adapted to, as at a cut. */
 VesperResult vesper_tone_mapper_reset(VesperToneMapper *mapper, VesperError *error);
 /** Waits for the picture that vesper_tone_map_image handed over last, and reports it, once, whatever else has waited for it before; without
- * one `report` is all zero. */
+ * one `report` is all zero but its size. */
 VesperResult vesper_tone_mapper_finish(VesperToneMapper *mapper, VesperFrameReport *report, VesperError *error);
 /** Bytes of what the eye remembers. */
 size_t vesper_eye_size(void);
@@ -329,7 +329,7 @@ typedef struct VesperView {
     float forward[3];         /**< world, of any length */
     float up[3];              /**< world, of any length */
     float vertical_fov;       /**< rad */
-    float near_plane;         /**< nothing nearer is drawn, m */
+    float near_plane;         /**< more than 0, m: nothing nearer is drawn */
     double scene_seconds;     /**< of the scene's animations */
 } VesperView;
 

@@ -213,10 +213,9 @@ void main() {
         if (kRetro != 0u) reach2[r] = class_ < kRetroClasses ? retro_reach2(sheet[r]) : -1.0;
         prepare_lobe(r, base[r], reflectance.a >= kRetroCode ? 0.0 : max(reflectance.a, 0.0), surface.w);
         if (kRoads != 0u) roads[r] = road_at(reflectance.a, normal[r], toward_eye[r], push.roads);
-        least_cosine[r] = surface.w < 1.0 ? 1.0 : 0.0;
         const bool road = kRoads != 0u && roads[r].tan_cells > 0.0;
-        diffuse[r] = road ? base[r] * (1e-4 * kPi * push.lambert) : diffuse[r];
-        ambient[r] = push.ambient * base[r] * (push.lambert * (road ? surface.w : 1.0));
+        least_cosine[r] = surface.w < 1.0 ? 1.0 : 0.0;
+        ambient[r] = push.ambient * base[r] * (push.lambert * (road ? road_in_diffuse(surface.w, dot(normal[r], toward_eye[r])) : 1.0));
         sum[r] = vec3(0.0);
     }
 

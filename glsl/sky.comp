@@ -9,6 +9,7 @@
 // both sides of an if.
 
 #include "normal.glsl"
+#include "sheen.glsl"
 #include "shared/shade.h"
 #include "shared/sky.h"
 
@@ -67,20 +68,21 @@ void main() {
         const vec4 reflectance = imageLoad(reflectance_image, ivec2(pixel));
         const bool drawn = surface.z > 0.0;
         const vec3 ray = to_world(vec3(push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset, -1.0));
-        // A road with a table reflects pi Q0 of its colour, which its roughness holds; a retroreflective surface is a dielectric.
+        // A retroreflective surface is a dielectric.
         const bool road = reflectance.a <= kRoadKind;
         const float metallic = reflectance.a >= 0.0 && reflectance.a <= 1.0 ? reflectance.a : 0.0;
         const bool shiny = inside && drawn && !road && (surface.w < 1.0 || metallic > 0.0);
         const vec3 n = to_world(decode_normal(surface.xy));
+        const float normal_eye = clamp(-dot(n, ray) * inversesqrt(dot(ray, ray)), 0.0, 1.0);
 
         const vec3 illuminance = c[0] + c[1] * n.y + c[2] * n.z + c[3] * n.x + c[4] * (n.x * n.y) + c[5] * (n.y * n.z) +
                                  c[6] * (3.0 * n.z * n.z - 1.0) + c[7] * (n.x * n.z) + c[8] * (n.x * n.x - n.y * n.y);
         vec3 luminance = imageLoad(scene_image, ivec2(pixel)).rgb +
-                         max(illuminance, vec3(0.0)) * reflectance.rgb * ((road ? surface.w : 1.0 - metallic) * push.lambert);
+                         max(illuminance, vec3(0.0)) * reflectance.rgb * ((road ? road_in_diffuse(surface.w, normal_eye) : 1.0 - metallic) * push.lambert);
 
         const bool any_shiny = subgroupAny(shiny);
         for (uint i = 0u; i < (any_shiny ? 1u : 0u); ++i) {
-            const float a = surface.w * surface.w, normal_eye = clamp(-dot(n, ray) * inversesqrt(dot(ray, ray)), 0.0, 1.0);
+            const float a = surface.w * surface.w;
             const vec3 f0 = mix(vec3(0.04 * (1.0 - a * a)), reflectance.rgb, metallic);
             const float f90 = clamp(25.0 * max(f0.r, max(f0.g, f0.b)), 0.0, 1.0);
             const vec2 fraction = reflected(normal_eye, surface.w);

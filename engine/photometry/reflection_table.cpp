@@ -38,7 +38,7 @@ double reduced_luminance_coefficient(const ReflectionTable& table, double tan_ga
     const double last = table.tan_gamma.back();
     if (tan_gamma > last) {
         if (!table.extended) return 0;
-        beyond = cos3(tan_gamma) / cos3(last);
+        beyond = (1 + last * last) / (1 + tan_gamma * tan_gamma);
     }
     const Place t = place_in(table.tan_gamma, std::min(tan_gamma, last));
     const Place b = place_in(table.beta, std::abs(std::remainder(beta_deg, 360.0)));
@@ -64,6 +64,22 @@ double average_luminance_coefficient(const ReflectionTable& table) {
     return q / omega;
 }
 
+double diffuse_luminance_coefficient(const ReflectionTable& table) {
+    // By midpoints of gamma; between the nodes of beta r is linear. dOmega = sin(gamma) dgamma dbeta.
+    constexpr int kSteps = 2000;
+    constexpr double kStep = std::numbers::pi / 2 / kSteps;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double gamma = (i + 0.5) * kStep, t = std::tan(gamma);
+        double mean = 0;  // of r over beta
+        for (size_t b = 0; b + 1 < table.beta.size(); ++b)
+            mean += (table.beta[b + 1] - table.beta[b]) / 360 *
+                    (reduced_luminance_coefficient(table, t, table.beta[b]) + reduced_luminance_coefficient(table, t, table.beta[b + 1]));
+        sum += mean * (1 + t * t) * std::sin(gamma) * kStep;
+    }
+    return 2 * sum;
+}
+
 double specular_factor(const ReflectionTable& table) {
     return reduced_luminance_coefficient(table, 2, 0) / reduced_luminance_coefficient(table, 0, 0);
 }
@@ -83,6 +99,14 @@ ReflectionTable extended(ReflectionTable table) {
             if (table.at(t, b) == 0)
                 table.r[t * columns + b] = table.at(t - 1, b) * cos3(table.tan_gamma[t]) / cos3(table.tan_gamma[t - 1]);
     table.extended = true;
+    return table;
+}
+
+ReflectionTable without_sheen(ReflectionTable table) {
+    const ReflectionTable whole = table;
+    for (size_t t = 0; t < table.tan_gamma.size(); ++t)
+        for (size_t b = 0; b < table.beta.size(); ++b)
+            table.r[t * table.beta.size() + b] = reduced_luminance_coefficient(whole, table.tan_gamma[t], 90);
     return table;
 }
 

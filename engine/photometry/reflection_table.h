@@ -35,6 +35,9 @@ double luminance_coefficient(const ReflectionTable&, double tan_gamma, double be
 /// The integral of the bilinear r; it lies 1 to 3 % above the published values of the standard tables, because straight
 /// lines between the nodes lie above a lobe.
 double average_luminance_coefficient(const ReflectionTable&);
+/// Qd = L / E under a sky of uniform luminance, the luminance coefficient in diffuse illumination: the integral of q cos(gamma) over the
+/// hemisphere, over pi, sr^-1. Of rho / pi for a Lambert surface.
+double diffuse_luminance_coefficient(const ReflectionTable&);
 /// S1 = r(tan gamma 2, beta 0) / r(0, 0), how specular the surface is (CIE 144:2001).
 double specular_factor(const ReflectionTable&);
 
@@ -43,9 +46,11 @@ double specular_factor(const ReflectionTable&);
 ReflectionTable rescaled(ReflectionTable, double q0);
 
 /// For rendering, which must not show the edge of a table: every cell not covered takes q of the nearest covered tan
-/// gamma below it in its column, and beyond the last tan gamma q stays, so that r falls as cos^3(gamma). Where the four
-/// cells around a direction are covered nothing changes. CIE calculations take the table as it is.
+/// gamma below it in its column, and beyond the last tan gamma L per illuminance on a plane facing the lamp stays, so that r falls
+/// as cos^2(gamma). Where the four cells around a direction are covered nothing changes. CIE calculations take the table as it is.
 ReflectionTable extended(ReflectionTable);
+/// The same at any beta as at 90 degrees.
+ReflectionTable without_sheen(ReflectionTable);
 
 /// Throws Error (starting with `place`) unless the table is as described above, of at most 512 by 512 finite values.
 void check_reflection_table(const ReflectionTable&, const std::string& place);

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include <glm/gtc/packing.hpp>
+
 #include "base/error.h"
 #include "shared/maps.h"
 
@@ -218,7 +220,8 @@ glm::vec4 add_road(const ReflectionTable& table, size_t budget, std::vector<glm:
 
     // Beyond the last tan(gamma) there may be nothing: no node may get there by rounding.
     const double last = table.tan_gamma.back();
-    const auto value = [&](uint32_t t, uint32_t b) { return float(1e4 * reduced_luminance_coefficient(table, std::min(tan_gamma.at(t), last), beta.at(b))); };
+    const double scale = std::numbers::pi / reflectance_in_diffuse(table);
+    const auto value = [&](uint32_t t, uint32_t b) { return float(scale * reduced_luminance_coefficient(table, std::min(tan_gamma.at(t), last), beta.at(b))); };
     const glm::vec4 head(cells.x / last, last, cells.y / std::numbers::pi, texels.size());
     for (uint32_t t = 0; t < cells.x; ++t)
         for (uint32_t b = 0; b < cells.y; ++b) texels.emplace_back(value(t, b), value(t + 1, b), value(t, b + 1), value(t + 1, b + 1));
@@ -226,6 +229,15 @@ glm::vec4 add_road(const ReflectionTable& table, size_t budget, std::vector<glm:
 }
 
 }  // namespace
+
+ReflectionTable rendered_table(const Scene& scene, size_t index) {
+    const ReflectionTable& table = scene.reflection_tables.at(index);
+    return scene.beyond_tables ? extended(table) : table;
+}
+
+float reflectance_in_diffuse(const ReflectionTable& rendered) {
+    return glm::unpackHalf1x16(glm::packHalf1x16(float(std::numbers::pi * diffuse_luminance_coefficient(rendered))));
+}
 
 LightMaps light_maps(const Scene& scene) {
     LightMaps maps;
@@ -238,8 +250,7 @@ LightMaps light_maps(const Scene& scene) {
         maps.roads = uint32_t(maps.texels.size());
         maps.texels.resize(maps.texels.size() + tables);
         for (size_t i = 0; i < tables; ++i) {
-            const ReflectionTable& table = scene.reflection_tables[i];
-            const glm::vec4 head = add_road(scene.beyond_tables ? extended(table) : table, kMostTexels / 2 / tables, maps.texels);
+            const glm::vec4 head = add_road(rendered_table(scene, i), kMostTexels / 2 / tables, maps.texels);
             maps.texels[maps.roads + i] = head, check_size();
         }
     }

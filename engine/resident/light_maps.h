@@ -30,4 +30,9 @@ struct LightMaps {
 /// nodes 0.1 degrees apart; a road's table whose nodes have none gets nodes kMostRoadCells to its range.
 LightMaps light_maps(const Scene& scene);
 
+/// A reflection table as it is rendered.
+ReflectionTable rendered_table(const Scene& scene, size_t index);
+/// pi Qd, what a road reflects of light from all sides, as a half float: the G-buffer holds it, and maps are relative to it.
+float reflectance_in_diffuse(const ReflectionTable& rendered);
+
 }  // namespace vesper

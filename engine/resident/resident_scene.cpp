@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <numbers>
 #include <set>
 
 #include "resident/formats.h"
+#include "resident/light_maps.h"
 #include "scene/reflectance.h"
 #include "shaders/gbuffer.frag.inc"
 #include "shaders/gbuffer.vert.inc"
@@ -27,16 +27,29 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values) {
     return std::as_bytes(std::span(values));
 }
 
+// What a road with a table reflects of light from all sides, and how much of that without sheen.
+struct InDiffuse {
+    float reflectance, plain;
+};
+
+std::vector<InDiffuse> in_diffuse(const Scene& scene) {
+    std::vector<InDiffuse> roads;
+    for (size_t i = 0; i < scene.reflection_tables.size(); ++i) {
+        const ReflectionTable table = rendered_table(scene, i);
+        const float whole = reflectance_in_diffuse(table);
+        roads.push_back({whole, reflectance_in_diffuse(without_sheen(table)) / whole});
+    }
+    return roads;
+}
+
 // A road with a table as the G-buffer holds it (shared/shade.h): the table says how much it reflects, the texture only
 // where there is more and where less.
-Material as_road(const Scene& scene, Material m) {
+Material as_road(const Scene& scene, InDiffuse road, Material m) {
     const double mean = mean_reflectance(scene, m, scene.transfer);
     const glm::vec3 colour = mean > 0 ? glm::vec3(glm::dvec3(m.base_colour) / mean) : glm::vec3(1);
-    const ReflectionTable& table = scene.reflection_tables.at(m.reflection_table);
-    const double q0 = table.stated_q0 > 0 ? table.stated_q0 : average_luminance_coefficient(table);
-    m.base_colour = glm::vec4(colour, m.base_colour.a);
+    m.base_colour = glm::vec4(colour * road.reflectance, m.base_colour.a);
     m.metallic = shared::kRoadKind - float(m.reflection_table);
-    m.roughness = float(std::numbers::pi * q0);
+    m.roughness = std::min(road.plain, 0.999f);  // not matt, as below
     m.metallic_roughness_texture = {};
     return m;
 }
@@ -115,8 +128,9 @@ void ResidentScene::place(const Scene& scene) {
 }
 
 void ResidentScene::make_surfaces(const Device&, const Scene& scene) {
+    const std::vector<InDiffuse> roads = in_diffuse(scene);
     for (const Material& stated : scene.materials) {
-        Material m = stated.reflection_table != kNone ? as_road(scene, stated)
+        Material m = stated.reflection_table != kNone ? as_road(scene, roads.at(stated.reflection_table), stated)
                      : stated.retroreflector != kNone ? as_sheet(stated)
                                                       : stated;
         uint32_t variant = 0;

@@ -6,7 +6,7 @@ SHARED_BEGIN
 
 // Over a block that is one matt plane, or one plane of road, the illuminance of a lamp that is not too near is smooth. Such lamps
 // are taken off the block's list, and their sum is kept at 3 x 3 nodes, the centres of the block's outermost pixels and what lies
-// halfway between: RGB of luminance lx, in a road times the luminance coefficient, r / cos^3(gamma) x 1e4 (sr^-1). Between
+// halfway between: RGB of luminance lx, on a road by what its table has in place of a cosine. Between
 // nodes it is the polynomial through them, quadratic along either side. Node (i, j) has its components at 3 (3 j + i).
 const uint kGatherTexels = 7u;  // rgba32f per block; 27 components and one unused
 

@@ -17,7 +17,7 @@ SHARED_BEGIN
 const uint kRings = 64u, kSectors = 32u;
 const uint kWindowTexels = 3u * kRings * 3u * kSectors / 4u;
 
-// r x 1e4 (sr^-1) of a road surface over tan(gamma), 0 to that of the table's last row, and beta, 0 to 180 degrees: as many cells as it takes for
+// r / Qd of a road surface over tan(gamma), 0 to that of the table's last row, and beta, 0 to 180 degrees: as many cells as it takes for
 // the table's nodes to be among theirs; at most kMostRoadCells, of which a node that is none of theirs lies half a cell off. A table has one texel as
 // its head: cells per unit of tan(gamma), the last tan(gamma), cells of beta per rad, and the texel of its first cell. Heads stand side by side.
 const uvec2 kMostRoadCells = uvec2(960u, 1800u);

@@ -43,6 +43,9 @@ TEST(ShadeMeasuredReference, SheenIsGoneAtTenDegrees) {
     EXPECT_NEAR(at(10, 0), at(1, 90), 1e-9);
     EXPECT_NEAR(at(30, 180), at(1, 90), 1e-9);
     EXPECT_LT(at(4, 0), at(2, 0));
+    // Of narrow lobes and wide ones, dark and bright ones alike.
+    for (const double beta : {0.0, 7.0, 30.0, 140.0}) EXPECT_NEAR(at(3, beta), std::lerp(at(10, beta), at(1, beta), sheen_seen(std::sin(glm::radians(3.0)))), 1e-9);
+    EXPECT_NEAR(sheen_seen((std::sin(glm::radians(1.5)) + std::sin(glm::radians(10.0))) / 2), 0.5, 1e-12);
 }
 
 TEST(ShadeMeasuredReference, ALampsFrameTurnsWithIt) {

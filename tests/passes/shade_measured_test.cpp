@@ -22,7 +22,7 @@ struct Street {
     LightMaps maps;
     LightList list;
     std::vector<reference::MeasuredLamp> measured;
-    std::vector<ReflectionTable> roads;
+    std::vector<reference::RoadSurface> roads;
 
     /// `kinds` of the lamps: the seventh has edges too steep for lamps that all but touch a surface.
     explicit Street(VkExtent2D extent, uint32_t lamps, uint32_t seed, LampMix others = {}, uint32_t kinds = 6) {
@@ -45,7 +45,7 @@ struct Street {
         for (size_t i = 0; i < 61 * 61; ++i) spots.candela.push_back(i % 61 > 4 && i % 61 < 56 && i / 61 % 60 * 37 % 13 == 0 && i % 61 * 5 % 7 == 3 ? 900 : 0);
         scene.distributions.push_back(spots);
         scene.reflection_tables = {find_reflection_table("R3"), find_reflection_table("W4")};
-        for (const ReflectionTable& table : scene.reflection_tables) roads.push_back(extended(table));
+        for (const ReflectionTable& table : scene.reflection_tables) roads.emplace_back(extended(table));
 
         std::mt19937 random(seed);
         std::uniform_real_distribution<float> unit(0, 1);
@@ -88,7 +88,7 @@ Surfaces noise(VkExtent2D extent, uint32_t seed) {
         const glm::dvec3 up = glm::normalize(glm::dvec3(0.05 * random.normal(), 1, 0.02 + 0.3 * random.unit() * random.unit()));
         const glm::dvec3 wall = random.facing(0.1);
         p.surface.emplace_back(glm::vec2(reference::octahedral_encode(road ? up : wall)), sky ? 0 : 2 * std::pow(60.0f, random.unit()),
-                               road ? 0.22f : i % 4 == 0 ? 1.0f : 0.2f + 0.8f * random.unit());
+                               road ? 0.2f + 0.799f * random.unit() : i % 4 == 0 ? 1.0f : 0.2f + 0.8f * random.unit());
         p.emission.emplace_back(0);
     }
     return p;

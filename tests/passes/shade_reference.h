@@ -83,7 +83,7 @@ struct Sheet {
 /// matt, on the surface itself; a directional light always does. Light that arrives from below the surface does not count.
 inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
                       double roughness, double threshold, Shaded& sum, const MeasuredLamp* measured = nullptr,
-                      const ReflectionTable* road = nullptr, const Sheet& sheet = {}) {
+                      const RoadSurface* road = nullptr, const Sheet& sheet = {}) {
     const dvec3 v = glm::normalize(-point);
     const bool lamp = kind != LightKind::Directional;
     const dvec3 path = lamp ? dvec3(light.position) - point : -dvec3(light.axis);
@@ -104,12 +104,13 @@ inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, d
     if (nl <= -epsilon || !may_count) return;
 
     if (road) {
-        const dvec3 reflected = dvec3(light.colour) * rho_lambert * std::numbers::pi;
-        if (nl > 0 && (!lamp || e * arriving >= threshold)) sum.luminance += reflected * e * road_coefficient(*road, n, l, v);
-        const double largest = *std::max_element(road->r.begin(), road->r.end()) * 145;
-        const double value = nl > epsilon ? road_coefficient(*road, n, l, v) : largest;
+        const dvec3 reflected = dvec3(light.colour) * rho_lambert / road->diffuse;
+        const ReflectionTable& table = road->table;
+        if (nl > 0 && (!lamp || e * arriving >= threshold)) sum.luminance += reflected * e * road_coefficient(table, n, l, v);
+        const double largest = *std::max_element(table.r.begin(), table.r.end()) * 145;
+        const double value = nl > epsilon ? road_coefficient(table, n, l, v) : largest;
         // Cosines are known to 2e-7, so that beta is to 0.04 degrees near 0; W4 falls by 39 % a degree there.
-        if (nl > epsilon) sum.rounding += reflected * std::max(more, less) * std::abs(road_coefficient(*road, n, l, v, 2e-7) - road_coefficient(*road, n, l, v, -2e-7));
+        if (nl > epsilon) sum.rounding += reflected * std::max(more, less) * std::abs(road_coefficient(table, n, l, v, 2e-7) - road_coefficient(table, n, l, v, -2e-7));
         sum.rounding += reflected * value * (uncertain ? std::max(more, less) : more - less + 0.001 * e + e * epsilon / std::max(nl * nl, epsilon));
         return;
     }
@@ -138,7 +139,7 @@ inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<co
     const dvec3 n = octahedral_decode(dvec2(texel.surface));
     const dvec3 base(texel.reflectance);
     const double kind = texel.reflectance.w, metallic = kind >= shared::kRetroCode ? 0 : std::max(kind, 0.0), roughness = texel.surface.w;
-    const ReflectionTable* road = kind < 0 ? &measurements.roads[size_t(-1 - kind)] : nullptr;
+    const RoadSurface* road = kind < 0 ? &measurements.roads[size_t(-1 - kind)] : nullptr;
     const Sheet sheet{kind >= shared::kRetroCode ? &measurements.sheets[size_t(kind - shared::kRetroCode)] : nullptr, base};
     const dvec3 rho_lambert = base * (1 - metallic) * double(p.lambert);
     const dvec3 f0 = normal_reflectance(base, metallic, roughness);
@@ -148,8 +149,8 @@ inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<co
     for (size_t i = 0; i < count; ++i)
         add_light(lights[i], kind_of(i, p.lights), point, n, rho_lambert, f0, roughness, p.threshold, sum,
                   kind_of(i, p.lights) == LightKind::Map ? &measurements.lamps[i - maps] : nullptr, road, sheet);
-    // A metal reflects its base colour too; a road pi Q0, which its roughness holds.
-    sum.luminance += dvec3(p.ambient) * base * double(p.lambert) * (road ? roughness : 1);
+    // A metal reflects its base colour too.
+    sum.luminance += dvec3(p.ambient) * base * double(p.lambert) * (road ? road_in_diffuse(roughness, glm::dot(n, glm::normalize(-point))) : 1);
     sum.luminance += glm::min(texel.emission, dvec3(double(p.emission_limit)));
     return sum;
 }

@@ -50,8 +50,8 @@ LightList headlamps(LampMix others, uint32_t seed) {
 // 2e-3 on roads for the device's angles, which are polynomials.
 void expect_reference(PassRig& rig, const LightList& list, const Surfaces& s, bool roads, const ShadeSettings& settings) {
     Scene scene;
-    std::vector<ReflectionTable> tables;
-    if (roads) scene.reflection_tables = {find_reflection_table("R3")}, tables = {extended(scene.reflection_tables[0])};
+    std::vector<reference::RoadSurface> tables;
+    if (roads) scene.reflection_tables = {find_reflection_table("R3")}, tables.emplace_back(extended(scene.reflection_tables[0]));
     const Shot shot = shade(rig, s, list, {}, settings, light_maps(scene), kClasses);
     test::expect_reference(shot, s, list, settings, {{}, tables, kClasses}, {2e-5, 1e-7}, 2e-3);
 }

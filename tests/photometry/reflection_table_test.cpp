@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string_view>
 
 #include "scene/scene_files.h"
@@ -78,6 +79,29 @@ TEST(ReflectionTable, AverageOfLambertIsItsCoefficient) {
     EXPECT_THROW(rescaled(lambert(0.05), std::numeric_limits<double>::quiet_NaN()), Error);
 }
 
+// A sum over directions of its own, 0.5 degrees apart.
+TEST(ReflectionTable, LightFromAllSidesIsReflectedByQd) {
+    EXPECT_NEAR(diffuse_luminance_coefficient(extended(lambert(0.05))), 0.05, 2e-4);  // what is beyond tan 20 is not Lambert's
+    for (const std::string& name : standard_reflection_tables()) {
+        const ReflectionTable table = extended(find_reflection_table(name)), plain = without_sheen(table);
+        EXPECT_EQ(reduced_luminance_coefficient(plain, 3.3, 17), reduced_luminance_coefficient(table, 3.3, 90)) << name;
+        const double radian = std::numbers::pi / 180;
+        for (const ReflectionTable& t : {table, plain}) {
+            double luminance = 0, illuminance = 0;  // of a sky of 1 cd/m^2
+            for (double gamma = 0.25; gamma < 90; gamma += 0.5)
+                for (double beta = 0.25; beta < 360; beta += 0.5) {
+                    const double solid = std::sin(gamma * radian) * 0.25 * radian * radian, horizontal = solid * std::cos(gamma * radian);
+                    luminance += horizontal * luminance_coefficient(t, std::tan(gamma * radian), beta);
+                    illuminance += horizontal;
+                }
+            EXPECT_NEAR(luminance / illuminance / diffuse_luminance_coefficient(t), 1, 2e-3) << name;
+        }
+    }
+    // Sheen is seen flat, where lamps that count for Q0 are: less of it comes from the whole sky.
+    EXPECT_NEAR(diffuse_luminance_coefficient(extended(find_reflection_table("R3"))), 0.0543, 1e-4);
+    EXPECT_NEAR(diffuse_luminance_coefficient(extended(find_reflection_table("W4"))), 0.1259, 1e-4);
+}
+
 TEST(ReflectionTable, ExtensionLeavesCoveredCellsAndFallsSmoothly) {
     for (const std::string& name : standard_reflection_tables()) {
         const ReflectionTable table = find_reflection_table(name), smooth = extended(table);
@@ -95,9 +119,9 @@ TEST(ReflectionTable, ExtensionLeavesCoveredCellsAndFallsSmoothly) {
                 const double there = reduced_luminance_coefficient(smooth, t + 0.01, beta);
                 EXPECT_LE(std::abs(there - here), 0.03 * here) << name << " " << t << " " << beta;
             }
-        EXPECT_LT(reduced_luminance_coefficient(smooth, 1000, 0), 1e-6);
-        // q stays beyond the table.
-        EXPECT_NEAR(luminance_coefficient(smooth, 30, 40), luminance_coefficient(smooth, 12, 40), 1e-9);
+        EXPECT_LT(reduced_luminance_coefficient(smooth, 1000, 0), 1e-5);
+        // L per illuminance facing the lamp stays beyond the table.
+        EXPECT_NEAR(luminance_coefficient(smooth, 30, 40) * std::sqrt(145.0), luminance_coefficient(smooth, 12, 40) * std::sqrt(901.0), 1e-9);
     }
 }
 

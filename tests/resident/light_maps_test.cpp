@@ -203,7 +203,7 @@ void expect_every_value(const LightMaps& maps, size_t number, const ReflectionTa
             ASSERT_NEAR(along, std::round(along), 1e-4);  // of a cell: floats round the head
             ASSERT_NEAR(across, std::round(across), 1e-9);
             const size_t cell = (size_t(std::round(along)) - 1) * size_t(road.columns) + size_t(std::round(across)) - 1;
-            const double value = 1e-4 * double(maps.texels.at(road.first + cell).w);
+            const double value = reflectance_in_diffuse(extended(table)) / std::numbers::pi * double(maps.texels.at(road.first + cell).w);
             ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-22)) << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
         }
 }

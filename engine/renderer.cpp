@@ -95,20 +95,20 @@ void Renderer::submit(const RenderSettings& settings, const View& view, const Sc
 
     FrameGraph graph;
     pending.declared = declare(graph, settings, view, frame, lights, sources, given, outputs);
-    const double declared_after = pending.watch.milliseconds();
-    executor_.submit(graph, handover);
-    eye_.submitted();
-    plan_ = graph.describe(executor_.plan());
-
     Frame& result = pending.frame;
     result.extent = view.extent;
-    result.host_times.declare = declared_after;
+    result.host_times.declare = pending.watch.milliseconds();
     if (given.corona) result.pupil = given.corona->pupil, result.pattern_milliseconds = given.corona->milliseconds;
     result.lights = uint32_t(lights.lights.size());
     result.sources = uint32_t(sources.sources.size());
     result.far = pending.declared.far;
     if (!ldr) result.glare_sources = std::move(sources.dazzling);
     result.outside = std::move(given.outside);
+
+    executor_.submit(graph, handover);
+    // Nothing fails from here on.
+    eye_.submitted();
+    graph_ = std::move(graph);
     pending_ = std::move(pending);
 }
 

@@ -50,7 +50,7 @@ public:
     void set_scene(const Scene& scene);
 
     /// The plan of the last frame as text.
-    const std::string& plan() const { return plan_; }
+    std::string plan() const { return graph_.describe(executor_.plan()); }
     /// Forgets what the eye was adapted to, as at a camera cut.
     void reset_adaptation() { eye_.reset(executor_); }
     /// The next frame goes on from this state, such as Frame::eye of an earlier run.
@@ -100,7 +100,7 @@ private:
     Kernels kernels_;
     std::unique_ptr<const Drawn> scene_;
     EyeKeeper eye_;
-    std::string plan_;
+    FrameGraph graph_;  // of the last one
     Executor executor_;  // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };

@@ -113,7 +113,7 @@ ChainInputs EyeKeeper::inputs(Executor& executor, const ToneChainSettings& setti
     if (!scatter_.has(settings.scatter, view)) executor.wait();  // what is under way uses the one that goes
     given.scatter = &scatter_.at(settings.scatter, view);
     const shared::EyeState& before = given_ ? *given_ : last_;
-    if (settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.adaptation), double(before.seconds + seconds));
+    if (settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.pupil), double(before.seconds) + double(before.seconds_lost) + double(seconds));
     return given;
 }
 

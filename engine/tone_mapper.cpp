@@ -59,12 +59,12 @@ void ToneMapper::submit(FrameGraph& graph, Resource scene, const ToneChainSettin
     pending.chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs);
     pending.result.extent = view.extent;
     if (given.corona) pending.result.pupil = given.corona->pupil, pending.result.pattern_milliseconds = given.corona->milliseconds;
-    const double declared_after = watch.milliseconds();
+    pending.result.host_times.declare = watch.milliseconds();
     executor_.submit(graph, handover);
+    // Nothing fails from here on.
     eye_.submitted();
-    plan_ = graph.describe(executor_.plan());
+    graph_ = std::move(graph);
     pending_ = std::move(pending);
-    pending_->result.host_times.declare = declared_after;
 }
 
 std::optional<ToneMapped> ToneMapper::finish() {

@@ -49,7 +49,7 @@ public:
     /// The next picture goes on from this state, such as ToneMapped::eye of an earlier run.
     void set_eye(const shared::EyeState& eye) { eye_.set(eye); }
     /// The plan of the last picture as text.
-    const std::string& plan() const { return plan_; }
+    std::string plan() const { return graph_.describe(executor_.plan()); }
 
 private:
     /// A picture that was handed to the queue.
@@ -65,7 +65,7 @@ private:
     Kernels kernels_;
     HostBuffer pixels_;
     EyeKeeper eye_;
-    std::string plan_;
+    FrameGraph graph_;  // of the last one
     Executor executor_;  // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };

@@ -67,11 +67,13 @@ float follow(float from, float to, float kept) {
     return kept < 1.0 ? clamp(blend(from, to, kept), to - kLeash, to + kLeash) : from;
 }
 
-// Mean or log average of the finite pixels of 3 x 3 texels about the gaze, linear in its position; of none: 0.
+// Mean or log average of the finite pixels of 3 x 3 texels about the gaze, linear in its position; of none: -1.
 float gaze_luminance() {
     const ivec2 last = ivec2(parameters.foveal_size) - 1;
-    if (parameters.adapt_to == kAdaptTexel)
-        return imageLoad(foveal_level, clamp(ivec2(floor(parameters.gaze)), ivec2(0), last)).r;
+    if (parameters.adapt_to == kAdaptTexel) {
+        const vec2 texel = imageLoad(foveal_level, clamp(ivec2(floor(parameters.gaze)), ivec2(0), last)).rg;
+        return texel.g > 0.0 ? texel.r : -1.0;
+    }
     const vec2 at = parameters.gaze - 0.5, base = floor(at), part = at - base;
     float sum = 0.0, pixels = 0.0;
     for (int y = -1; y <= 2; ++y)
@@ -83,7 +85,7 @@ float gaze_luminance() {
             sum += weight * (parameters.adapt_to == kAdaptGaze ? s.b : s.r);
             pixels += weight;
         }
-    if (pixels == 0.0) return 0.0;
+    if (pixels == 0.0) return -1.0;
     return parameters.adapt_to == kAdaptGaze ? exp(sum / pixels) : sum / pixels;
 }
 
@@ -97,7 +99,8 @@ void main() {
     // What the eye looks at, and what that makes of it.
     const bool first = !(previous.adaptation > 0.0);
     const float looked_at = parameters.adapt_to == kAdaptAverage ? log_average : gaze_luminance();
-    const float goal = empty && !first ? previous.adaptation : looked_at;
+    const float otherwise = first ? log_average : previous.adaptation;  // where there is nothing to look at
+    const float goal = empty || looked_at < 0.0 ? otherwise : looked_at;
     const float adaptation = clamp(goal, kLuminanceFloor, kBrightest);
     const float scotopic = parameters.scotopic * adaptation;
     const float l = log10_of(adaptation);
@@ -195,7 +198,10 @@ void main() {
         curve.response_offset = as.offset, curve.response_unit = as.unit;
     }
     current.adaptation = adaptation;
-    current.seconds = previous.seconds + parameters.seconds;
+    // With what was lost before, so that time goes on as it should after days of it.
+    precise const float passed = parameters.seconds + previous.seconds_lost, now = previous.seconds + passed;
+    current.seconds = now, current.seconds_lost = passed - (now - previous.seconds);
+    current.pupil = blend(previous.pupil > 0.0 ? previous.pupil : kFirstPupil, 4.9 - 3.0 * tanh(0.4 * l), exp(-parameters.seconds / kPupilSeconds));
     current.cones = cones;
     current.rods = rods;
     current.lagging = lagging;

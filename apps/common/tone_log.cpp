@@ -16,7 +16,7 @@ namespace vesper {
 namespace {
 
 // The floats of EyeState before the nodes of the curve, in order.
-constexpr const char* kStateNames[]{"adaptation", "eye_seconds", "cone_pigment", "cone_fast", "cone_slow", "rod_pigment",
+constexpr const char* kStateNames[]{"adaptation", "eye_seconds", "eye_seconds_lost", "pupil_at_rest", "cone_pigment", "cone_fast", "cone_slow", "rod_pigment",
                                     "rod_fast",   "rod_slow",    "steps",        "ln_low",    "steps_per_ln",
                                     "lagging_cones", "lagging_rods", "lagging_cone_pigment", "lagging_rod_pigment",
                                     "chroma_long", "chroma_middle", "chroma_short"};

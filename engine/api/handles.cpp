@@ -48,8 +48,14 @@ ForeignImage image_of(const VesperImage* given) {
     require(i.image != VK_NULL_HANDLE, "no image");
     for (const VkImageLayout layout : {i.layout_before, i.layout_after}) require(std::ranges::find(kLayouts, layout) != kLayouts.end(), "colours have no such layout");
     require(i.layout_after != VK_IMAGE_LAYOUT_UNDEFINED && i.layout_after != VK_IMAGE_LAYOUT_PREINITIALIZED, "an image has a layout after the call");
+    require(i.reserved == 0, "what is reserved in an image is 0");
     return {i.image, i.format, extent_of(i.width, i.height), i.layout_before, i.layout_after};
 }
+
+// A field that is added changes one of these: then kFirstSize of that structure is what stands here.
+static_assert(sizeof(void*) != 8 || (sizeof(VesperDeviceOptions) == 40 && sizeof(VesperToneSettings) == 128 && sizeof(VesperFrameReport) == 32 && sizeof(VesperOutputs) == 40 &&
+                                     sizeof(VesperPicture) == 32 && sizeof(VesperMaterial) == 56 && sizeof(VesperMesh) == 56 && sizeof(VesperLamp) == 80 && sizeof(VesperView) == 80 &&
+                                     sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 && sizeof(VesperImagePicture) == 24));
 
 }  // namespace
 
@@ -109,10 +115,10 @@ Outputs wanted(const VesperOutputs& to) { return {.display = to.codes != nullptr
 
 void give(const ToneMapped& frame, const VesperOutputs& to) {
     give(frame.display, to.codes), give(frame.scene, to.luminance), give(frame.light, to.display_light);
-    if (to.report) *to.report = report_of(frame);
+    if (to.report) give_known(report_of(frame), to.report);
 }
 
-void check_report(const VesperFrameReport* report) { require(!report || report->size >= sizeof(VesperFrameReport), "a report without its size"); }
+void check_report(const VesperFrameReport* report) { require(!report || (report->size >= kFirstSize<VesperFrameReport> && report->size <= 65536), "a report without its size"); }
 
 VesperFrameReport report_of(const ToneMapped& frame) {
     return {.size = sizeof(VesperFrameReport), .adaptation = frame.curve.adaptation, .log_average = frame.curve.log_average, .not_finite = frame.histogram.non_finite,
@@ -139,6 +145,8 @@ shared::EyeState eye_of(const void* bytes, size_t size) {
     require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye, "what an eye of another version remembers");
     float values[sizeof kept.eye / sizeof(float)];
     std::memcpy(values, &kept.eye, sizeof values);
+    values[1] = std::isfinite(kept.eye.seconds) && kept.eye.seconds >= 0 ? 0 : 2e9f;  // it may be any age
+    static_assert(offsetof(shared::EyeState, seconds) == sizeof(float));
     require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }), "no eye remembers that");
     require(kept.eye.steps >= 0 && kept.eye.steps <= float(shared::kMaxBins), "no eye remembers that");
     return kept.eye;

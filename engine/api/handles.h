@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,7 +23,8 @@ struct VesperDevice {
 
 struct VesperToneMapper {
     static constexpr const char* kNone = "no tone mapper";
-    explicit VesperToneMapper(vesper::Device& device) : engine(device) {}
+    explicit VesperToneMapper(vesper::Device& of) : device(of), engine(of) {}
+    const vesper::Device& device;
     vesper::ToneMapper engine;
     vesper::shared::EyeState eye{};           // what the last picture left
     std::optional<VesperFrameReport> report;  // of the last one that was handed over and waited for, until it is asked for
@@ -36,7 +38,8 @@ struct VesperScene {
 
 struct VesperRenderer {
     static constexpr const char* kNone = "no renderer";
-    VesperRenderer(vesper::Device& device, const VesperScene& drawn) : scene(drawn), version(drawn.version), engine(device, drawn.scene) {}
+    VesperRenderer(vesper::Device& of, const VesperScene& drawn) : device(of), scene(drawn), version(drawn.version), engine(of, drawn.scene) {}
+    const vesper::Device& device;
     const VesperScene& scene;
     uint64_t version;  // of the scene on the device
     vesper::Renderer engine;
@@ -64,11 +67,23 @@ VesperResult guarded(VesperError* error, const Call& call) noexcept {
     return result_of(error, [](const void* it) { (*static_cast<const Call*>(it))(); }, &call);
 }
 
-/// A structure as this library has it. All of them are as in the first version, so none may be smaller; a newer caller's may be larger.
+/// What a structure was in the first version that had it: to be pinned where a field is added (handles.cpp checks).
+template <class T>
+constexpr size_t kFirstSize = sizeof(T);
+
+/// A structure as this library has it: what an older caller does not have is zero, and what a newer one has beyond is passed over.
 template <class T>
 T known(const T* given, const char* otherwise) {
-    require(given && given->size >= sizeof(T) && given->size <= 65536, otherwise);
-    return *given;
+    require(given && given->size >= kFirstSize<T> && given->size <= 65536, otherwise);
+    T made{};
+    std::memcpy(&made, given, std::min(size_t{given->size}, sizeof made));
+    return made;
+}
+/// As much of a structure as the caller's has room for; its size is what it is then.
+template <class T>
+void give_known(T made, T* to) {
+    made.size = uint32_t(std::min(size_t{to->size}, sizeof made));
+    std::memcpy(to, &made, made.size);
 }
 
 template <size_t n>
@@ -111,6 +126,7 @@ void finish(Handle& handle) {
 /// Hands over a frame: where its settings look back, the one before is waited for.
 template <class Handle, class... Arguments>
 void hand_over(Handle& handle, const RenderSettings& settings, const Arguments&... arguments) {
+    require(handle.device.borrowed(), "images are those of a host's device (vesper_device_borrow)");
     if (EyeKeeper::looks_back(settings)) finish(handle);
     handle.engine.submit(settings, arguments...);
     handle.report.reset();
@@ -121,7 +137,7 @@ VesperResult finish(Handle* handle, VesperFrameReport* report, VesperError* erro
         require(handle, Handle::kNone);
         check_report(report);
         finish(*handle);
-        if (report) *report = handle->report.value_or(VesperFrameReport{sizeof *report});
+        if (report) give_known(handle->report.value_or(VesperFrameReport{}), report);
         handle->report.reset();
     });
 }

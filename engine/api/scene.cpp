@@ -74,6 +74,8 @@ Light light_of(const VesperLamp& l) {
     require(y > 0, "a lamp's colour has luminance");
     require(l.inner_cone >= 0 && l.outer_cone >= l.inner_cone && l.outer_cone <= 1.5707964f, "a lamp's cones are 0 <= inner <= outer <= pi / 2");
     require(l.opening_length >= 0 && l.opening_length <= 1000 && l.opening_width >= 0 && l.opening_width <= 1000, "a lamp's opening is 0 to 1000 m long and wide");
+    require((l.opening_length > 0) == (l.opening_width > 0), "a lamp's opening has a length and a width, or neither");
+    require(!l.distribution || (l.inner_cone == 0 && l.outer_cone == 0), "a lamp has cones or a distribution");
     Light light;
     light.intensity = l.intensity, light.colour = colour;
     light.inner_cone = l.inner_cone, light.outer_cone = l.outer_cone;
@@ -165,9 +167,14 @@ VesperResult vesper_scene_add_lamp(VesperScene* scene, const VesperLamp* lamp, u
             light.distribution = distribution_of(*scene, l.distribution);
             if (light.opening.length == 0) light.opening = scene->scene.distributions[light.distribution].opening;
         }
-        scene->scene.nodes.reserve(scene->scene.nodes.size() + 1);
-        scene->scene.lights.push_back(std::move(light));
-        add(scene->scene, std::move(placed), node);
+        add(scene->scene, std::move(placed), nullptr);
+        try {
+            scene->scene.lights.push_back(std::move(light));
+        } catch (...) {
+            scene->scene.nodes.pop_back();
+            throw;
+        }
+        if (node) *node = added(scene->scene.nodes.size());
         ++scene->version;
     });
 }

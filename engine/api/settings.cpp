@@ -51,6 +51,7 @@ Display display_of(const VesperToneSettings& s) {
 RenderSettings vesper::api::settings_of(const VesperToneSettings* given) {
     const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
     const auto is_operator = [&](const OperatorInfo& info) { return info.tone_operator != Operator::Ldr && uint32_t(info.tone_operator) == s.tone_operator; };
+    require(s.reserved == 0, "what is reserved in tone settings is 0");
     require(std::ranges::any_of(operators(), is_operator), "there is no such tone operator");
     require(s.glare <= VESPER_GLARE_WARD, "there is no such glare");
     require(s.bins >= 1 && s.bins <= shared::kMaxBins, "a histogram has 1 to 256 bins");
@@ -82,6 +83,13 @@ RenderSettings vesper::api::settings_of(const VesperToneSettings* given) {
     settings.display = display_of(s);
     check_display(settings.display);
     return settings;
+}
+
+VesperResult vesper_display_bits(const char* display, uint32_t* bits, VesperError* error) {
+    return guarded(error, [&] {
+        require(display && bits, "no display, or no place for its bits");
+        *bits = uint32_t(find_display(display).bits);
+    });
 }
 
 void vesper_tone_settings_defaults(VesperToneSettings* settings, size_t size) {

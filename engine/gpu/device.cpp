@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <span>
+#include <thread>
+#include <vector>
 
 #include "base/lower.h"
 #include "gpu/commands.h"
@@ -247,7 +250,12 @@ void Device::learn(bool filters_along) {
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
     vkGetPhysicalDeviceProperties2(physical_, &properties);
     driver_ = std::string(driver.driverName) + " " + driver.driverInfo;
-    has_timestamps_ = properties_.limits.timestampComputeAndGraphics;
+    uint32_t families = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &families, nullptr);
+    std::vector<VkQueueFamilyProperties> queues(families);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &families, queues.data());
+    const uint32_t bits = queues.at(queue_family_).timestampValidBits;
+    timestamp_mask_ = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
     // Filtering along eight samples costs a CPU device 130 ms a frame; it goes without.
     has_anisotropy_ = filters_along && !is_cpu();
     push_descriptors =
@@ -318,9 +326,19 @@ void Device::submit(const VkSubmitInfo2& work, VkFence fence, std::string_view w
 
 void Device::wait(VkFence fence) const {
     const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
-    // What was submitted uses what goes now. A lost device does nothing any more; a borrowed one has other queues, at which others may be.
-    if (waited != VK_SUCCESS) borrowed_ ? vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX) : vkDeviceWaitIdle(device_);
+    if (waited != VK_SUCCESS) settle(fence);  // what was submitted uses what goes now
     check(waited, "waiting for the device");
+}
+
+void Device::settle(VkFence fence) const noexcept {
+    // A lost device does nothing any more. Without memory for waiting there may be some a little later; a borrowed device has other queues, at
+    // which others may be, so that it cannot be waited for as a whole.
+    for (int tries = 0; tries < 1000; ++tries) {
+        const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
+        if (waited == VK_SUCCESS || waited == VK_ERROR_DEVICE_LOST) return;
+        if (!borrowed_ && vkDeviceWaitIdle(device_) == VK_SUCCESS) return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
 }
 
 OwnedFence make_fence(const Device& device, VkFenceCreateFlags flags) {

@@ -106,7 +106,9 @@ public:
     uint32_t queue_family() const { return queue_family_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     bool is_cpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
-    bool has_timestamps() const { return has_timestamps_; }
+    bool borrowed() const { return borrowed_; }
+    bool has_timestamps() const { return timestamp_mask_ != 0; }
+    uint64_t timestamp_mask() const { return timestamp_mask_; }  ///< the bits that its queue counts with
     bool has_anisotropy() const { return has_anisotropy_; }
     bool has_hdr_metadata() const { return has_hdr_metadata_; }  ///< VK_EXT_hdr_metadata; only with a presentation
     std::string name() const { return properties_.deviceName; }
@@ -124,6 +126,7 @@ public:
     /// Hands work to the queue. Throws Error saying `what` failed.
     void submit(const VkSubmitInfo2& work, VkFence fence, std::string_view what) const;
     void wait(VkFence fence) const;
+    void settle(VkFence fence) const noexcept;  ///< waits too, as well as it can without memory
 
     PFN_vkCmdPushDescriptorSetKHR push_descriptors = nullptr;
 
@@ -135,7 +138,8 @@ private:
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     uint32_t queue_family_ = 0;
-    bool has_timestamps_ = false, has_anisotropy_ = false, has_hdr_metadata_ = false;
+    uint64_t timestamp_mask_ = 0;
+    bool has_anisotropy_ = false, has_hdr_metadata_ = false;
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceMemoryProperties memory_{};
     mutable DeviceUse use_;

@@ -58,21 +58,19 @@ struct Executor::Past {
         }
     }
 
-    void zero(const Device& device) {
-        device.run_once([&](VkCommandBuffer commands) {
-            for (int half : {0, 1}) {
-                if (!shape.is_image()) {
-                    vkCmdFillBuffer(commands, buffers[half].get(), 0, VK_WHOLE_SIZE, 0);
-                    continue;
-                }
-                const VkImageMemoryBarrier2 barrier = image_barrier(images[half].get(), {}, {VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
-                                                                    VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
-                pipeline_barrier(commands, {&barrier, 1});
-                const VkClearColorValue black{};
-                vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1, &barrier.subresourceRange);
+    // Within a barrier for all that uses it.
+    void zero(VkCommandBuffer commands) const {
+        constexpr Touch before{VK_PIPELINE_STAGE_2_CLEAR_BIT}, clear{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+        for (int half : {0, 1}) {
+            if (!shape.is_image()) {
+                vkCmdFillBuffer(commands, buffers[half].get(), 0, VK_WHOLE_SIZE, 0);
+                continue;
             }
-        });
-        forgotten = false;
+            const VkImageMemoryBarrier2 barrier = image_barrier(images[half].get(), before, clear, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+            pipeline_barrier(commands, {&barrier, 1});
+            const VkClearColorValue black{};
+            vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1, &barrier.subresourceRange);
+        }
     }
 };
 
@@ -89,11 +87,7 @@ Executor::Executor(Device& device) : device_(device) {
 }
 
 Executor::~Executor() {
-    try {
-        finish();
-    } catch (const Error&) {
-        // A lost device has finished, too.
-    }
+    for (const auto& slot : slots_) slot->settle();
 }
 
 Measure Executor::measure() const {
@@ -139,14 +133,18 @@ void Executor::submit(const FrameGraph& graph, const Handover& handover) {
         realize_readbacks(graph);
         times.plan = watch.lap();
         record(graph, among_others);
+        find_turning(graph);
         times.record = watch.lap();
         slot_->submit(handover);
     } catch (...) {
         slot_ = last;  // what that frame left can be read
         throw;
     }
+    // From here on nothing can fail: who is told that a frame failed may hand over its semaphores again.
     unread_ = true;
-    turn_histories(graph);
+    turned_.swap(turning_);
+    for (Past* past : turned_) past->current ^= 1;
+    for (Past* past : cleared_) past->forgotten = false;
     times.submit = watch.lap(), times.wait = host_times_.wait;
     host_times_ = times;
 }
@@ -226,6 +224,7 @@ void Executor::view_borrowed(Realized& r, VkFormat format, uint32_t usage) {
 }
 
 void Executor::realize_histories(const FrameGraph& graph) {
+    cleared_.clear();
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
         if (info.origin != FrameGraph::Origin::HistoryCurrent || !plan_.usage[i]) continue;
@@ -233,9 +232,11 @@ void Executor::realize_histories(const FrameGraph& graph) {
         usage |= info.shape.is_image() ? uint32_t(VK_IMAGE_USAGE_TRANSFER_DST_BIT) : uint32_t(VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         auto& past = histories_[info.name];
         const bool fits = past && past->shape == info.shape && past->usage == usage;
-        if (!fits || past->forgotten) wait();  // what is under way uses it
-        if (!fits) past = std::make_unique<Past>(device_, info.shape, usage);
-        if (past->forgotten) past->zero(device_);
+        if (!fits) {
+            wait();  // what is under way uses it
+            past = std::make_unique<Past>(device_, info.shape, usage);
+        }
+        if (past->forgotten) cleared_.push_back(past.get());
         for (const auto& [index, half] : {std::pair{i, past->current}, std::pair{info.partner, 1 - past->current}}) {
             Realized& r = resources_[index];
             r.image = past->images[half].get(), r.view = past->views[half].get();
@@ -245,12 +246,24 @@ void Executor::realize_histories(const FrameGraph& graph) {
     }
 }
 
+// Among the frame's commands, so that nothing waits for a queue that may be busy with others' work.
+void Executor::record_clearing() const {
+    if (cleared_.empty()) return;
+    constexpr VkMemoryBarrier2 everything{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                          .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                          .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                          .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                          .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+    pipeline_barrier(slot_->commands, {}, &everything);
+    for (const Past* past : cleared_) past->zero(slot_->commands);
+    pipeline_barrier(slot_->commands, {}, &everything);
+}
+
 // Only a frame that was submitted is the past of the next.
-void Executor::turn_histories(const FrameGraph& graph) {
-    turned_.clear();
+void Executor::find_turning(const FrameGraph& graph) {
+    turning_.clear();
     for (uint32_t i = 0; i < graph.resources().size(); ++i)
-        if (graph.resources()[i].origin == FrameGraph::Origin::HistoryCurrent && plan_.usage[i]) turned_.push_back(histories_.at(graph.resources()[i].name).get());
-    for (Past* past : turned_) past->current ^= 1;
+        if (graph.resources()[i].origin == FrameGraph::Origin::HistoryCurrent && plan_.usage[i]) turning_.push_back(histories_.at(graph.resources()[i].name).get());
 }
 
 void Executor::realize_uploads(const FrameGraph& graph) {

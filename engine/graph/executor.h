@@ -66,7 +66,7 @@ private:
 
     void enter_slot();
     void place(const FrameGraph& graph);
-    void turn_histories(const FrameGraph& graph);
+    void find_turning(const FrameGraph& graph);
     void view_borrowed(Realized& resource, VkFormat format, uint32_t usage);
     void realize_histories(const FrameGraph& graph);
     void realize_uploads(const FrameGraph& graph);
@@ -76,6 +76,7 @@ private:
     void record(const FrameGraph& graph, bool among_others);
     enum class Border { Enter, Leave };
     void record_border(const FrameGraph& graph, Border border) const;
+    void record_clearing() const;
     void record_barriers(const std::vector<Plan::Barrier>& barriers) const;
     void record_dispatch(const FrameGraph::PassInfo& pass) const;
     void record_raster(const FrameGraph& graph, const Plan::Step& step) const;
@@ -85,7 +86,8 @@ private:
     HostTimes host_times_;
     std::vector<Realized> resources_;
     std::map<std::string, std::unique_ptr<Past>> histories_;
-    std::vector<Past*> turned_;  // by the last frame
+    std::vector<Past*> turned_, turning_;  // by the last frame; by the one that is being submitted
+    std::vector<Past*> cleared_;            // by it
     std::vector<OwnedMemory> heaps_;
     std::string placed_key_;  // what the transients were made for
     OwnedSampler sampler_;

@@ -41,15 +41,20 @@ void FrameSlot::wait() {
     read_timestamps();
 }
 
+void FrameSlot::settle() noexcept {
+    if (under_way) device.settle(fence.get());
+    under_way = false;
+}
+
 // As FrameSlot::begin was told: two at each border of a pass.
 void FrameSlot::read_timestamps() {
     if (timings.empty()) return;
-    std::vector<uint64_t> ticks((timings.size() + 1) * 2);
+    ticks.resize((timings.size() + 1) * 2);
     check(vkGetQueryPoolResults(device.handle(), queries.get(), 0, uint32_t(ticks.size()), ticks.size() * sizeof(uint64_t), ticks.data(),
                                 sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading timestamps");
     for (size_t i = 0; i < timings.size(); ++i)
-        timings[i].milliseconds = double(ticks[2 * (i + 1)] - ticks[2 * i]) * double(device.limits().timestampPeriod) * 1e-6;
+        timings[i].milliseconds = double((ticks[2 * (i + 1)] - ticks[2 * i]) & device.timestamp_mask()) * double(device.limits().timestampPeriod) * 1e-6;
 }
 
 }  // namespace vesper

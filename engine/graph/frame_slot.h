@@ -31,6 +31,7 @@ struct FrameSlot {
     void begin(uint32_t timestamps);  ///< recording; `timestamps`: how many it writes
     void submit(const Handover& handover);
     void wait();  ///< until its frame, if it has one, is done; then there are its timings
+    void settle() noexcept;  ///< likewise, without them: only so that nothing uses what goes
 
     const Device& device;
     HostBuffer uploads, readbacks;
@@ -48,6 +49,8 @@ struct FrameSlot {
     bool under_way = false;
 
 private:
+    std::vector<uint64_t> ticks;
+
     void read_timestamps();
 };
 

@@ -23,6 +23,7 @@ void Executor::record(const FrameGraph& graph, bool among_others) {
     slot_->begin(timed ? (uint32_t(plan_.steps.size()) + 1) * 2 : 0);
     const VkCommandBuffer commands = slot_->commands;
     if (among_others) record_border(graph, Border::Enter);
+    record_clearing();
 
     // Before the first pass and after each. lavapipe writes a time down no sooner than it comes to the next one, so each has a second behind it.
     const auto mark = [&](uint32_t boundary) {

@@ -13,7 +13,7 @@ namespace {
 using glm::dvec2;
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kWidestPupil = 9;  // mm
+constexpr double kWidestPupil = 9, kUsualPupil = 5;  // mm
 constexpr double kSample = EyeAperture::kWindow / EyeAperture::kSide;  // mm
 
 // Numbers that depend on nothing but two others (SplitMix64, Steele et al. 2014), [0, 1).
@@ -65,7 +65,8 @@ void take(std::vector<double>& transmitted, dvec2 place, double area) {
 
 double restless_pupil(double diameter, double seconds, uint32_t seed) {
     const double p = std::clamp(diameter, 1.0, 0.98 * EyeAperture::kWindow);
-    const double moved = p + 0.35 * octaves(2 * seconds / p, seed) * (kWidestPupil / p) * std::sqrt(1 - p / kWidestPupil);
+    // Of time alone: of t / p a change of p late in a drive would move it by many turns.
+    const double moved = p + 0.35 * octaves(2 * seconds / kUsualPupil, seed) * (kWidestPupil / p) * std::sqrt(1 - p / kWidestPupil);
     return std::clamp(moved, 1.0, 0.98 * EyeAperture::kWindow);
 }
 

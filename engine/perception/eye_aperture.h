@@ -10,8 +10,8 @@
 
 namespace vesper {
 
-/// Diameter of a pupil that is never at rest (hippus), mm: p + u(t / p) (p_max / p) sqrt(1 - p / p_max), p_max = 9 mm (Ritschel et al.
-/// 2009), u being smooth noise of three octaves from 0.4 Hz on (of a pupil of 5 mm) that moves it by some 0.2 mm.
+/// Diameter of a pupil that is never at rest (hippus), mm: p + u(t) (p_max / p) sqrt(1 - p / p_max), p_max = 9 mm (Ritschel et al.
+/// 2009, who have u(t / p)), u being smooth noise of three octaves from 0.4 Hz on that moves it by some 0.2 mm.
 double restless_pupil(double diameter, double seconds, uint32_t seed);
 
 /// Whose eye, and whether it squints.

@@ -20,6 +20,7 @@ struct Retroreflector {
     std::vector<double> entrance;        ///< degrees, ascending, at least one
     std::vector<double> entrance_factor; ///< [0, 1]
     bool marking = false;                ///< R_L rather than R_A
+    bool operator==(const Retroreflector&) const = default;
 };
 
 /// "RA1", "RA2" (least values of new white sheets, EN 12899-1), "prismatic" and "RA3" (the same: ASTM D4956 type XI).

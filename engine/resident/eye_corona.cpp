@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
-#include "perception/thresholds.h"
 #include "shared/corona.h"
+#include "shared/tone.h"
 
 namespace vesper {
 
@@ -42,11 +42,10 @@ std::vector<glm::vec4> corona_texels(const GlarePattern& pattern) {
     return texels;
 }
 
-const Corona& CoronaCache::at(const ScatterSettings& settings, double adaptation, double seconds) {
+const Corona& CoronaCache::at(const ScatterSettings& settings, double pupil, double seconds) {
     const bool moves = settings.model == ScatterSettings::Model::Temporal;
-    const double first = pupil_moon_spencer(kFirstAdaptation), goal = adaptation > 0 ? pupil_moon_spencer(adaptation) : first;
-    const double diameter = goal + (first - goal) * std::exp(-seconds / kPupilSeconds);
-    const Moment moment{settings, moves ? restless_pupil(diameter, seconds, settings.aperture.seed) : 0, moves ? seconds : 0};
+    const double rest = pupil > 0 ? pupil : double(shared::kFirstPupil);
+    const Moment moment{settings, moves ? restless_pupil(rest, seconds, settings.aperture.seed) : 0, moves ? seconds : 0};
     corona_.milliseconds = 0;
     if (moment_ == moment) return corona_;
     const Stopwatch watch;

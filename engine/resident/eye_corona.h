@@ -24,11 +24,8 @@ std::vector<glm::vec4> corona_texels(const GlarePattern&);
 /// Makes the pattern of each frame, or keeps that of the last one.
 class CoronaCache {
 public:
-    /// `adaptation`: what the eye was adapted to in the frame before, cd/m^2; 0: there was none. `seconds` since the first frame.
-    const Corona& at(const ScatterSettings&, double adaptation, double seconds);
-
-    /// The first frame finds the pupil of a driver at night, cd/m^2, which then becomes that of the eye's adaptation with this time constant, s.
-    static constexpr double kFirstAdaptation = 1, kPupilSeconds = 0.5;
+    /// `pupil`: what the frame before left of it (EyeState), mm; 0: there was none. `seconds` since the first frame.
+    const Corona& at(const ScatterSettings&, double pupil, double seconds);
 
 private:
     struct Moment {

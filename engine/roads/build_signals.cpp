@@ -28,7 +28,7 @@ bool has_pole(const Road& road, const RoadSignal& signal) {
 
 uint32_t lens_light(RoadBuild& build, const char* name, glm::vec3 colour, double diameter) {
     for (uint32_t i = 0; i < build.scene.lights.size(); ++i)
-        if (build.scene.lights[i].name == name) return i;
+        if (build.scene.lights[i].name == name && build.scene.lights[i].opening.length == diameter) return i;
     Light light{.name = name, .kind = Light::Kind::Spot};
     light.intensity = static_cast<float>(kLensCandela * diameter * diameter / (kLens * kLens));
     light.colour = glm::vec3(glm::dvec3(colour) / luminance(glm::dvec3(colour)));

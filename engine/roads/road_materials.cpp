@@ -1,10 +1,13 @@
 // What roads and what stands beside them are made of. SPDX-License-Identifier: MIT
 #include <numbers>
 
+#include "base/luminance.h"
 #include "roads/road_mesh.h"
 
 namespace vesper {
 namespace {
+
+constexpr float kSignWhite = 0.8f;  // diffuse reflectance of a white sheet
 
 // Diffuse reflectances of weathered surfaces, Y of Rec. 709: concrete 0.25 to 0.35, granite 0.3, grass 0.08 to 0.12,
 // bark 0.1, leaves 0.08, white thermoplastic 0.5 to 0.6 (Thorn 1994, Lighting people and places, tables of materials;
@@ -17,7 +20,7 @@ Material of(const char* name, glm::vec3 colour, float roughness = 1) {
 }
 
 Material material_of(Stuff stuff) {
-    constexpr float kRoad = 0.22f;  // pi Q0 of R3, for renderers without tables
+    constexpr float kRoad = 0.17f;  // pi Qd of R3, for renderers without tables
     switch (stuff) {
         case Stuff::Asphalt:
             return of("asphalt", glm::vec3(kRoad));
@@ -64,7 +67,7 @@ Material material_of(Stuff stuff) {
         case Stuff::Wall:
             return of("wall", {0.4f, 0.37f, 0.32f});
         case Stuff::SignWhite:
-            return of("sign white", glm::vec3(0.8f));
+            return of("sign white", glm::vec3(kSignWhite));
         // Prints let that share of the light through that EN 12899-1, table 1, has for each colour over white.
         case Stuff::SignRed:
             return of("sign red", {0.45f, 0.02f, 0.02f});
@@ -89,15 +92,15 @@ Material material_of(Stuff stuff) {
 void make_retroreflective(Scene& scene, Material& material, Stuff stuff) {
     const auto use = [&](Retroreflector made) {
         for (uint32_t i = 0; i < scene.retroreflectors.size(); ++i)
-            if (scene.retroreflectors[i].name == made.name) return material.retroreflector = i;
+            if (scene.retroreflectors[i] == made) return material.retroreflector = i;
         scene.retroreflectors.push_back(std::move(made));
         return material.retroreflector = static_cast<uint32_t>(scene.retroreflectors.size() - 1);
     };
-    if (stuff == Stuff::MarkWhite || stuff == Stuff::MarkYellow)
-        use(retroreflective_marking(stuff == Stuff::MarkWhite ? 150 / 0.55
-                                                              : 80 / 0.36));  // times the base colour it is R_L
-    if (stuff >= Stuff::SignWhite && stuff <= Stuff::SignGreen) use(retroreflective_class("RA2"));
-    if (stuff == Stuff::PostReflector) use(retroreflective_class("RA2"));
+    // Coefficients are multiplied by the base colour; of prints by that over white.
+    const double own = luminance(glm::dvec3(material.base_colour));
+    if (stuff == Stuff::MarkWhite || stuff == Stuff::MarkYellow) use(retroreflective_marking((stuff == Stuff::MarkWhite ? 150 : 80) / own));
+    if (stuff >= Stuff::SignWhite && stuff <= Stuff::SignGreen) use(rescaled(retroreflective_class("RA2"), 1 / double(kSignWhite)));
+    if (stuff == Stuff::PostReflector) use(rescaled(retroreflective_class("RA2"), 1 / own));
 }
 
 }  // namespace

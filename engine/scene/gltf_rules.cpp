@@ -141,7 +141,7 @@ private:
                 return note(at, error.what());
             }
         }
-        const std::string stated = i.value("mimeType", json()).is_string() ? i.value("mimeType", "") : "", text = i.value("uri", json()).is_string() ? i.value("uri", "") : "";
+        const std::string_view stated = text_member(i, "mimeType"), text = text_member(i, "uri");
         if (type.empty()) return;
         if (!stated.empty() && stated != type) note(at + "/mimeType", "is not that of the picture, which is " + type);
         if (text.starts_with("data:image/") && text.compare(5, type.size(), type) != 0) note(at + "/uri", "has not the type of the picture, which is " + type);

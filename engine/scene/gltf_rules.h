@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -18,6 +19,13 @@ using RuleNote = std::function<void(const std::string& at, const std::string& wh
 std::optional<uint64_t> whole_number(const nlohmann::json& value);
 /// That of a member of an object.
 uint64_t whole_member(const nlohmann::json& holder, const char* key, uint64_t otherwise = 0);
+/// The text of a member; empty where it is none. Values are looked at in place: to compare a value with a text nlohmann::json makes another value
+/// where nothing may be thrown, and a copy of an object takes memory to go, so that the program would end where there is none.
+std::string_view text_member(const nlohmann::json& holder, const char* key);
+/// Whether a member is `true`.
+bool true_member(const nlohmann::json& holder, const char* key);
+/// The number of a member.
+std::optional<double> number_member(const nlohmann::json& holder, const char* key);
 /// An object or array of a member; an empty one where there is none.
 const nlohmann::json& object_member(const nlohmann::json& holder, const char* key);
 const nlohmann::json& array_member(const nlohmann::json& holder, const char* key);

@@ -46,7 +46,7 @@ private:
         const auto type = kColumns.find(a.contains("type") && a["type"].is_string() ? a["type"].get<std::string>() : "");
         if (size == 0 || type == kColumns.end()) return;  // noted as missing, or refused where it is read
         const bool matrix = type->first.starts_with("MAT");
-        if (a.value("normalized", json()) == true && (component == 5125 || component == 5126)) note_(at, "is normalized, which numbers of its type cannot be");
+        if (true_member(a, "normalized") && (component == 5125 || component == 5126)) note_(at, "is normalized, which numbers of its type cannot be");
         const uint64_t components = matrix ? type->second * type->second : type->second;
         for (const char* key : {"min", "max"})
             if (a.contains(key) && array_member(a, key).size() != components) note_(at + "/" + key, "has not " + std::to_string(components) + " numbers");
@@ -105,7 +105,7 @@ private:
         }
         for (const float value : floats.values)
             if (!std::isfinite(value)) return note_(at, "holds numbers that are not finite");
-        if (a.value("normalized", json()) != true)
+        if (!true_member(a, "normalized"))
             for (size_t c = 0; c < floats.components; ++c)
                 if (!limits(a, at, floats, c)) break;
         if (uses_[index].kind == AccessorUse::Kind::KeyTimes && floats.components == 1) times(floats, at);

@@ -64,7 +64,7 @@ void check_lights(const json& punctual, const RuleNote& note) {
     if (list->empty()) return note(lights, "is empty");
     for (size_t i = 0; i < list->size(); ++i) {
         const json& light = (*list)[i];
-        if (!light.is_object() || light.value("type", json()) != "spot") continue;
+        if (!light.is_object() || text_member(light, "type") != "spot") continue;
         const std::string at = lights + "/" + std::to_string(i);
         const auto spot = light.find("spot");
         if (spot == light.end()) {

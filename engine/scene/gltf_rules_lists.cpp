@@ -20,6 +20,21 @@ uint64_t whole_member(const json& holder, const char* key, uint64_t otherwise) {
     return found != holder.end() ? whole_number(*found).value_or(otherwise) : otherwise;
 }
 
+std::string_view text_member(const json& holder, const char* key) {
+    const auto found = holder.find(key);
+    return found != holder.end() && found->is_string() ? std::string_view(found->get_ref<const std::string&>()) : std::string_view();
+}
+
+bool true_member(const json& holder, const char* key) {
+    const auto found = holder.find(key);
+    return found != holder.end() && found->is_boolean() && found->get<bool>();
+}
+
+std::optional<double> number_member(const json& holder, const char* key) {
+    const auto found = holder.find(key);
+    return found != holder.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
 const json& object_member(const json& holder, const char* key) {
     static const json kEmpty = json::object();
     const auto found = holder.find(key);

@@ -9,12 +9,12 @@ namespace {
 
 using nlohmann::json;
 
-bool is_float(const json& accessor) { return whole_member(accessor, "componentType") == 5126 && accessor.value("normalized", json()) != true; }
+bool is_float(const json& accessor) { return whole_member(accessor, "componentType") == 5126 && !true_member(accessor, "normalized"); }
 
 /// Whether numbers of a type are floats, or integers that are normalized.
 bool is_float_or_normalized(const json& accessor) {
     const uint64_t type = whole_member(accessor, "componentType");
-    return is_float(accessor) || (type >= 5120 && type <= 5123 && accessor.value("normalized", json()) == true);
+    return is_float(accessor) || (type >= 5120 && type <= 5123 && true_member(accessor, "normalized"));
 }
 
 class Animation {
@@ -30,9 +30,9 @@ private:
     void input(const json& sampler, const std::string& at) {
         const json* times = lists_.named(sampler, "input", "accessors");
         if (!times) return;
-        if (times->value("type", json()) != "SCALAR" || !is_float(*times)) note_(at + "/input", "has an accessor of a format that it cannot have");
+        if (text_member(*times, "type") != "SCALAR" || !is_float(*times)) note_(at + "/input", "has an accessor of a format that it cannot have");
         if (!times->contains("min") || !times->contains("max")) note_(at + "/input", "has an accessor without min and max");
-        if (sampler.value("interpolation", json()) == "CUBICSPLINE" && whole_member(*times, "count") < 2) note_(at + "/input", "has less than the two keys of a spline");
+        if (text_member(sampler, "interpolation") == "CUBICSPLINE" && whole_member(*times, "count") < 2) note_(at + "/input", "has less than the two keys of a spline");
     }
 
     void channel(const json& channel, const std::string& at, uint32_t number) {
@@ -40,10 +40,10 @@ private:
         const uint64_t sampler = whole_member(channel, "sampler", UINT64_MAX);
         if (channel.contains("sampler") && sampler >= samplers.size()) return note_(at + "/sampler", "names none of the " + std::to_string(samplers.size()) + " samplers");
         const json& target = object_member(channel, "target");
-        const json path = target.value("path", json());
+        const std::string_view path = text_member(target, "path");
         const json* node = lists_.named(target, "node", "nodes");
-        if (!node || !path.is_string()) return;
-        if (const auto [first, added] = moved_.try_emplace({whole_member(target, "node"), path.get<std::string>()}, number); !added)
+        if (!node || path.empty()) return;
+        if (const auto [first, added] = moved_.try_emplace({whole_member(target, "node"), std::string(path)}, number); !added)
             note_(at + "/target", "moves what channel " + std::to_string(first->second) + " moves");
         if (path != "weights" && path != "translation" && path != "rotation" && path != "scale") return;  // of extensions
         uint64_t targets = 1;
@@ -58,13 +58,13 @@ private:
         if (sampler < samplers.size() && samplers[sampler].is_object()) output(samplers[sampler], path, targets, at_ + "/samplers/" + std::to_string(sampler) + "/output");
     }
 
-    void output(const json& sampler, const json& path, uint64_t targets, const std::string& at) {
+    void output(const json& sampler, std::string_view path, uint64_t targets, const std::string& at) {
         const json *times = lists_.named(sampler, "input", "accessors"), *values = lists_.named(sampler, "output", "accessors");
         if (!times || !values) return;
-        const json type = path == "weights" ? "SCALAR" : path == "rotation" ? "VEC4" : "VEC3";
+        const std::string_view type = path == "weights" ? "SCALAR" : path == "rotation" ? "VEC4" : "VEC3";
         const bool integers = path == "weights" || path == "rotation";
-        if (values->value("type", json()) != type || !(integers ? is_float_or_normalized(*values) : is_float(*values))) note_(at, "has an accessor of a format that it cannot have");
-        const uint64_t keys = whole_member(*times, "count"), wanted = keys * targets * (sampler.value("interpolation", json()) == "CUBICSPLINE" ? 3 : 1);
+        if (text_member(*values, "type") != type || !(integers ? is_float_or_normalized(*values) : is_float(*values))) note_(at, "has an accessor of a format that it cannot have");
+        const uint64_t keys = whole_member(*times, "count"), wanted = keys * targets * (text_member(sampler, "interpolation") == "CUBICSPLINE" ? 3 : 1);
         if (keys < UINT32_MAX && targets > 0 && whole_member(*values, "count") != wanted) note_(at, "has not the " + std::to_string(wanted) + " values of its keys");
     }
 
@@ -106,7 +106,7 @@ void check_skins(const GltfLists& lists, const RuleNote& note) {
     lists.each("skins", [&](const json& skin, const std::string& at, uint32_t) {
         const json& joints = array_member(skin, "joints");
         if (const json* matrices = lists.named(skin, "inverseBindMatrices", "accessors")) {
-            if (matrices->value("type", json()) != "MAT4" || !is_float(*matrices)) note(at + "/inverseBindMatrices", "has an accessor of a format that it cannot have");
+            if (text_member(*matrices, "type") != "MAT4" || !is_float(*matrices)) note(at + "/inverseBindMatrices", "has an accessor of a format that it cannot have");
             if (whole_member(*matrices, "count") < joints.size()) note(at + "/inverseBindMatrices", "has less than the " + std::to_string(joints.size()) + " matrices of its joints");
         }
         std::set<uint32_t> found;
@@ -120,14 +120,14 @@ void check_skins(const GltfLists& lists, const RuleNote& note) {
 void check_cameras(const GltfLists& lists, const RuleNote& note) {
     lists.each("cameras", [&](const json& camera, const std::string& at, uint32_t) {
         if (camera.contains("perspective") && camera.contains("orthographic")) note(at, "is both perspective and orthographic");
-        if (const json type = camera.value("type", json()); (type == "perspective" || type == "orthographic") && !camera.contains(type.get<std::string>())) note(at, "has no " + type.get<std::string>() + " to its type");
+        if (const std::string type(text_member(camera, "type")); (type == "perspective" || type == "orthographic") && !camera.contains(type)) note(at, "has no " + type + " to its type");
         for (const char* kind : {"perspective", "orthographic"}) {
             const json& lens = object_member(camera, kind);
             const std::string place = at + "/" + kind;
-            const json near = lens.value("znear", json()), far = lens.value("zfar", json());
-            if (near.is_number() && far.is_number() && far.get<double>() <= near.get<double>()) note(place + "/zfar", "is not beyond znear");
+            const auto near = number_member(lens, "znear"), far = number_member(lens, "zfar");
+            if (near && far && *far <= *near) note(place + "/zfar", "is not beyond znear");
             for (const char* width : {"xmag", "ymag"})
-                if (const json value = lens.value(width, json()); value.is_number() && value.get<double>() == 0) note(place + "/" + width, "is zero");
+                if (number_member(lens, width) == 0.0) note(place + "/" + width, "is zero");
         }
     });
 }

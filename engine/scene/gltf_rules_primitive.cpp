@@ -32,7 +32,7 @@ std::string format_of(const json& accessor) {
     constexpr const char* kLetters[]{"b", "B", "s", "S", "?", "I", "f"};
     const uint64_t type = whole_member(accessor, "componentType");
     if (type < kFirst || type > kFirst + 6) return "?";
-    return kLetters[type - kFirst] + std::string(accessor.value("normalized", json()) == true ? "n" : "");
+    return kLetters[type - kFirst] + std::string(true_member(accessor, "normalized") ? "n" : "");
 }
 
 bool is_one_of(const std::string& words, const std::string& word) { return (" " + words + " ").find(" " + word + " ") != std::string::npos; }
@@ -112,7 +112,7 @@ private:
         if (rule == kAttributes.end() || (of_target && !*rule->second.of_targets)) return note_(at + "/" + name, "is no attribute of glTF");
         if (!accessor) return;
         const Attribute& a = rule->second;
-        const std::string type = accessor->value("type", json()).is_string() ? accessor->value("type", "") : "", format = format_of(*accessor);
+        const std::string type(text_member(*accessor, "type")), format = format_of(*accessor);
         const bool type_fits = of_target && semantic == "TANGENT" ? type == "VEC3" : is_one_of(a.types, type);
         const bool fits = is_one_of(of_target ? a.of_targets : a.numbers, format) || (quantized_ && is_one_of(of_target ? a.quantized_targets : a.quantized, format));
         if (!type_fits || !fits) note_(at + "/" + name, "has an accessor of a format that it cannot have");
@@ -130,7 +130,7 @@ private:
 
     void indices(const json& p, const std::string& at) {
         const json* accessor = lists_.named(p, "indices", "accessors");
-        if (accessor && (accessor->value("type", json()) != "SCALAR" || !is_one_of("B S I", format_of(*accessor)))) note_(at + "/indices", "has an accessor of a format that it cannot have");
+        if (accessor && (text_member(*accessor, "type") != "SCALAR" || !is_one_of("B S I", format_of(*accessor)))) note_(at + "/indices", "has an accessor of a format that it cannot have");
     }
 
     void textures(const json& p, const json& attributes, const std::string& at) {

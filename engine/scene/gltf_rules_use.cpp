@@ -97,7 +97,7 @@ private:
         const bool stride = view.contains("byteStride");
         if (!stride && use.accessor != index) note_(at, "lies in one buffer view with accessor " + std::to_string(use.accessor) + ", which has no stride");
         const uint64_t type = whole_member(accessor, "componentType"), size = type < 5122 ? 1 : type < 5124 ? 2 : 4;
-        const json name = accessor.value("type", json());
+        const std::string_view name = text_member(accessor, "type");
         const uint64_t numbers = name == "SCALAR" ? 1 : name == "VEC2" ? 2 : name == "VEC3" ? 3 : 4;
         if (whole_member(accessor, "byteOffset") % 4 != 0 || (!stride && numbers * size % 4 != 0)) note_(at, "holds an attribute whose elements do not begin at multiples of four");
     }

@@ -130,10 +130,16 @@ struct LaggingEye {
 };
 SHARED_SIZE(LaggingEye, 16)
 
+// The first frame finds the pupil of a driver at night (of 1 cd/m^2, Moon and Spencer 1944), mm, which then follows with this time constant, s.
+const float kFirstPupil = 4.9f;
+const float kPupilSeconds = 0.5;
+
 // What the eye, and what smooths the picture, remember from frame to frame.
 struct EyeState {
     float adaptation;     // cd/m^2; 0 before the first frame
-    float seconds;        // time since the first frame
+    float seconds;        // time since the first frame,
+    float seconds_lost;   // and what rounding has left out of it
+    float pupil;          // diameter on its way to that of the adaptation, its unrest aside, mm; 0 before the first frame
     ReceptorMemory cones;
     ReceptorMemory rods;
     float steps;          // of the curve below; 0: there is none
@@ -143,7 +149,7 @@ struct EyeState {
     vec3 chroma;          // slow part of chromatic adaptation: ln of response over that to white of the same luminance, of each cone
     float node[kMaxBins + 1u];  // of the smoothed curve, ln of display luminance
 };
-SHARED_SIZE(EyeState, 1100)
+SHARED_SIZE(EyeState, 1108)
 
 SHARED_END
 #endif

@@ -16,14 +16,16 @@
 namespace vesper::reference {
 
 /// Mean or log average of the finite pixels of 3 x 3 texels about the gaze, linear in its position: the mean over squares about
-/// the four texels nearest to it, each weighted as in bilinear interpolation. 0 if there are none.
+/// the four texels nearest to it, each weighted as in bilinear interpolation. Negative if there are none.
 inline double gaze_luminance(const PyramidLevel& fovea, const shared::ToneParameters& p) {
     const auto texel = [&](double x, double y) {
         const bool inside = x >= 0 && y >= 0 && x < fovea.width && y < fovea.height;
         return inside ? fovea.at(uint32_t(x), uint32_t(y)) : dvec4(0);
     };
-    if (p.adapt_to == shared::kAdaptTexel)
-        return texel(std::clamp(std::floor(double(p.gaze.x)), 0.0, fovea.width - 1.0), std::clamp(std::floor(double(p.gaze.y)), 0.0, fovea.height - 1.0)).x;
+    if (p.adapt_to == shared::kAdaptTexel) {
+        const dvec4 t = texel(std::clamp(std::floor(double(p.gaze.x)), 0.0, fovea.width - 1.0), std::clamp(std::floor(double(p.gaze.y)), 0.0, fovea.height - 1.0));
+        return t.y > 0 ? t.x : -1;
+    }
     const dvec2 at = dvec2(p.gaze) - 0.5, base = glm::floor(at), part = at - base;
     double sum = 0, pixels = 0;
     for (int corner = 0; corner < 4; ++corner) {
@@ -35,7 +37,7 @@ inline double gaze_luminance(const PyramidLevel& fovea, const shared::ToneParame
                 sum += weight * t.y * (p.adapt_to == shared::kAdaptGaze ? t.z : t.x), pixels += weight * t.y;
             }
     }
-    if (pixels == 0) return 0;
+    if (pixels == 0) return -1;
     return p.adapt_to == shared::kAdaptGaze ? std::exp(sum / pixels) : sum / pixels;
 }
 
@@ -109,7 +111,7 @@ inline Adapted adapt(const AdaptInputs& in) {
     const bool empty = in.histogram.finite == 0, first = !(in.previous.adaptation > 0);
     const double log_average = empty ? kFloor : std::exp(in.top.z), maximum = empty ? 0.0 : in.top.w;
     const double looked_at = p.adapt_to == shared::kAdaptAverage ? log_average : gaze_luminance(in.fovea, p);
-    const double adaptation = std::clamp(empty && !first ? double(in.previous.adaptation) : looked_at, kFloor, 1e6);
+    const double adaptation = std::clamp(!empty && looked_at >= 0 ? looked_at : first ? log_average : double(in.previous.adaptation), kFloor, 1e6);
 
     const ThresholdBreaks breaks{p.cone_break, p.rod_break};
     const ReceptorModel cones(ReceptorKind::Cones, in.observer.observed_cones(), breaks), rods(ReceptorKind::Rods, in.observer.observed_rods(), breaks);
@@ -191,7 +193,11 @@ inline Adapted adapt(const AdaptInputs& in) {
     }
 
     const auto memory = [](const ReceptorState& s) { return shared::ReceptorMemory{float(s.pigment), float(s.fast), float(s.slow)}; };
-    out.eye.adaptation = float(adaptation), out.eye.seconds = in.previous.seconds + p.seconds;
+    out.eye.adaptation = float(adaptation);
+    const double time = double(in.previous.seconds) + double(in.previous.seconds_lost) + double(p.seconds);
+    out.eye.seconds = float(time), out.eye.seconds_lost = float(time - double(out.eye.seconds));
+    const double pupil = in.previous.pupil > 0 ? in.previous.pupil : 4.9, rest = pupil_moon_spencer(adaptation);
+    out.eye.pupil = float(rest + (pupil - rest) * std::exp(-double(p.seconds) / 0.5));
     out.eye.cones = memory(out.cones), out.eye.rods = memory(out.rods);
     out.eye.lagging = {float(out.lagging.cones), float(out.lagging.rods), float(out.lagging.cone_pigment), float(out.lagging.rod_pigment)};
     if (has_curve) out.eye.steps = float(steps), out.eye.ln_low = p.ln_low, out.eye.steps_per_ln = float(curve.bins_per_ln);

@@ -6,7 +6,7 @@
  * destroyed in the reverse order: what was made from a device, then the device. Destroying nothing (a null pointer) is no error.
  *
  * Calls that can fail return a VesperResult and, where `error` is not null, fill in a line that names the file, place and reason.
- * Outputs are not touched then. Structures begin with their size: set it with VESPER_INIT, which zeroes the rest, or with the
+ * Outputs are not touched then. Where settings may be given, null stands for the defaults. Structures begin with their size: set it with VESPER_INIT, which zeroes the rest, or with the
  * `vesper_*_defaults` function where there is one. Fields are only ever added at the end.
  *
  * Units: metres, seconds, radians, lux, cd/m^2, candela. Colours are linear Rec. 709. Images have their first row at the top.
@@ -21,12 +21,14 @@
 #include <stdint.h>
 
 #ifdef __cplusplus
+extern "C++" {
 /** Behind VESPER_INIT. */
 template <class T>
 constexpr T vesper_init() {
     T made{};
     made.size = sizeof made;
     return made;
+}
 }
 extern "C" {
 #endif
@@ -57,7 +59,7 @@ typedef struct VesperError {
     char message[1024]; /**< in English */
 } VesperError;
 
-/** A structure with its size set and everything else zero. */
+/** A structure with its size set and everything else zero, where one is made: VesperView view = VESPER_INIT(VesperView). */
 #ifdef __cplusplus
 #define VESPER_INIT(type) vesper_init<type>()
 #else
@@ -144,7 +146,7 @@ typedef struct VesperToneSettings {
     int32_t colour_loss;       /**< dim light loses its colour (0 or 1) */
     int32_t acuity_loss;       /**< dim light is blurred as far as it cannot be resolved (0 or 1) */
     int32_t purkinje;          /**< dim light is weighted as rods do (0 or 1) */
-    const char *display;       /**< name or file of a profile (docs/display.md); null: the five numbers below */
+    const char *display;       /**< name or file of a profile (docs/display.md), which is read for every picture; null: the five numbers below */
     float display_peak;        /**< luminance of white in the dark, cd/m^2 */
     float display_black;       /**< luminance of black in the dark, cd/m^2 */
     float display_ambient;     /**< illuminance on the screen, lx */
@@ -162,18 +164,22 @@ typedef struct VesperToneSettings {
     uint32_t pupil;            /**< a VesperPupil */
     uint32_t eye_seed;         /**< VESPER_GLARE_TEMPORAL and _SPENCER: whose eye: what needles it has */
     int32_t lashes;            /**< VESPER_GLARE_TEMPORAL: the eye squints (0 or 1) */
+    uint32_t reserved;         /**< 0 */
 } VesperToneSettings;
 
 /** What `vesper tonemap` does without options; `size` is that of the caller's structure. */
 void vesper_tone_settings_defaults(VesperToneSettings *settings, size_t size);
 
+/** How many bits the codes of a display have that VesperToneSettings::display may name: 8 or 10. */
+VesperResult vesper_display_bits(const char *display, uint32_t *bits, VesperError *error);
+
 /** What a frame brings besides its pixels. */
 typedef struct VesperFrameReport {
-    uint32_t size;        /**< of this structure; comes back as what this library knows */
+    uint32_t size;        /**< of this structure; comes back as what is filled in */
     float adaptation;     /**< luminance the eye adapts to, cd/m^2 */
     float log_average;    /**< of the luminance of the frame, cd/m^2 */
     uint64_t not_finite;  /**< pixels that are NaN or infinite: shown black */
-    double milliseconds;  /**< of a picture in arrays: from the call to the device being done, on the host's clock; of one that was handed over:
+    double milliseconds;  /**< of a picture in arrays: until the device is done, on the host's clock, from when a scene that has changed is on it; of one that was handed over:
                            * what the device took for it, from its first pass to its last, on the device's clock (0: it has none) */
 } VesperFrameReport;
 
@@ -228,7 +234,9 @@ VesperResult vesper_tone_mapper_set_eye(VesperToneMapper *mapper, const void *by
 
 /** @name Scenes
  * A scene may change between two frames of its renderers, which take over what is new with the next: geometry is then uploaded
- * again. What only moves, dims or is switched off is told the renderer, which costs nothing. Nodes keep their number for ever.
+ * again, and for that moment both scenes are on the device. What only moves, dims or is switched off is told the renderer, which costs nothing.
+ * Nodes keep their number for ever; those that are gone still cost a little in every frame. Places are of single precision: keep what is
+ * seen within some 50 km of the origin.
  * @{ */
 
 /** Meshes, materials, lamps, and the nodes they are at. */
@@ -288,18 +296,18 @@ typedef struct VesperLamp {
     float colour[3];          /**< scaled to luminance 1 */
     float outer_cone;         /**< half angle beyond which it is dark, rad, up to pi / 2; 0: a point lamp, without cones */
     float inner_cone;         /**< half angle of full intensity, rad */
-    const char *distribution; /**< .ies, .ldt, or a laboratory's grid (.csv, .exr; docs/photometry.md); null: the cones above */
+    const char *distribution; /**< .ies, .ldt, or a laboratory's grid (.csv, .exr; docs/photometry.md), without cones; null: the cones above */
     float opening_length;     /**< along its x, m: seen as a luminous opening; 0: as the file has it, or not at all */
     float opening_width;      /**< along its y, m */
 } VesperLamp;
 
-/** Adds a lamp, at a node of its own. */
+/** Adds a lamp, at a node of its own, whose number may not be asked for (null). Scenes of up to 21,000 lamps can be rendered. */
 VesperResult vesper_scene_add_lamp(VesperScene *scene, const VesperLamp *lamp, uint32_t *node, VesperError *error);
 /** Hangs a node on an earlier one: it moves with that, and where it stands is meant in that one's frame from now on. */
 VesperResult vesper_scene_attach(VesperScene *scene, uint32_t node, uint32_t to, VesperError *error);
 /** Takes what is at a node, and what hangs on it, out of the scene; a mesh that no node has then is freed. */
 VesperResult vesper_scene_remove(VesperScene *scene, uint32_t node, VesperError *error);
-/** Light that comes from no lamp: on any surface, RGB lx, and where nothing is drawn, RGB cd/m^2. */
+/** Light that comes from no lamp, in place of the scene's sky picture if it has one: on any surface, RGB lx, and where nothing is drawn, RGB cd/m^2. */
 VesperResult vesper_scene_set_sky(VesperScene *scene, const float illuminance[3], const float luminance[3], VesperError *error);
 
 /** @} */
@@ -316,7 +324,7 @@ VesperResult vesper_renderer_create(VesperDevice *device, const VesperScene *sce
 void vesper_renderer_destroy(VesperRenderer *renderer);
 /** Puts a node, and what hangs on it, somewhere else from now on: node frame to world, m. */
 VesperResult vesper_renderer_place(VesperRenderer *renderer, uint32_t node, const float node_to_world[16], VesperError *error);
-/** The lamp at a node has its intensity times `factor` from now on; 0 switches it off. */
+/** The lamp at a node, which has one, has its intensity times `factor` from now on; 0 switches it off. */
 VesperResult vesper_renderer_dim(VesperRenderer *renderer, uint32_t node, float factor, VesperError *error);
 
 /** Where the eye is. */
@@ -324,7 +332,7 @@ typedef struct VesperView {
     uint32_t size;            /**< of this structure */
     uint32_t width;           /**< px */
     uint32_t height;          /**< px */
-    const char *camera;       /**< a camera of the scene; null: the five below */
+    const char *camera;       /**< a camera of the scene (empty: one that has all of it before it); null: the five below */
     float eye[3];             /**< world, m */
     float forward[3];         /**< world, of any length */
     float up[3];              /**< world, of any length */

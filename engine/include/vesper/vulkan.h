@@ -6,7 +6,9 @@
  *
  * Rules. The host keeps everything it hands over alive until what uses it is done (images, semaphores) or the VesperDevice is closed, and
  * destroys it itself. The queue is used inside of vesper_tone_map*, vesper_render* and vesper_renderer_create; where other threads
- * use it at the same time, lock_queue and unlock_queue keep them apart. Vesper never waits for the queue to be idle.
+ * use it at the same time, lock_queue and unlock_queue keep them apart. Vesper never waits for the queue to be idle; but what has to be on the
+ * device before it can be used (a scene, when a renderer is made or takes over changes) goes through the queue, behind what is there.
+ * A call that fails has handed nothing over: it waits for no semaphore and signals none.
  *
  * Images of the host's are 2D; the first level of their first layer is used. They belong to the queue's family, or are shared by
  * families (VK_SHARING_MODE_CONCURRENT). What was handed to the same queue before a call is done before Vesper begins, and what is handed
@@ -67,6 +69,7 @@ typedef struct VesperImage {
     uint32_t height;             /**< px */
     VkImageLayout layout_before; /**< when the call's work begins: one that colours can have; of an image to be shown VK_IMAGE_LAYOUT_UNDEFINED will do */
     VkImageLayout layout_after;  /**< when it is done; of an image of a swapchain VK_IMAGE_LAYOUT_PRESENT_SRC_KHR */
+    uint32_t reserved;           /**< 0 */
 } VesperImage;
 
 /** Semaphores around a call's work, for what happens on other queues. Both lists may be empty. */

@@ -261,6 +261,7 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     refuses([](auto&, auto& s, auto&, auto&) { s.bins = 257; });
     refuses([](auto&, auto& s, auto&, auto&) { s.adapt_to = 5; });
     refuses([](auto&, auto& s, auto&, auto&) { s.pupil = 3; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.reserved = 1; });
     refuses([](auto&, auto& s, auto&, auto&) { s.smoothing = -1; });
     refuses([](auto&, auto& s, auto&, auto&) { s.low_vision = 0; });
     refuses([](auto&, auto& s, auto&, auto&) { s.histogram_high = s.histogram_low; });
@@ -337,6 +338,16 @@ TEST_F(CInterface, SizesAreOfTheFirstVersionAtLeast) {
     EXPECT_EQ(result(), VESPER_OK) << error.message;
     EXPECT_EQ(report.size, sizeof report);
     vesper_tone_mapper_destroy(mapper);
+}
+
+TEST_F(CInterface, DisplaysSayHowManyBitsTheirCodesHave) {
+    uint32_t bits = 0;
+    ASSERT_EQ(vesper_display_bits("hdr10", &bits, &error), VESPER_OK) << error.message;
+    EXPECT_EQ(bits, 10u);
+    ASSERT_EQ(vesper_display_bits("projector", &bits, &error), VESPER_OK) << error.message;
+    EXPECT_EQ(bits, 8u);
+    EXPECT_EQ(vesper_display_bits("no such display", &bits, &error), VESPER_FAILED);
+    EXPECT_EQ(vesper_display_bits(nullptr, &bits, &error), VESPER_BAD_ARGUMENT);
 }
 
 TEST_F(CInterface, NoEyeRemembersAnything) {

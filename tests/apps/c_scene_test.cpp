@@ -276,6 +276,9 @@ TEST_F(CScene, RefusesWhatCannotBe) {
     lamp([](VesperLamp& l) { l.outer_cone = 0.5f, l.inner_cone = 0.6f, l.axis[1] = -1; });
     lamp([](VesperLamp& l) { l.outer_cone = 0.5f, l.axis[1] = -1, l.up[1] = 1; });
     lamp([](VesperLamp& l) { l.opening_width = -1; });
+    lamp([](VesperLamp& l) { l.opening_width = 0.1f; });  // and no length
+    const std::string file = std::string(VESPER_SOURCE_DIR) + "/data/photometry/street-lamp.ies";
+    lamp([&](VesperLamp& l) { l.distribution = file.c_str(), l.axis[1] = -1, l.outer_cone = 0.5f; });
     const float flat[16]{}, light[3]{}, negative[3]{-1, 0, 0};
     EXPECT_EQ(vesper_scene_add_node(scene, "", 99, nullptr, &made, &error), VESPER_BAD_ARGUMENT);
     EXPECT_EQ(vesper_scene_add_node(scene, "", VESPER_NONE, flat, &made, &error), VESPER_BAD_ARGUMENT);
@@ -296,6 +299,14 @@ TEST_F(CScene, RefusesWhatCannotBe) {
     EXPECT_TRUE(std::string(error.message).starts_with("the scene: no camera 'driver'")) << error.message;
     EXPECT_EQ(vesper_renderer_dim(renderer, 99, 1, &error), VESPER_BAD_ARGUMENT);
     EXPECT_EQ(vesper_renderer_dim(renderer, ground, -1, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_renderer_dim(renderer, ground, 1, &error), VESPER_BAD_ARGUMENT) << "there is no lamp";
+    // No host has images of a device that Vesper opened.
+    VesperImage image = VESPER_INIT(VesperImage);
+    image.image = reinterpret_cast<VkImage>(uintptr_t{64}), image.format = VK_FORMAT_R8G8B8A8_UNORM, image.width = image.height = kSide;
+    image.layout_after = VK_IMAGE_LAYOUT_GENERAL;
+    view = down();
+    EXPECT_EQ(vesper_render_image(renderer, nullptr, &view, 0, &image, nullptr, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_NE(std::string(error.message).find("host's device"), std::string::npos) << error.message;
 }
 
 // The eye of one renderer goes on in another.

@@ -42,8 +42,8 @@ protected:
         for (::Image& image : images) host->destroy(image);
     }
 
-    /// Call `fault` of Vulkan fails, from 1; 0: none.
-    VesperResult map(VkExtent2D extent, uint64_t fault = 0) {
+    /// Call `fault` of Vulkan fails, from 1; 0: none. `handover` may be null.
+    VesperResult map(VkExtent2D extent, uint64_t fault = 0, const VesperHandover* handover = nullptr) {
         const ::Image picture = host->make_image(VK_FORMAT_R32G32B32A32_SFLOAT, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
         const ::Image shown = host->make_image(VK_FORMAT_R8G8B8A8_UNORM, extent, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
         images.push_back(picture), images.push_back(shown);
@@ -54,7 +54,7 @@ protected:
         VesperImagePicture given = VESPER_INIT(VesperImagePicture);
         given.image = &from, given.scale = 1, given.vertical_fov = 0.7f;
         vesper_fault_arm(FaultKind::Vulkan, fault, VK_ERROR_OUT_OF_DEVICE_MEMORY);
-        const VesperResult result = vesper_tone_map_image(mapper, &settings, &given, 0.1f, &to, nullptr, &error);
+        const VesperResult result = vesper_tone_map_image(mapper, &settings, &given, 0.1f, &to, handover, &error);
         vesper_fault_arm(FaultKind::None, 0, 0);
         return result;
     }
@@ -106,6 +106,42 @@ TEST_F(ImageFaults, TheEyeStaysKnownWhenTheNextImageFails) {
         }
         EXPECT_GE(known, 5u);
     }
+}
+
+// Whatever fails: a call that says so has signalled nothing, and one that says nothing has.
+TEST_F(ImageFaults, ACallThatFailsHasHandedNothingOver) {
+    ASSERT_EQ(map(kSmall), VESPER_OK) << error.message;
+    VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+    signal.semaphore = host->timeline(), signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VesperHandover handover = VESPER_INIT(VesperHandover);
+    handover.signal_count = 1, handover.signals = &signal;
+    size_t failed = 0;
+    for (bool faulty = true; faulty; failed += faulty) {
+        SCOPED_TRACE("call " + std::to_string(failed + 1));
+        signal.value = time + 2;  // behind the picture that map draws
+        const bool handed_over = map(failed % 2 ? kSmall : kLarge, failed + 1, &handover) == VESPER_OK;
+        faulty = vesper_fault_count() > failed;
+        EXPECT_EQ(handed_over, !faulty) << error.message;
+        EXPECT_EQ(vesper_tone_mapper_finish(mapper, nullptr, &error), VESPER_OK);
+        host->wait(time);
+        uint64_t value = 0;
+        check(vkGetSemaphoreCounterValue(host.device(), host->timeline(), &value), "reading a semaphore");
+        EXPECT_EQ(value, time + (handed_over ? 1 : 0));
+        time = value;
+    }
+    EXPECT_GT(failed, 20u);
+}
+
+// Nothing is destroyed that is in use, though there is no memory to wait with.
+TEST_F(ImageFaults, WhatIsUnderWayIsWaitedForWithoutMemory) {
+    ASSERT_EQ(map(kSmall), VESPER_OK) << error.message;
+    ASSERT_EQ(map(kSmall), VESPER_OK) << error.message;
+    ASSERT_EQ(map(kSmall), VESPER_OK) << error.message;
+    vesper_fault_arm(FaultKind::Vulkan, 1, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+    vesper_tone_mapper_destroy(mapper);
+    vesper_fault_arm(FaultKind::None, 0, 0);
+    EXPECT_GT(vesper_fault_count(), 0u);
+    mapper = nullptr;
 }
 
 // Memory of the host that is not there for a scene's file is told as such, not as a mistake of the file's.

@@ -278,6 +278,31 @@ TEST(Adapt, TheGazeMovesOverTheFovealLevel) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// Where there is nothing to look at but a picture around it, the eye stays as it is; after days its clock still goes.
+TEST(Adapt, AGazeAtNothingKeepsTheEye) {
+    PassRig rig;
+    Frame frame = frame_of({{30, 8, 2000}, {60, 5, 400}});
+    frame.texels = {3, 1};
+    frame.fovea.assign(3, glm::vec4(0));
+    frame.seconds = 1 / 60.0f;
+    for (const bool first : {true, false}) {
+        shared::EyeState eye{};
+        if (!first) {
+            eye = adapt(rig, frame_of({{30, 8, 2000}})).eye;
+            eye.adaptation = 20, eye.seconds = 300000, eye.seconds_lost = 0.01f, eye.pupil = 3.3f;
+        }
+        for (uint32_t to : {shared::kAdaptGaze, shared::kAdaptGazeMean, shared::kAdaptTexel}) {
+            SCOPED_TRACE(to);
+            rig.executor().reset(kEyeHistory);
+            frame.tone.adapt_to = to;
+            const Got got = adapt(rig, frame, &eye);
+            expect_same(got, frame.wanted(eye), frame);
+            EXPECT_TRUE(near(got.eye.adaptation, first ? std::exp(frame.top.z) : 20, 1e-5)) << got.eye.adaptation;
+        }
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 // tone-mapping.md, 2.6: 5000 to 50 cd/m^2. Two percent are asked for.
 TEST(Adapt, EntersATunnelAsTabulated) {
     PassRig rig;

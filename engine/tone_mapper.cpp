@@ -44,7 +44,7 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
 
 void ToneMapper::submit(const ToneChainSettings& settings, const DevicePicture& picture, const ForeignImage& shown, float seconds, const Handover& handover) {
     const Stopwatch watch;
-    const View view = view_of(picture.image.extent, picture.vertical_fov, nullptr);
+    const View view = view_of(picture.image.extent, picture.vertical_fov, picture.angles);
     FrameGraph graph;
     const Resource scene = add_picture(graph, kernels_, graph.external("picture", picture.image), picture.image.extent, picture.scale);
     submit(graph, scene, settings, view, seconds, {}, nullptr, {.display = false, .shown = shown}, handover, watch);

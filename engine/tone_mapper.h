@@ -27,6 +27,7 @@ struct DevicePicture {
     ForeignImage image;             ///< RGB in linear Rec. 709, rows from the top
     float scale = 1;                ///< cd/m^2 per unit
     double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
+    const ImageAngles* angles = nullptr;  ///< as of HostPicture
 };
 
 /// Maps pictures of any size to the display, one after the other; the eye remembers from each to the next, also when the

@@ -29,12 +29,12 @@ class ToneSettings(Sized):
                 ("display_ambient", c.c_float), ("display_gamma", c.c_float), ("display_reflection", c.c_float), ("adapt_to", c.c_uint32),
                 ("smoothing", c.c_float), ("low_vision", c.c_float), ("rods", c.c_int32), ("histogram_low", c.c_float),
                 ("histogram_high", c.c_float), ("key", c.c_float), ("white", c.c_float), ("black", c.c_float), ("pupil", c.c_uint32),
-                ("eye_seed", c.c_uint32), ("lashes", c.c_int32)]
+                ("eye_seed", c.c_uint32), ("lashes", c.c_int32), ("reserved", c.c_uint32)]
 
 
 class Picture(Sized):
     _fields_ = [("size", c.c_uint32), ("width", c.c_uint32), ("height", c.c_uint32), ("channels", c.c_uint32),
-                ("values", c.POINTER(c.c_float)), ("scale", c.c_float), ("vertical_fov", c.c_float)]
+                ("values", c.POINTER(c.c_float)), ("scale", c.c_float), ("vertical_fov", c.c_float), ("edges", c.c_float * 4)]
 
 
 class Outputs(Sized):

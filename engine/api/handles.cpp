@@ -54,8 +54,8 @@ ForeignImage image_of(const VesperImage* given) {
 
 // A field that is added changes one of these: then kFirstSize of that structure is what stands here.
 static_assert(sizeof(void*) != 8 || (sizeof(VesperDeviceOptions) == 40 && sizeof(VesperToneSettings) == 128 && sizeof(VesperFrameReport) == 32 && sizeof(VesperOutputs) == 40 &&
-                                     sizeof(VesperPicture) == 32 && sizeof(VesperMaterial) == 56 && sizeof(VesperMesh) == 56 && sizeof(VesperLamp) == 80 && sizeof(VesperView) == 80 &&
-                                     sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 && sizeof(VesperImagePicture) == 24));
+                                     sizeof(VesperPicture) == 48 && sizeof(VesperMaterial) == 56 && sizeof(VesperMesh) == 56 && sizeof(VesperLamp) == 80 && sizeof(VesperView) == 96 &&
+                                     sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 && sizeof(VesperImagePicture) == 40));
 
 }  // namespace
 
@@ -98,6 +98,13 @@ glm::mat4 place_of(const float* node_to_world) {
 VkExtent2D extent_of(uint32_t width, uint32_t height) {
     require(width > 0 && height > 0 && width <= kMostPixels && height <= kMostPixels, "an image is 1 to 16384 pixels wide and high");
     return {width, height};
+}
+
+std::optional<ImageAngles> angles_of(const float (&edges)[4], VkExtent2D extent) {
+    if (std::all_of(edges, edges + 4, [](float edge) { return edge == 0; })) return {};
+    require(std::all_of(edges, edges + 4, [](float edge) { return std::abs(edge) <= 100; }) && edges[0] < edges[1] && edges[2] < edges[3],
+            "edges are tangents from -100 to 100, of the left less than of the right and of the bottom less than of the top");
+    return ImageAngles{int(extent.width), int(extent.height), {edges[0], edges[2]}, {edges[1], edges[3]}};
 }
 
 float seconds_of(float seconds) {

@@ -101,6 +101,8 @@ inline glm::dvec3 direction(const float v[3], const char* otherwise) {
 glm::mat4 place_of(const float* node_to_world);
 
 VkExtent2D extent_of(uint32_t width, uint32_t height);
+/// The edges of a picture that has any.
+std::optional<ImageAngles> angles_of(const float (&edges)[4], VkExtent2D extent);
 float seconds_of(float seconds);
 RenderSettings settings_of(const VesperToneSettings* given);  ///< null: the defaults
 

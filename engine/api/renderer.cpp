@@ -22,12 +22,15 @@ SceneFrame frame_of(const VesperRenderer& renderer, double seconds) {
 View view_of(const VesperView& v, const Scene& scene, const SceneFrame& frame) {
     const VkExtent2D extent = extent_of(v.width, v.height);
     if (v.camera) return camera_view(scene, frame, v.camera, extent);
-    require(finite(v.eye) && finite(v.forward) && finite(v.up) && v.vertical_fov > 0 && v.vertical_fov < 3.1f && v.near_plane > 0 && v.near_plane < 1e6f,
+    const auto angles = angles_of(v.edges, extent);
+    require(finite(v.eye) && finite(v.forward) && finite(v.up) && (angles || (v.vertical_fov > 0 && v.vertical_fov < 3.1f)) && v.near_plane > 0 && v.near_plane < 1e6f,
             "a view has an eye, a vertical angle of 0 to 3.1 rad and a near plane beyond 0 m");
     constexpr const char* kTwo = "a view's forward and up are two directions";
     const glm::dvec3 eye(vector(v.eye)), forward = direction(v.forward, kTwo), up = direction(v.up, kTwo);
     require(glm::length(glm::cross(forward, up)) > 1e-6, kTwo);
-    return View::symmetric(extent, v.vertical_fov, glm::mat4(glm::lookAt(eye, eye + forward, up)), v.near_plane);
+    const glm::mat4 world_to_view(glm::lookAt(eye, eye + forward, up));
+    if (angles) return {extent, world_to_view, angles->low, angles->high, v.near_plane};
+    return View::symmetric(extent, v.vertical_fov, world_to_view, v.near_plane);
 }
 
 /// What is drawn and from where.

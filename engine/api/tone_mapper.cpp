@@ -6,9 +6,9 @@ using namespace vesper::api;
 
 namespace {
 
-void check_picture(float scale, float vertical_fov) {
+void check_picture(float scale, float vertical_fov, bool edges) {
     require(scale > 0 && std::isfinite(scale), "the scale of a picture is more than 0 cd/m^2");
-    require(vertical_fov > 0 && vertical_fov < 3.1f, "a picture covers 0 to 3.1 rad in height");
+    require(edges || (vertical_fov > 0 && vertical_fov < 3.1f), "a picture covers 0 to 3.1 rad in height");
 }
 
 }  // namespace
@@ -29,8 +29,9 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
         const VesperOutputs to = outputs_of(outputs);
         const VkExtent2D extent = extent_of(p.width, p.height);
         require(p.values && (p.channels == 3 || p.channels == 4), "a picture has values, of 3 or 4 channels");
-        check_picture(p.scale, p.vertical_fov);
-        const HostPicture host{.extent = extent, .values = {p.values, size_t{p.width} * p.height * p.channels}, .channels = p.channels, .scale = p.scale, .vertical_fov = double(p.vertical_fov)};
+        const auto angles = angles_of(p.edges, extent);
+        check_picture(p.scale, p.vertical_fov, angles.has_value());
+        const HostPicture host{.extent = extent, .values = {p.values, size_t{p.width} * p.height * p.channels}, .channels = p.channels, .scale = p.scale, .vertical_fov = double(p.vertical_fov), .angles = angles ? &*angles : nullptr};
         const RenderSettings how = settings_of(settings);
         const float passed = seconds_of(seconds);
         finish(*mapper);  // what it left stays should this picture fail
@@ -45,8 +46,10 @@ VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSet
     return guarded(error, [&] {
         require(mapper, VesperToneMapper::kNone);
         const VesperImagePicture p = known(picture, "a picture without its size");
-        check_picture(p.scale, p.vertical_fov);
-        const DevicePicture given{picture_image(p.image), p.scale, double(p.vertical_fov)};
+        const ForeignImage from = picture_image(p.image);
+        const auto angles = angles_of(p.edges, from.extent);
+        check_picture(p.scale, p.vertical_fov, angles.has_value());
+        const DevicePicture given{from, p.scale, double(p.vertical_fov), angles ? &*angles : nullptr};
         const ForeignImage to = shown_image(shown, given.image.extent);
         require(to.image != given.image.image, "a picture is shown in another image");
         hand_over(*mapper, settings_of(settings), given, to, seconds_of(seconds), handover_of(handover));

@@ -255,6 +255,7 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     refuses([](auto& p, auto&, auto&, auto&) { p.values = nullptr; });
     refuses([](auto& p, auto&, auto&, auto&) { p.scale = kNan; });
     refuses([](auto& p, auto&, auto&, auto&) { p.vertical_fov = 4; });
+    refuses([](auto& p, auto&, auto&, auto&) { p.edges[0] = 1; });
     refuses([](auto&, auto& s, auto&, auto&) { s.tone_operator = uint32_t(Operator::Ldr); });
     refuses([](auto&, auto& s, auto&, auto&) { s.tone_operator = 99; });
     refuses([](auto&, auto& s, auto&, auto&) { s.glare = 9; });

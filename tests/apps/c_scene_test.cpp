@@ -111,6 +111,22 @@ TEST_F(CScene, LampsComeAndGo) {
     EXPECT_EQ(vesper_scene_node_count(scene), 3u) << "numbers stay";
 }
 
+// A screen beside the eye: its middle is seen at 63.4 degrees from straight ahead.
+TEST_F(CScene, EdgesMayLieToOneSide) {
+    add(candle());
+    VesperView view = down();
+    const float edges[4]{1.98f, 2.02f, -0.01f, 0.01f};
+    std::copy(edges, edges + 4, view.edges);
+    EXPECT_NEAR(render(view)[4 * kMiddle] * kPi, 1 / std::pow(2.0f, 1.5f), 1e-3) << "cos / d^2, 1 m from below the lamp";
+    const auto refused = [&](int edge, float value) {
+        VesperView wrong = view;
+        wrong.edges[edge] = value;
+        VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+        EXPECT_EQ(vesper_render(renderer, nullptr, &wrong, 0, &outputs, &error), VESPER_BAD_ARGUMENT);
+    };
+    refused(0, 2.02f), refused(3, -0.01f), refused(1, NAN), refused(2, -INFINITY);
+}
+
 // A car: a node with a body and a lamp on it, driven 3 m to the right; the lamp is where its own place in the car's frame says.
 TEST_F(CScene, WhatHangsOnANodeMovesWithIt) {
     uint32_t car = 0, body = 0;

@@ -208,7 +208,9 @@ typedef struct VesperPicture {
     uint32_t channels;       /**< 3 (RGB) or 4 (the fourth is ignored) */
     const float *values;     /**< width * height * channels */
     float scale;             /**< cd/m^2 of a value of 1 */
-    float vertical_fov;      /**< the angle the picture covers in height, rad */
+    float vertical_fov;      /**< the angle the picture covers in height, rad, where `edges` are 0 */
+    float edges[4];          /**< tangents of the angles from straight ahead to the left, right, bottom and top edge, where straight ahead is
+                              * not the middle, or pixels are not square; all 0: vertical_fov */
 } VesperPicture;
 
 /** Makes a tone mapper: compiles its shaders. */
@@ -332,12 +334,14 @@ typedef struct VesperView {
     uint32_t size;            /**< of this structure */
     uint32_t width;           /**< px */
     uint32_t height;          /**< px */
-    const char *camera;       /**< a camera of the scene (empty: one that has all of it before it); null: the five below */
+    const char *camera;       /**< a camera of the scene (empty: one that has all of it before it); null: the six below */
     float eye[3];             /**< world, m */
     float forward[3];         /**< world, of any length */
     float up[3];              /**< world, of any length */
-    float vertical_fov;       /**< rad */
+    float vertical_fov;       /**< rad, where `edges` are 0 */
     float near_plane;         /**< more than 0, m: nothing nearer is drawn */
+    float edges[4];           /**< tangents of the angles from `forward` to the left, right, bottom and top edge, as of a screen that the eye is
+                               * not before the middle of; all 0: vertical_fov, the same to either side */
     double scene_seconds;     /**< of the scene's animations */
 } VesperView;
 

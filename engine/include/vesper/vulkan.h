@@ -86,7 +86,8 @@ typedef struct VesperImagePicture {
     uint32_t size;            /**< of this structure */
     const VesperImage *image; /**< linear Rec. 709 */
     float scale;              /**< cd/m^2 of a value of 1 */
-    float vertical_fov;       /**< the angle the picture covers in height, rad */
+    float vertical_fov;       /**< the angle the picture covers in height, rad, where `edges` are 0 */
+    float edges[4];           /**< as of VesperPicture */
 } VesperImagePicture;
 
 /** As vesper_tone_map, from an image to an image of the same extent. Hands its work to the queue and returns; at most three pictures are on their

@@ -48,6 +48,24 @@ TEST(ShadeMeasuredReference, SheenIsGoneAtTenDegrees) {
     EXPECT_NEAR(sheen_seen((std::sin(glm::radians(1.5)) + std::sin(glm::radians(10.0))) / 2), 0.5, 1e-12);
 }
 
+// A sky of 1 cd/m^2, as ambient light and as lights from every half degree.
+TEST(ShadeMeasuredReference, LightFromAllSidesIsTheSumOfItsDirections) {
+    for (const char* name : {"R3", "W4"}) {
+        const RoadSurface road(extended(find_reflection_table(name)));
+        const double plain = diffuse_luminance_coefficient(without_sheen(road.table)) / diffuse_luminance_coefficient(road.table);
+        EXPECT_LT(plain, 0.7);
+        for (const double degrees : {1.0, 3.0, 6.0, 20.0}) {
+            const double step = glm::radians(0.5);
+            double luminance = 0;
+            for (double gamma = step / 2; gamma < std::numbers::pi / 2; gamma += step)
+                for (double beta = step / 2; beta < std::numbers::pi; beta += step)
+                    luminance += 2 * step * step * std::sin(gamma) *
+                                 road_coefficient(road.table, kUp, {std::sin(gamma) * std::sin(beta), std::cos(gamma), -std::sin(gamma) * std::cos(beta)}, sight(degrees));
+            EXPECT_NEAR(luminance / std::numbers::pi / (road.diffuse * road_in_diffuse(plain, std::sin(glm::radians(degrees)))), 1, 3e-3) << name << " " << degrees;
+        }
+    }
+}
+
 TEST(ShadeMeasuredReference, ALampsFrameTurnsWithIt) {
     Distribution d;
     d.horizontal = {0, 180, 360}, d.vertical = {0, 90}, d.candela = {10, 20, 10, 40, 10, 20};

@@ -200,7 +200,8 @@ void main() {
     current.adaptation = adaptation;
     // With what was lost before, so that time goes on as it should after days of it.
     precise const float passed = parameters.seconds + previous.seconds_lost, now = previous.seconds + passed;
-    current.seconds = now, current.seconds_lost = passed - (now - previous.seconds);
+    precise const float kept_back = now - previous.seconds, lost = passed - kept_back;
+    current.seconds = min(now, kLongestLife), current.seconds_lost = lost;
     current.pupil = blend(previous.pupil > 0.0 ? previous.pupil : kFirstPupil, 4.9 - 3.0 * tanh(0.4 * l), exp(-parameters.seconds / kPupilSeconds));
     current.cones = cones;
     current.rods = rods;

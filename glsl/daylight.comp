@@ -76,7 +76,7 @@ void main() {
             }
         }
         const vec4 was = imageLoad(scene_image, ivec2(pixel));
-        const vec3 light = push.illuminance * reflectance.rgb * (push.lambert * part * (reflectance.a <= kRoadKind ? road_in_diffuse(surface.w, -dot(n, normalize(position))) : 1.0));
+        const vec3 light = push.illuminance * reflectance.rgb * (push.lambert * part * (reflectance.a <= kRoadKind ? road_in_diffuse(-surface.w, -dot(n, normalize(position))) : 1.0));
         if (drawn) imageStore(scene_image, ivec2(pixel), vec4(was.rgb + light, 1.0));
     }
 }

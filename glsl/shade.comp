@@ -215,7 +215,7 @@ void main() {
         if (kRoads != 0u) roads[r] = road_at(reflectance.a, normal[r], toward_eye[r], push.roads);
         const bool road = kRoads != 0u && roads[r].tan_cells > 0.0;
         least_cosine[r] = surface.w < 1.0 ? 1.0 : 0.0;
-        ambient[r] = push.ambient * base[r] * (push.lambert * (road ? road_in_diffuse(surface.w, dot(normal[r], toward_eye[r])) : 1.0));
+        ambient[r] = push.ambient * base[r] * (push.lambert * (road ? road_in_diffuse(-surface.w, dot(normal[r], toward_eye[r])) : 1.0));
         sum[r] = vec3(0.0);
     }
 

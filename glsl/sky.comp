@@ -78,7 +78,7 @@ void main() {
         const vec3 illuminance = c[0] + c[1] * n.y + c[2] * n.z + c[3] * n.x + c[4] * (n.x * n.y) + c[5] * (n.y * n.z) +
                                  c[6] * (3.0 * n.z * n.z - 1.0) + c[7] * (n.x * n.z) + c[8] * (n.x * n.x - n.y * n.y);
         vec3 luminance = imageLoad(scene_image, ivec2(pixel)).rgb +
-                         max(illuminance, vec3(0.0)) * reflectance.rgb * ((road ? road_in_diffuse(surface.w, normal_eye) : 1.0 - metallic) * push.lambert);
+                         max(illuminance, vec3(0.0)) * reflectance.rgb * ((road ? road_in_diffuse(-surface.w, normal_eye) : 1.0 - metallic) * push.lambert);
 
         const bool any_shiny = subgroupAny(shiny);
         for (uint i = 0u; i < (any_shiny ? 1u : 0u); ++i) {

@@ -90,6 +90,7 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
         frame.step = float(values[2]);
         std::vector<float> state(values.begin() + kName + 1, values.begin() + kName + 1 + kFloats);
         std::memcpy(&frame.eye, state.data(), sizeof frame.eye);
+        if (!(frame.eye.seconds >= 0 && frame.eye.seconds <= shared::kLongestLife)) lines.fail("no eye is that old");
         frames.push_back(std::move(frame));
     }
     if (frames.empty()) throw Error(one_line(file) + ": no frames");

@@ -152,8 +152,9 @@ shared::EyeState eye_of(const void* bytes, size_t size) {
     require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye, "what an eye of another version remembers");
     float values[sizeof kept.eye / sizeof(float)];
     std::memcpy(values, &kept.eye, sizeof values);
-    values[1] = std::isfinite(kept.eye.seconds) && kept.eye.seconds >= 0 ? 0 : 2e9f;  // it may be any age
+    values[1] = 0;  // its age
     static_assert(offsetof(shared::EyeState, seconds) == sizeof(float));
+    require(kept.eye.seconds >= 0 && kept.eye.seconds <= shared::kLongestLife, "no eye remembers that");
     require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }), "no eye remembers that");
     require(kept.eye.steps >= 0 && kept.eye.steps <= float(shared::kMaxBins), "no eye remembers that");
     return kept.eye;

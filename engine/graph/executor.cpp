@@ -122,6 +122,7 @@ void Executor::submit(const FrameGraph& graph, const Handover& handover) {
     const bool among_others = foreign || !handover.wait.empty() || !handover.signal.empty() || std::ranges::any_of(slots_, &FrameSlot::under_way);
     FrameSlot* const last = slot_;
     HostTimes times;
+    Plan before = std::move(plan_);
     try {
         plan_ = graph.compile(measure());
         enter_slot();
@@ -138,6 +139,7 @@ void Executor::submit(const FrameGraph& graph, const Handover& handover) {
         slot_->submit(handover);
     } catch (...) {
         slot_ = last;  // what that frame left can be read
+        plan_ = std::move(before);
         throw;
     }
     // From here on nothing can fail: who is told that a frame failed may hand over its semaphores again.

@@ -37,11 +37,11 @@ double octaves(double x, uint64_t seed) { return (noise(x, seed) + noise(2 * x, 
 // lags behind by up to half a millimetre and comes back.
 dvec2 vitreous_drift(double seconds, uint64_t seed) {
     constexpr double kEvery = 1.2, kBack = 0.5, kFarthest = 0.5;  // s, s, mm
-    const double now = std::floor(seconds / kEvery);
+    const auto now = int64_t(std::floor(seconds / kEvery));
     dvec2 drift(0);
-    for (double k = now - 8; k <= now; ++k) {  // what is older has come back
-        const uint64_t event = uint64_t(int64_t(k)) * 3;
-        const double since = (seconds - (k + chance(seed, event)) * kEvery) / kBack;
+    for (int64_t k = now - 8; k <= now; ++k) {  // what is older has come back
+        const uint64_t event = uint64_t(k) * 3;
+        const double since = (seconds - (double(k) + chance(seed, event)) * kEvery) / kBack;
         if (since <= 0) continue;
         const double far = kFarthest * chance(seed, event + 1) * since * std::exp(1 - since), turn = kTurn * chance(seed, event + 2);
         drift += far * dvec2(std::cos(turn), std::sin(turn));

@@ -65,17 +65,19 @@ double average_luminance_coefficient(const ReflectionTable& table) {
 }
 
 double diffuse_luminance_coefficient(const ReflectionTable& table) {
-    // By midpoints of gamma; between the nodes of beta r is linear. dOmega = sin(gamma) dgamma dbeta.
+    // The mean of r over beta is linear between rows, as r is; over gamma by midpoints. dOmega = sin(gamma) dgamma dbeta.
+    ReflectionTable mean{.name = {}, .tan_gamma = table.tan_gamma, .beta = {0, 180}, .r = {}, .extended = table.extended};
+    for (size_t t = 0; t < table.tan_gamma.size(); ++t) {
+        double sum = 0;
+        for (size_t b = 0; b + 1 < table.beta.size(); ++b) sum += (table.beta[b + 1] - table.beta[b]) / 360 * (table.at(t, b) + table.at(t, b + 1));
+        mean.r.insert(mean.r.end(), 2, sum);
+    }
     constexpr int kSteps = 2000;
     constexpr double kStep = std::numbers::pi / 2 / kSteps;
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) {
         const double gamma = (i + 0.5) * kStep, t = std::tan(gamma);
-        double mean = 0;  // of r over beta
-        for (size_t b = 0; b + 1 < table.beta.size(); ++b)
-            mean += (table.beta[b + 1] - table.beta[b]) / 360 *
-                    (reduced_luminance_coefficient(table, t, table.beta[b]) + reduced_luminance_coefficient(table, t, table.beta[b + 1]));
-        sum += mean * (1 + t * t) * std::sin(gamma) * kStep;
+        sum += reduced_luminance_coefficient(mean, t, 0) * (1 + t * t) * std::sin(gamma) * kStep;
     }
     return 2 * sum;
 }

@@ -236,7 +236,9 @@ ReflectionTable rendered_table(const Scene& scene, size_t index) {
 }
 
 float reflectance_in_diffuse(const ReflectionTable& rendered) {
-    return glm::unpackHalf1x16(glm::packHalf1x16(float(std::numbers::pi * diffuse_luminance_coefficient(rendered))));
+    // Normal numbers of half floats: a table that is darker or brighter than any road is as the texels say, which are relative to this.
+    const double wanted = std::clamp(std::numbers::pi * diffuse_luminance_coefficient(rendered), 0x1p-14, 65504.0);
+    return glm::unpackHalf1x16(glm::packHalf1x16(float(wanted)));
 }
 
 LightMaps light_maps(const Scene& scene) {

@@ -36,8 +36,7 @@ std::vector<InDiffuse> in_diffuse(const Scene& scene) {
     std::vector<InDiffuse> roads;
     for (size_t i = 0; i < scene.reflection_tables.size(); ++i) {
         const ReflectionTable table = rendered_table(scene, i);
-        const float whole = reflectance_in_diffuse(table);
-        roads.push_back({whole, reflectance_in_diffuse(without_sheen(table)) / whole});
+        roads.push_back({reflectance_in_diffuse(table), float(diffuse_luminance_coefficient(without_sheen(table)) / diffuse_luminance_coefficient(table))});
     }
     return roads;
 }
@@ -49,7 +48,7 @@ Material as_road(const Scene& scene, InDiffuse road, Material m) {
     const glm::vec3 colour = mean > 0 ? glm::vec3(glm::dvec3(m.base_colour) / mean) : glm::vec3(1);
     m.base_colour = glm::vec4(colour * road.reflectance, m.base_colour.a);
     m.metallic = shared::kRoadKind - float(m.reflection_table);
-    m.roughness = std::min(road.plain, 0.999f);  // not matt, as below
+    m.roughness = -road.plain;
     m.metallic_roughness_texture = {};
     return m;
 }

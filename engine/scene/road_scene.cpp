@@ -63,8 +63,7 @@ Scene bare_road(const RoadLayout& road, double last) {
     Scene scene{.name = road.name};
     scene.reflection_tables.push_back(road.surface);
     Material material{.name = "road " + road.surface.name};
-    const double q0 = road.surface.stated_q0 > 0 ? road.surface.stated_q0 : average_luminance_coefficient(road.surface);
-    const auto reflectance = static_cast<float>(std::min(std::numbers::pi * q0, 1.0));
+    const auto reflectance = static_cast<float>(std::min(std::numbers::pi * diffuse_luminance_coefficient(extended(road.surface)), 1.0));
     material.base_colour = {reflectance, reflectance, reflectance, 1};
     material.reflection_table = 0;
     scene.materials.push_back(material);

@@ -11,7 +11,7 @@ namespace vesper {
 glm::dvec3 road_to_world(glm::dvec3 point);
 
 /// The carriageway as a flat surface at Y = 0, from 80 m before the observers to 12H beyond the field, of one material
-/// with the reflection table (for renderers without tables a matt surface of reflectance pi Q0); every luminaire that
+/// with the reflection table (for renderers without tables a matt surface of reflectance pi Qd); every luminaire that
 /// counts for a point of the field, and those above the road from the observers on, as measured lamps of maintained
 /// intensity, one node each; a camera "observer lane N" for each observer, 1.5 m up, 60 m before the field, looking
 /// along the road and 1 degree down. Black sky, no ambient light.

@@ -6,7 +6,7 @@ SHARED_BEGIN
 
 // What the reflectance image holds in place of metallic where the surface is of another kind: -1 - k for a road with
 // table k. There, its colour is what it reflects of light from all sides seen at 1 degree, pi Qd (times the texture over its mean),
-// and its roughness, less than 1, how much of that it is without sheen. kRetroCode + k of shared/retro.h for a
+// and its roughness minus how much of that it is without sheen. kRetroCode + k of shared/retro.h for a
 // retroreflective surface of class k, a dielectric otherwise.
 const float kRoadKind = -1.0;
 

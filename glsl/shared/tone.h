@@ -133,6 +133,7 @@ SHARED_SIZE(LaggingEye, 16)
 // The first frame finds the pupil of a driver at night (of 1 cd/m^2, Moon and Spencer 1944), mm, which then follows with this time constant, s.
 const float kFirstPupil = 4.9f;
 const float kPupilSeconds = 0.5;
+const float kLongestLife = 1e12f;  // of an eye, s: it grows no older
 
 // What the eye, and what smooths the picture, remember from frame to frame.
 struct EyeState {

@@ -355,6 +355,13 @@ TEST_F(CInterface, NoEyeRemembersAnything) {
     VesperToneMapper* mapper = nullptr;
     ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
     std::vector<unsigned char> eye(vesper_eye_size());
+    // Of any age that one can come to: a million seconds for each of a million pictures.
+    ASSERT_EQ(vesper_tone_mapper_eye(mapper, eye.data(), &error), VESPER_OK);
+    for (const auto& [age, result] : {std::pair{1e12f, VESPER_OK}, {2e12f, VESPER_BAD_ARGUMENT}, {-1.0f, VESPER_BAD_ARGUMENT}, {NAN, VESPER_BAD_ARGUMENT}}) {
+        std::vector<unsigned char> aged = eye;
+        std::memcpy(aged.data() + 2 * sizeof(uint32_t) + sizeof(float), &age, sizeof age);
+        EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, aged.data(), aged.size(), &error), result) << age;
+    }
     ASSERT_EQ(vesper_tone_mapper_eye(mapper, eye.data(), &error), VESPER_OK);
     for (const float poison : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()})
         for (const size_t place : {size_t(8), eye.size() - 4}) {

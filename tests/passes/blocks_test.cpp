@@ -28,7 +28,7 @@ Surfaces canyon(VkExtent2D extent, float road_kind = 0, bool mixed = true, bool 
         const double road = ray.y < 0 ? 1.2 / -ray.y : 1e6, wall = 8 / std::max(std::abs(ray.x), 1e-6), depth = std::min(road, wall);
         const bool on_road = road < wall, sky = depth * ray.y > 20 || depth > 1000;
         glm::dvec3 normal = on_road ? glm::dvec3(0, 1, 0) : glm::dvec3(ray.x < 0 ? 1 : -1, 0, 0);
-        float kind = on_road ? road_kind : 0, roughness = kind < 0 ? 0.22f : 1;
+        float kind = on_road ? road_kind : 0, roughness = kind < 0 ? -0.6f : 1;
         const uint32_t square = (pixel.x / 24 + 3 * (pixel.y / 24)) % 11;
         if (mixed && square == 1) roughness = kind < 0 ? roughness : 0.4f;                      // glossy
         if (mixed && square == 4) kind = kind < 0 ? kind : noise.fine();                        // metal

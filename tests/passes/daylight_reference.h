@@ -65,7 +65,7 @@ inline dvec3 add_daylight(const std::vector<Tunnel>& tunnels, const SurfaceTexel
     const dvec3 at = depth * dvec3(glm::dvec2(view.ray_scale()) * pixel_centre + glm::dvec2(view.ray_offset()), -1);
     const double part = daylight_part(tunnels, dvec3(world * glm::dvec4(at, 1)) + moved, glm::dmat3(world) * octahedral_decode(dvec2(texel.surface)));
     const dvec3 n = octahedral_decode(dvec2(texel.surface));
-    const double kept = texel.reflectance.w <= double(shared::kRoadKind) ? road_in_diffuse(texel.surface.w, -glm::dot(n, glm::normalize(at))) : 1;
+    const double kept = texel.reflectance.w <= double(shared::kRoadKind) ? road_in_diffuse(-texel.surface.w, -glm::dot(n, glm::normalize(at))) : 1;
     return luminance + illuminance * dvec3(texel.reflectance) * (lambert * part * kept);
 }
 

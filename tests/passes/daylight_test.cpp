@@ -25,7 +25,7 @@ Lit noise(VkExtent2D extent, uint32_t seed) {
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         s.reflectance.emplace_back(random.fine(), random.fine(), random.fine(), i % 5 == 2 ? -1.0f : 0.0f);
         const glm::dvec3 n = random.facing(0.3);
-        s.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)), i % 7 == 1 ? 0.0f : 1 + 60 * random.unit(), i % 3 == 0 ? 1.0f : random.unit());
+        s.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)), i % 7 == 1 ? 0.0f : 1 + 60 * random.unit(), i % 5 == 2 ? -1.5f * random.unit() : i % 3 == 0 ? 1.0f : random.unit());
         s.scene.emplace_back(random.unit(), random.unit(), random.unit(), 1);
     }
     return s;

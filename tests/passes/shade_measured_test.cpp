@@ -88,7 +88,7 @@ Surfaces noise(VkExtent2D extent, uint32_t seed) {
         const glm::dvec3 up = glm::normalize(glm::dvec3(0.05 * random.normal(), 1, 0.02 + 0.3 * random.unit() * random.unit()));
         const glm::dvec3 wall = random.facing(0.1);
         p.surface.emplace_back(glm::vec2(reference::octahedral_encode(road ? up : wall)), sky ? 0 : 2 * std::pow(60.0f, random.unit()),
-                               road ? 0.2f + 0.799f * random.unit() : i % 4 == 0 ? 1.0f : 0.2f + 0.8f * random.unit());
+                               road ? -1.8f * random.unit() : i % 4 == 0 ? 1.0f : 0.2f + 0.8f * random.unit());
         p.emission.emplace_back(0);
     }
     return p;

@@ -150,7 +150,7 @@ inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<co
         add_light(lights[i], kind_of(i, p.lights), point, n, rho_lambert, f0, roughness, p.threshold, sum,
                   kind_of(i, p.lights) == LightKind::Map ? &measurements.lamps[i - maps] : nullptr, road, sheet);
     // A metal reflects its base colour too.
-    sum.luminance += dvec3(p.ambient) * base * double(p.lambert) * (road ? road_in_diffuse(roughness, glm::dot(n, glm::normalize(-point))) : 1);
+    sum.luminance += dvec3(p.ambient) * base * double(p.lambert) * (road ? road_in_diffuse(-roughness, glm::dot(n, glm::normalize(-point))) : 1);
     sum.luminance += glm::min(texel.emission, dvec3(double(p.emission_limit)));
     return sum;
 }

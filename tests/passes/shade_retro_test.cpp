@@ -23,12 +23,13 @@ Surfaces signs(VkExtent2D extent, uint32_t seed, bool roads) {
     Surfaces p{extent, {}, {}, {}};
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         const float kinds[]{2, 3, 4, 5, 6, 0, random.fine(), roads ? -1.0f : 0.0f};
-        p.reflectance.emplace_back(random.fine(), random.fine(), random.fine(), kinds[(i / 3 + i) % 8]);
+        const float kind = kinds[(i / 3 + i) % 8];
+        p.reflectance.emplace_back(random.fine(), random.fine(), random.fine(), kind);
         const glm::dvec3 n =
             glm::normalize(glm::dvec3(0.5 * random.normal(), 0.5 * random.normal(), std::abs(random.normal()) + 0.3));
         p.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)),
                                random.unit() < 0.1f ? 0 : 2 * std::pow(100.0f, random.unit()),
-                               i % 2 ? 1.0f : 0.2f + 0.8f * random.unit());
+                               kind < 0 ? -0.6f : i % 2 ? 1.0f : 0.2f + 0.8f * random.unit());
         p.emission.emplace_back(0);
     }
     return p;

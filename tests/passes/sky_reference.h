@@ -28,7 +28,7 @@ inline dvec3 add_sky(const SkyMap& sky, const SurfaceTexel& texel, dvec3 luminan
     const double code = texel.reflectance.w, metallic = code >= 0 && code <= 1 ? code : 0, roughness = texel.surface.w;
     const dvec3 n = world * octahedral_decode(dvec2(texel.surface)), base(texel.reflectance);
     const bool road = code <= shared::kRoadKind;
-    luminance += evaluate(sky.irradiance, n) * base * ((road ? road_in_diffuse(roughness, -glm::dot(n, ray)) : 1 - metallic) * lambert);
+    luminance += evaluate(sky.irradiance, n) * base * ((road ? road_in_diffuse(-roughness, -glm::dot(n, ray)) : 1 - metallic) * lambert);
     if (road || (roughness >= 1 && metallic == 0)) return luminance;
     const dvec3 f0 = normal_reflectance(base, metallic, roughness);
     const double f90 = std::clamp(25 * std::max({f0.x, f0.y, f0.z}), 0.0, 1.0);

@@ -38,7 +38,7 @@ Lit noise(VkExtent2D extent, uint32_t seed) {
         s.reflectance.emplace_back(random.fine(), random.fine(), random.fine(), codes[i % 8]);
         const glm::dvec3 n = random.facing(0.3);
         s.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)), i % 4 == 1 ? 0.0f : 1 + 50 * random.unit(),
-                               i % 3 == 0 ? 1.0f : random.unit());
+                               codes[i % 8] < 0 ? -1.5f * random.unit() : i % 3 == 0 ? 1.0f : random.unit());
         s.scene.emplace_back(random.unit(), random.unit(), random.unit(), 1);
     }
     return s;

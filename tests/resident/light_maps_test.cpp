@@ -228,6 +228,19 @@ TEST(LightMaps, RoadsHaveTheNodesOfAnyTable) {
     EXPECT_EQ(road_cells(maps, 2).columns, 180);
 }
 
+// Darker and brighter than half floats can be.
+TEST(LightMaps, RoadsOfAnyBrightnessAreFinite) {
+    for (const double r : {1e-10, 1e4}) {
+        Scene scene;
+        scene.reflection_tables = {{.name = "even", .tan_gamma = {0, 5}, .beta = {0, 180}, .r = {r, r, r, r}}};
+        check_reflection_table(scene.reflection_tables[0], "even");
+        const LightMaps maps = light_maps(scene);
+        const float reflectance = reflectance_in_diffuse(rendered_table(scene, 0));
+        const double stands_for = double(maps.texels.at(road_cells(maps, 0).first).x) * double(reflectance) / std::numbers::pi;
+        EXPECT_NEAR(stands_for / r, 1, 1e-5);
+    }
+}
+
 TEST(LightMaps, NodesOfRoadsThatDivideNothingAreHalfACellOff) {
     Scene scene;
     scene.reflection_tables = {find_reflection_table("R3")};

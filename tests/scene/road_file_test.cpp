@@ -186,7 +186,7 @@ TEST(RoadScene, LooksAlongTheRoad) {
     ASSERT_EQ(scene.reflection_tables.size(), 1u);
     EXPECT_EQ(scene.reflection_tables[0], road.surface);
     EXPECT_EQ(scene.materials.at(0).reflection_table, 0u);
-    EXPECT_NEAR(scene.materials[0].base_colour.r, 0.07 * std::numbers::pi, 1e-6);
+    EXPECT_NEAR(scene.materials[0].base_colour.r, 0.0543 * std::numbers::pi, 1e-4);
     EXPECT_NEAR(luminance(scene.lights.at(0).colour), 1, 1e-6);
     ASSERT_EQ(scene.cameras.size(), 2u);
     EXPECT_EQ(scene.cameras[1].name, "observer lane 2");

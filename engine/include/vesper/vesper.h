@@ -220,7 +220,7 @@ void vesper_tone_mapper_destroy(VesperToneMapper *mapper);
 /** Maps a picture in an array. `seconds` have passed since the last one: the eye adapts from each to the next, also when their size changes. */
 VesperResult vesper_tone_map(VesperToneMapper *mapper, const VesperToneSettings *settings, const VesperPicture *picture, float seconds,
                              const VesperOutputs *outputs, VesperError *error);
-/** Forgets what the eye was adapted to, as at a cut. */
+/** Forgets what the eye was adapted to, as at a cut. Waits for the picture before. */
 VesperResult vesper_tone_mapper_reset(VesperToneMapper *mapper, VesperError *error);
 /** Waits for the picture that vesper_tone_map_image handed over last, and reports it, once, whatever else has waited for it before; without
  * one `report` is all zero but its size. */
@@ -229,7 +229,7 @@ VesperResult vesper_tone_mapper_finish(VesperToneMapper *mapper, VesperFrameRepo
 size_t vesper_eye_size(void);
 /** What the eye remembers after the last picture, for which it waits: `bytes` of vesper_eye_size(), to be kept as they are, for the same version. */
 VesperResult vesper_tone_mapper_eye(VesperToneMapper *mapper, void *bytes, VesperError *error);
-/** The next picture goes on from there. */
+/** The next picture goes on from there. Waits for the picture before. */
 VesperResult vesper_tone_mapper_set_eye(VesperToneMapper *mapper, const void *bytes, size_t size, VesperError *error);
 
 /** @} */
@@ -350,11 +350,11 @@ VesperResult vesper_render(VesperRenderer *renderer, const VesperToneSettings *s
                            const VesperOutputs *outputs, VesperError *error);
 /** Waits for the frame that vesper_render_image handed over last, and reports it (vesper_tone_mapper_finish). */
 VesperResult vesper_renderer_finish(VesperRenderer *renderer, VesperFrameReport *report, VesperError *error);
-/** Forgets what the eye was adapted to, as at a camera cut. */
+/** Forgets what the eye was adapted to, as at a camera cut. Waits for the frame before. */
 VesperResult vesper_renderer_reset(VesperRenderer *renderer, VesperError *error);
 /** What the eye remembers after the last frame, for which it waits (vesper_tone_mapper_eye; either takes the other's). */
 VesperResult vesper_renderer_eye(VesperRenderer *renderer, void *bytes, VesperError *error);
-/** The next frame goes on from there. */
+/** The next frame goes on from there. Waits for the frame before. */
 VesperResult vesper_renderer_set_eye(VesperRenderer *renderer, const void *bytes, size_t size, VesperError *error);
 
 /** @} */

@@ -150,10 +150,10 @@ shared::EyeState eye_of(const void* bytes, size_t size) {
     require(size == sizeof kept, "what an eye of another version remembers");
     std::memcpy(&kept, bytes, sizeof kept);
     require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye, "what an eye of another version remembers");
-    float values[sizeof kept.eye / sizeof(float)];
-    std::memcpy(values, &kept.eye, sizeof values);
-    values[1] = 0;  // its age
-    static_assert(offsetof(shared::EyeState, seconds) == sizeof(float));
+    shared::EyeState young = kept.eye;
+    young.seconds = 0;  // which may be more than the others
+    float values[sizeof young / sizeof(float)];
+    std::memcpy(values, &young, sizeof values);
     require(kept.eye.seconds >= 0 && kept.eye.seconds <= shared::kLongestLife, "no eye remembers that");
     require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }), "no eye remembers that");
     require(kept.eye.steps >= 0 && kept.eye.steps <= float(shared::kMaxBins), "no eye remembers that");

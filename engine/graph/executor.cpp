@@ -251,14 +251,9 @@ void Executor::realize_histories(const FrameGraph& graph) {
 // Among the frame's commands, so that nothing waits for a queue that may be busy with others' work.
 void Executor::record_clearing() const {
     if (cleared_.empty()) return;
-    constexpr VkMemoryBarrier2 everything{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                          .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                          .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                          .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                          .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-    pipeline_barrier(slot_->commands, {}, &everything);
+    pipeline_barrier(slot_->commands, {}, &kWholeBarrier);
     for (const Past* past : cleared_) past->zero(slot_->commands);
-    pipeline_barrier(slot_->commands, {}, &everything);
+    pipeline_barrier(slot_->commands, {}, &kWholeBarrier);
 }
 
 // Only a frame that was submitted is the past of the next.

@@ -49,7 +49,7 @@ void FrameSlot::settle() noexcept {
 // As FrameSlot::begin was told: two at each border of a pass.
 void FrameSlot::read_timestamps() {
     if (timings.empty()) return;
-    ticks.resize((timings.size() + 1) * 2);
+    std::vector<uint64_t> ticks((timings.size() + 1) * 2);
     check(vkGetQueryPoolResults(device.handle(), queries.get(), 0, uint32_t(ticks.size()), ticks.size() * sizeof(uint64_t), ticks.data(),
                                 sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading timestamps");

@@ -49,8 +49,6 @@ struct FrameSlot {
     bool under_way = false;
 
 private:
-    std::vector<uint64_t> ticks;
-
     void read_timestamps();
 };
 

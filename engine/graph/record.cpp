@@ -52,19 +52,16 @@ void Executor::record(const FrameGraph& graph, bool among_others) {
 
 // What a plan says holds within it: at its borders everything waits for everything, and images of others change between their layout and ours.
 void Executor::record_border(const FrameGraph& graph, Border border) const {
-    constexpr VkPipelineStageFlags2 all = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    constexpr VkAccessFlags2 written = VK_ACCESS_2_MEMORY_WRITE_BIT, used = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    constexpr Touch before{kWholeBarrier.srcStageMask, kWholeBarrier.srcAccessMask}, after{kWholeBarrier.dstStageMask, kWholeBarrier.dstAccessMask};
     std::vector<VkImageMemoryBarrier2> images;
     for (const auto& info : graph.resources()) {
         const ForeignImage& image = info.foreign;
         const VkImageLayout from = border == Border::Enter ? image.before : VK_IMAGE_LAYOUT_GENERAL;
         const VkImageLayout to = border == Border::Enter ? VK_IMAGE_LAYOUT_GENERAL : image.after;
         if (image.image && from != to)
-            images.push_back(image_barrier(image.image, {all, written}, {all, used}, from, to));
+            images.push_back(image_barrier(image.image, before, after, from, to));
     }
-    const VkMemoryBarrier2 memory{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, .srcStageMask = all, .srcAccessMask = written, .dstStageMask = all, .dstAccessMask = used};
-    pipeline_barrier(slot_->commands, images, &memory);
+    pipeline_barrier(slot_->commands, images, &kWholeBarrier);
 }
 
 void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const {

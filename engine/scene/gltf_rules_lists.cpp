@@ -8,6 +8,16 @@ namespace vesper {
 
 using nlohmann::json;
 
+namespace {
+
+/// What an object has for a key; null for nothing.
+const json* member(const json& holder, const char* key) {
+    const auto found = holder.find(key);
+    return found != holder.end() ? &*found : nullptr;
+}
+
+}  // namespace
+
 std::optional<uint64_t> whole_number(const json& value) {
     if (value.is_number_unsigned()) return value.get<uint64_t>();
     if (!value.is_number_float()) return {};
@@ -16,35 +26,35 @@ std::optional<uint64_t> whole_number(const json& value) {
 }
 
 uint64_t whole_member(const json& holder, const char* key, uint64_t otherwise) {
-    const auto found = holder.find(key);
-    return found != holder.end() ? whole_number(*found).value_or(otherwise) : otherwise;
+    const json* found = member(holder, key);
+    return found ? whole_number(*found).value_or(otherwise) : otherwise;
 }
 
 std::string_view text_member(const json& holder, const char* key) {
-    const auto found = holder.find(key);
-    return found != holder.end() && found->is_string() ? std::string_view(found->get_ref<const std::string&>()) : std::string_view();
+    const json* found = member(holder, key);
+    return found && found->is_string() ? std::string_view(found->get_ref<const std::string&>()) : std::string_view();
 }
 
 bool true_member(const json& holder, const char* key) {
-    const auto found = holder.find(key);
-    return found != holder.end() && found->is_boolean() && found->get<bool>();
+    const json* found = member(holder, key);
+    return found && found->is_boolean() && found->get<bool>();
 }
 
 std::optional<double> number_member(const json& holder, const char* key) {
-    const auto found = holder.find(key);
-    return found != holder.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+    const json* found = member(holder, key);
+    return found && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
 const json& object_member(const json& holder, const char* key) {
     static const json kEmpty = json::object();
-    const auto found = holder.find(key);
-    return found != holder.end() && found->is_object() ? *found : kEmpty;
+    const json* found = member(holder, key);
+    return found && found->is_object() ? *found : kEmpty;
 }
 
 const json& array_member(const json& holder, const char* key) {
     static const json kEmpty = json::array();
-    const auto found = holder.find(key);
-    return found != holder.end() && found->is_array() ? *found : kEmpty;
+    const json* found = member(holder, key);
+    return found && found->is_array() ? *found : kEmpty;
 }
 
 const json* GltfLists::named(const json& holder, const char* key, const char* list) const {

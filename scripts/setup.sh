@@ -14,7 +14,7 @@ packages=(
 missing=()
 if command -v dpkg-query >/dev/null; then
     for package in "${packages[@]}"; do
-        dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+        [[ $(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) == *'ok installed'* ]] || missing+=("$package")
     done
 else
     for tool in g++ cmake ninja glslangValidator; do command -v "$tool" >/dev/null || missing+=("$tool"); done

@@ -30,7 +30,8 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
     if (outputs.retina) {
         ToneChain chain;
-        chain.scene = bring_back(graph, "retina", scene, pixels * 16);
+        chain.retina = bring_back(graph, "retina", scene, pixels * 16);
+        if (outputs.scene) chain.scene = bring_back(graph, "scene", rendered, pixels * 16);
         return chain;
     }
     const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent, settings.tone.log_epsilon);
@@ -59,7 +60,7 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     const Resource display = add_composite(graph, kernels, inputs, tone, view, screen, settings.ldr_glare.gain);
     if (shown) graph.copy("show", display, graph.target("shown", *outputs.shown));
 
-    ToneChain chain{.display = {}, .scene = {}, .light = {},
+    ToneChain chain{.display = {}, .scene = {}, .retina = {}, .light = {},
                     .curve = bring_back(graph, "tone curve", adaptation.curve, sizeof(shared::ToneCurve)),
                     .histogram = bring_back(graph, "histogram", histogram, sizeof(shared::Histogram)),
                     .eye = bring_back(graph, "eye", adaptation.eye.current, sizeof(shared::EyeState)),
@@ -77,6 +78,7 @@ void read_tone_chain(const Executor& executor, const ToneChain& chain, VkExtent2
     to.extent = extent;
     read_all(executor, chain.display, to.display);
     read_all(executor, chain.scene, to.scene);
+    read_all(executor, chain.retina, to.retina);
     read_all(executor, chain.light, to.light);
     if (chain.curve) {
         to.curve = read_one<shared::ToneCurve>(executor, chain.curve);

@@ -31,8 +31,8 @@ struct Outputs {
     bool display = true;  ///< codes
     bool scene = false;   ///< luminance
     bool light = false;   ///< luminance of the display, without its limits
-    /// Only `scene`, but as it falls on the retina, with what the eye scatters; no eye adapts and nothing is shown. For several
-    /// pictures of one eye.
+    /// What falls on the retina, with what the eye scatters, and beside it at most `scene`: no eye adapts and nothing is shown. For
+    /// several pictures of one eye.
     bool retina = false;
     /// An image of somebody else's that gets the codes, too, in the order and with the bits that its format has (shown_format).
     std::optional<ForeignImage> shown = {};
@@ -48,7 +48,7 @@ std::optional<ShownFormat> shown_format(VkFormat);
 
 /// What the chain leaves for the host. Resources that were not asked for are none.
 struct ToneChain {
-    Resource display, scene, light, curve, histogram, eye;
+    Resource display, scene, retina, light, curve, histogram, eye;
     uint32_t foveal_level = 0;
 };
 
@@ -72,6 +72,7 @@ struct ToneMapped {
     /// Codes, row by row, 4 bytes a pixel: RGBA, or words of A2B10G10R10 where the display has 10 bits; empty unless asked for.
     std::vector<uint8_t> display;
     std::vector<float> scene;       ///< RGBA, cd/m^2 RGB; empty unless asked for
+    std::vector<float> retina;      ///< the same with what the eye scatters; likewise
     std::vector<float> light;       ///< RGBA, cd/m^2 RGB: what the display would emit and reflect without its limits; likewise
     shared::ToneCurve curve{};
     shared::Histogram histogram{};

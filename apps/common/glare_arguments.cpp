@@ -15,7 +15,6 @@ namespace vesper {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kSourceContrast = 100;  // of the log average
 constexpr size_t kMostLamps = 10000;
 constexpr uint64_t kMostLampBytes = 4u << 20;  // of their file
 
@@ -62,7 +61,7 @@ std::vector<OutsideLamp> read_lamps(const std::string& file) {
 GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& settings, const ToneMapped& shown, const ImageAngles& image, const std::vector<OutsideLamp>& outside) {
     std::vector<DazzlingLight> lights;
     for (const OutsideLamp& lamp : outside) lights.push_back({lamp.direction, luminance(lamp.illuminance)});
-    GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze), .source_luminance = kSourceContrast * double(shown.curve.log_average)};
+    GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze)};
     if (const auto& t = arguments.target; t.size() == 4) question.target = MarkedTarget{{t[0], t[1]}, {t[2], t[3]}};
     GlareReport report = report_glare(image, shown.scene, lights, question);
     report.pupil = shown.pupil;

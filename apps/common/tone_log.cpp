@@ -81,7 +81,7 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
         std::vector<double> values(columns);
         for (size_t i = 0; i < columns; ++i) {
             if (i == kName) continue;
-            const auto value = number_of(fields[i], false);
+            const auto value = fields[i] == "inf" && i > kName + kFloats ? std::optional(0.0) : number_of(fields[i], false);  // a threshold increment
             if (!value || std::abs(*value) > double(FLT_MAX)) lines.fail("a number is expected in column " + std::to_string(i + 1));
             values[i] = *value;
         }

@@ -73,7 +73,7 @@ void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View>
         }
         pictures_ = pictures, settings_ = settings.scatter;
     }
-    for (size_t i = 0; i < frames.size(); ++i) sums_[i].take(frames[i].scene);
+    for (size_t i = 0; i < frames.size(); ++i) sums_[i].take(frames[i].retina);
     const std::vector<UnseenLamp> lamps = unseen(frames, pictures_, settings.lamps_elsewhere);
     std::vector<LightBeyond> beyond;
     for (const LightElsewhere& elsewhere : elsewhere_) beyond.push_back(elsewhere.of(sums_, lamps));
@@ -81,9 +81,10 @@ void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View>
         Frame& frame = frames[i];
         if (eye) mapper_->set_eye(*eye);
         const VkExtent2D extent = guarded[i].extent;
-        ToneMapped seen = mapper_->map(settings, {.extent = extent, .values = frame.scene, .channels = 4, .angles = &pictures_[i].image, .beyond = &beyond[i]}, seconds,
+        ToneMapped seen = mapper_->map(settings, {.extent = extent, .values = frame.retina, .channels = 4, .angles = &pictures_[i].image, .beyond = &beyond[i]}, seconds,
                                        {.display = false, .retina = true});
-        frame.scene = without_border(seen.scene, extent);
+        frame.scene = without_border(frame.retina, extent);
+        frame.retina = without_border(seen.retina, extent);
         frame.extent = {extent.width - 2 * kGuard, extent.height - 2 * kGuard};
         frame.outside = beside(frame, pictures_[i], settings.lamps_elsewhere);
         frame.timings.insert(frame.timings.end(), seen.timings.begin(), seen.timings.end());

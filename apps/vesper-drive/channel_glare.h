@@ -21,8 +21,8 @@ public:
     /// A view with as many more pixels on every side as its glare needs.
     static View guarded(const View&);
 
-    /// Makes of frames of guarded views, which nothing was scattered in, what falls on the retina where they are shown. `turns`: of each, from its view
-    /// frame to that of the eye. `eye`: what the last frame left; nothing: there was none.
+    /// Makes of the retinas of guarded views, which nothing was scattered in, what is seen where they are shown and what falls on the retina there.
+    /// `turns`: of each, from its view frame to that of the eye. `eye`: what the last frame left; nothing: there was none.
     void scatter(const RenderSettings&, std::span<const View> guarded, std::span<const glm::dmat3> turns, const std::optional<shared::EyeState>& eye, float seconds,
                  std::vector<Frame>& frames);
 

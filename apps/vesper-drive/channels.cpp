@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -38,6 +39,17 @@ ScreenChannel channel_of(const JsonValue& value) {
 glm::dmat4 turned(const ScreenChannel& c) {
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1), c.yaw, glm::dvec3(0, 1, 0));
     return glm::rotate(glm::rotate(turned, c.pitch, glm::dvec3(1, 0, 0)), -c.roll, glm::dvec3(0, 0, 1));
+}
+
+// What `picture` tells of each channel, side by side. What is not finite has no vote.
+std::vector<float> side_by_side(const Wall& wall, VkExtent2D extent, std::vector<float> Frame::*picture) {
+    std::vector<float> pixels(size_t(extent.width) * extent.height * 4, std::numeric_limits<float>::quiet_NaN());
+    for (size_t i = 0; i < wall.channels.size(); ++i) {
+        const auto [width, height] = wall.channels[i].extent;
+        for (size_t y = 0; y < height; ++y)
+            std::copy_n(&(wall.channels[i].*picture)[4 * y * width], 4 * width, &pixels[4 * (y * extent.width + wall.columns[i])]);
+    }
+    return pixels;
 }
 
 }  // namespace
@@ -95,7 +107,7 @@ Wall ChannelRenderer::render(Renderer& renderer, const Channels& channels, const
         extent = {extent.width + c.extent.width, std::max(extent.height, c.extent.height)};
     }
     // Light that the eye scatters from one screen to others is known when there are pictures of all.
-    const bool together = channels.screens.size() > 1 && settings.glare == Glare::Scatter && settings.tone_operator != Operator::Ldr;
+    const bool scatters = settings.glare == Glare::Scatter && settings.tone_operator != Operator::Ldr, together = scatters && channels.screens.size() > 1;
     RenderSettings drawn = settings;
     if (together) drawn.glare = Glare::None;
     std::vector<View> views;
@@ -104,17 +116,11 @@ Wall ChannelRenderer::render(Renderer& renderer, const Channels& channels, const
         const View view = channel_view(c, driver);
         views.push_back(together ? ChannelGlare::guarded(view) : view);
         turns.emplace_back(turned(c));
-        wall.channels.push_back(renderer.render(drawn, views.back(), frame, 0, {.display = false, .retina = true}));
+        wall.channels.push_back(renderer.render(drawn, views.back(), frame, 0, {.display = false, .scene = scatters && !together, .retina = true}));
+        if (!scatters) wall.channels.back().scene = std::exchange(wall.channels.back().retina, {});
     }
     if (together) glare_.scatter(settings, views, turns, eye_, seconds, wall.channels);
-    // What is not finite has no vote.
-    std::vector<float> pixels(size_t(extent.width) * extent.height * 4, std::numeric_limits<float>::quiet_NaN());
-    for (size_t i = 0; i < channels.screens.size(); ++i) {
-        const auto [width, height] = channels.screens[i].extent;
-        const std::vector<float>& from = wall.channels[i].scene;
-        for (size_t y = 0; y < height; ++y)
-            std::copy_n(&from[4 * y * width], 4 * width, &pixels[4 * (y * extent.width + wall.columns[i])]);
-    }
+    const std::vector<float> pixels = side_by_side(wall, extent, scatters ? &Frame::retina : &Frame::scene);
 
     ToneChainSettings shown = settings;
     if (shown.glare == Glare::Scatter) shown.glare = Glare::None;  // it is in them
@@ -123,8 +129,10 @@ Wall ChannelRenderer::render(Renderer& renderer, const Channels& channels, const
     shown.tone.gaze = (corner + settings.tone.gaze * size) / glm::vec2(extent.width, extent.height);
     // A pixel of the wall covers the angle that one in the middle of that channel does.
     const double tangent = (std::tan(looked_at.top) - std::tan(looked_at.bottom)) / looked_at.extent.height * extent.height;
-    outputs.retina = false;
+    const bool wants_scene = outputs.scene;
+    outputs.scene = wants_scene && !scatters, outputs.retina = false;
     wall.shown = mapper_.map(shown, {.extent = extent, .values = pixels, .channels = 4, .vertical_fov = 2 * std::atan(tangent / 2)}, seconds, outputs);
+    if (wants_scene && scatters) wall.shown.scene = side_by_side(wall, extent, &Frame::scene);
     eye_ = wall.shown.eye;
     return wall;
 }

@@ -32,9 +32,9 @@ View channel_view(const ScreenChannel&, const View& driver);
 
 /// All channels of a moment, side by side, tops aligned; what lies below the shorter ones is black.
 struct Wall {
-    ToneMapped shown;                ///< the picture of all of them
+    ToneMapped shown;                ///< the picture of all of them; `scene`: before anything is scattered in the eye
     std::vector<uint32_t> columns;   ///< where each begins
-    std::vector<Frame> channels;     ///< each with its lamps and times; luminance as it falls on the retina
+    std::vector<Frame> channels;     ///< each with its lamps and times; of `retina` and `scene` the first is empty where nothing is scattered
 };
 
 /// The channel that is looked at, with the eye, curve and times of the whole: what is logged.

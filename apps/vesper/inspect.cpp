@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -13,7 +14,8 @@
 #include "base/lower.h"
 #include "commands.h"
 #include "io/atomic_file.h"
-#include "photometry/distribution.h"
+#include "photometry/grid.h"
+#include "photometry/reflection_table.h"
 #include "picture_arguments.h"
 
 namespace vesper {
@@ -21,27 +23,19 @@ namespace {
 
 enum class Kind : uint8_t { Scene, Distribution, Table, Picture };
 
+/// A grid may be damaged: its reader will say.
 bool is_grid(const std::string& file) {
-    try {
-        read_distribution(file);
-        return true;
-    } catch (const Error&) {
-        return false;  // a picture, or neither: its reader will say
-    }
-}
-
-/// A CSV file whose first cell is tan_gamma is an r-table.
-bool is_table(const std::string& file) {
-    const std::vector<uint8_t> bytes = read_file(file, 64u << 20);
-    const std::string start(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(std::min<size_t>(bytes.size(), 65536)));
-    return start.starts_with("tan_gamma") || start.find("\ntan_gamma") != std::string::npos;
+    std::vector<char> start(1u << 20);  // the header is in it
+    std::ifstream in(file, std::ios::binary);
+    in.read(start.data(), std::streamsize(start.size()));
+    return is_grid_exr({reinterpret_cast<const uint8_t*>(start.data()), size_t(in.gcount())});
 }
 
 Kind kind_of(const std::string& file) {
     const std::string extension = lower(std::filesystem::path(file).extension().string());
     if (extension == ".gltf" || extension == ".glb") return Kind::Scene;
     if (extension == ".ies" || extension == ".ldt") return Kind::Distribution;
-    if (extension == ".csv") return is_table(file) ? Kind::Table : Kind::Distribution;
+    if (extension == ".csv") return is_reflection_table(read_file(file, 64u << 20)) ? Kind::Table : Kind::Distribution;
     if (extension == ".hdr" || extension == ".pic" || extension == ".rgbe") return Kind::Picture;
     if (extension == ".exr") return is_grid(file) ? Kind::Distribution : Kind::Picture;
     throw Error(file + ": expected a scene (.gltf, .glb), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv) or a picture (.exr, .hdr)");

@@ -42,6 +42,12 @@ private:
     std::span<const uint8_t> rest_;
 };
 
+/// Without blanks before and after it.
+std::string word_of(const std::string& text) {
+    const size_t first = std::min(text.find_first_not_of(" \t"), text.size());
+    return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
 /// Exactly `count` finite numbers.
 std::optional<std::vector<double>> numbers(const std::string& text, size_t count) {
     std::vector<double> values;
@@ -69,6 +75,7 @@ struct Axis {
 struct Description {
     Header header;
     double exposure = 1;
+    std::array<double, 3> correction{1, 1, 1};  ///< COLORCORR
     Primaries primaries = kRec709;
     bool xyz = false;
     Axis lines, along;  ///< from line to line, and along one
@@ -76,14 +83,17 @@ struct Description {
 
 void read_variable(Description& made, const std::string& name, const std::string& value) {
     if (name == "FORMAT") {
-        made.xyz = value == "32-bit_rle_xyze";
-        if (!made.xyz && value != "32-bit_rle_rgbe") throw Error("Radiance: FORMAT=" + value + " is not known");
+        const std::string format = word_of(value);
+        made.xyz = format == "32-bit_rle_xyze";
+        if (!made.xyz && format != "32-bit_rle_rgbe") throw Error("Radiance: FORMAT=" + value + " is not known");
     } else if (name == "EXPOSURE") {  // cumulative: each program that scaled the picture added a line
         const auto factor = numbers(value, 1);
         if (!factor || !(factor->front() > 0)) throw Error("Radiance: EXPOSURE=" + value + " is not a positive number");
         made.exposure *= factor->front();
     } else if (name == "COLORCORR") {
-        throw Error("Radiance: COLORCORR is not supported");
+        const auto factors = numbers(value, 3);  // cumulative, too
+        if (!factors || std::any_of(factors->begin(), factors->end(), [](double v) { return !(v > 0); })) throw Error("Radiance: COLORCORR=" + value + " are not three positive numbers");
+        for (size_t c = 0; c < 3; ++c) made.correction[c] *= (*factors)[c];
     } else if (name == "PRIMARIES") {
         const auto p = numbers(value, 8);
         if (!p) throw Error("Radiance: PRIMARIES=" + value + " are not eight numbers");
@@ -104,7 +114,8 @@ Description read_description(Bytes& bytes) {
         made.header.emplace_back(line.substr(0, equals), line.substr(equals + 1));
         read_variable(made, made.header.back().first, made.header.back().second);
     }
-    if (!(made.exposure >= 1e-12 && made.exposure <= 1e12)) throw Error("Radiance: the EXPOSUREs multiply to no exposure of a picture");
+    for (const double correction : made.correction)
+        if (const double factor = made.exposure * correction; !(factor >= 1e-12 && factor <= 1e12)) throw Error("Radiance: the EXPOSUREs and COLORCORRs multiply to no exposure of a picture");
     const std::string size = bytes.line();
     Axis &a = made.lines, &b = made.along;
     int lines = 0, along = 0, end = 0;
@@ -181,7 +192,7 @@ HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits)
             const size_t x = rows ? along.place(j) : lines.place(i), y = rows ? lines.place(i) : along.place(j);
             float* out = image.rgb.data() + 3 * (y * image.width + x);
             const double unit = line[j][3] ? std::ldexp(1.0, line[j][3] - 136) / made.exposure : 0;
-            for (size_t c = 0; c < 3; ++c) out[c] = static_cast<float>((line[j][c] + 0.5) * unit);
+            for (size_t c = 0; c < 3; ++c) out[c] = static_cast<float>((line[j][c] + 0.5) * unit / made.correction[c]);
         }
     }
     transform(image, matrix);

@@ -8,6 +8,7 @@
 #include "base/luminance.h"
 #include "perception/visibility.h"
 #include "photometry/road.h"
+#include "shared/photometry.h"
 
 namespace vesper {
 namespace {
@@ -55,13 +56,22 @@ private:
     dvec2 pixel_;
 };
 
+// exp(mean ln L), cd/m^2.
+double log_average(const ImageAngles& image, const Pixels& pixels) {
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) sum += std::log(std::max(pixels.luminance(x, y), double(shared::kLuminanceFloor)));
+    return std::exp(sum / (double(image.width) * image.height));
+}
+
 struct Mean {
     double sum = 0, weight = 0;
     void add(double value, double w) { sum += w * value, weight += w; }
     double value() const { return weight > 0 ? sum / weight : 0; }
 };
 
-void report_target(const ImageAngles& image, const Pixels& pixels, const std::vector<DazzlingLight>& lights, const GlareQuestion& question, GlareReport& report) {
+void report_target(const ImageAngles& image, const Pixels& pixels, const std::vector<DazzlingLight>& lights, const GlareQuestion& question, double source_luminance,
+                   GlareReport& report) {
     const dvec2 extent(image.width, image.height);
     const dvec2 low = question.target->corner * extent, high = low + question.target->size * extent, border = high - low;
     Mean target, around;
@@ -69,7 +79,7 @@ void report_target(const ImageAngles& image, const Pixels& pixels, const std::ve
         for (int x = int(std::max(0.0, low.x - border.x)); x < std::min(extent.x, high.x + border.x); ++x) {
             const bool within = x + 0.5 >= low.x && x + 0.5 < high.x && y + 0.5 >= low.y && y + 0.5 < high.y;
             const double value = pixels.luminance(x, y);
-            if (within || value <= question.source_luminance) (within ? target : around).add(value, 1);
+            if (within || value <= source_luminance) (within ? target : around).add(value, 1);
         }
     const dvec2 middle = image.at(0.5 * (low + high));
     report.target = target.value();
@@ -87,6 +97,7 @@ void report_target(const ImageAngles& image, const Pixels& pixels, const std::ve
 GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, std::span<const DazzlingLight> outside, const GlareQuestion& question) {
     const Pixels pixels(image, rgba);
     const dvec3 sight = glm::normalize(dvec3(image.at(question.gaze * dvec2(image.width, image.height)), -1));
+    const double source_luminance = question.source_luminance ? *question.source_luminance : kSourceContrast * log_average(image, pixels);
     const double wide = std::cos(kBackground / kDegrees);
     std::vector<DazzlingLight> lights(outside.begin(), outside.end());
     Mean background;
@@ -94,7 +105,7 @@ GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, 
         for (int x = 0; x < image.width; ++x) {
             const double value = pixels.luminance(x, y);
             const dvec3 towards = pixels.towards(x, y);
-            if (value > question.source_luminance)
+            if (value > source_luminance)
                 lights.push_back({glm::normalize(towards), value * pixels.solid_angle(towards)});
             else if (glm::dot(towards, sight) > wide * glm::length(towards))
                 background.add(value, pixels.solid_angle(towards));
@@ -102,8 +113,8 @@ GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, 
     const Veils veils = veils_of(lights, sight, question.eye);
     GlareReport report{.background = background.value(), .illuminance = veils.illuminance, .veil = veils.general, .road_veil = veils.road};
     const double average = question.average_luminance.value_or(report.background);
-    report.increment = average > 0 ? threshold_increment(veils.road, average) : 0;
-    if (question.target) report_target(image, pixels, lights, question, report);
+    report.increment = veils.road > 0 ? threshold_increment(veils.road, average) : 0;
+    if (question.target) report_target(image, pixels, lights, question, source_luminance, report);
     return report;
 }
 

@@ -19,10 +19,13 @@ struct MarkedTarget {
     glm::dvec2 corner{0}, size{0};
 };
 
+constexpr double kSourceContrast = 100;
+
 struct GlareQuestion {
     ScatteringEye eye;
     glm::dvec2 gaze{0.5};          ///< the line of sight, parts of the picture from its top left
-    double source_luminance = 0;   ///< cd/m^2: a pixel brighter than this is part of a source of glare
+    /// cd/m^2: a pixel brighter than this is part of a source of glare. Default: kSourceContrast times the log average of the picture.
+    std::optional<double> source_luminance = {};
     std::optional<double> average_luminance;  ///< cd/m^2, of the road, for TI; default: GlareReport::background
     std::optional<MarkedTarget> target;
 };
@@ -32,7 +35,7 @@ struct GlareReport {
     double illuminance = 0;  ///< lx, of all sources on a plane at right angles to the line of sight
     double veil = 0;         ///< cd/m^2, on the line of sight: CIE general equation (CIE 146:2002)
     double road_veil = 0;    ///< cd/m^2, likewise, with the equations of EN 13201-3
-    double increment = 0;    ///< TI, %, of road_veil
+    double increment = 0;    ///< TI, %, of road_veil; infinite where the average luminance is 0 and road_veil is not
     /// Of the marked target, looked at: its luminance and that of a frame of its own width around it, the veil there (CIE
     /// general), and its visibility level (perception/visibility.h) with the veil over both; 0 in the dark. cd/m^2.
     double target = 0, around = 0, target_veil = 0, visibility = 0;

@@ -119,6 +119,8 @@ BeamSymmetry symmetry_of(const Distribution& d) {
     const auto alike = [&](auto&& other) {
         for (size_t h = 0; h < d.horizontal.size(); ++h)
             for (size_t v = 0; v < d.vertical.size(); ++v) {
+                // What planes say of the axis, where they meet, they say each for itself.
+                if (d.goniometry == Goniometry::CGamma && (d.vertical[v] == 0 || d.vertical[v] == 180)) continue;
                 const glm::dvec3 there = direction_of(d.goniometry, other(d.horizontal[h]), d.vertical[v]);
                 if (std::abs(d.at(h, v) - intensity(d, there)) > tolerance) return false;
             }

@@ -47,6 +47,14 @@ std::optional<Column> column_of(std::string_view heading) {
     return column;
 }
 
+/// Whether a corner cell, "rows\\columns", names the horizontal angle first.
+bool names_rows_horizontal(std::string_view corner) {
+    const size_t at = corner.find_first_of("\\/|");
+    if (at == corner.npos) return false;
+    const auto rows = column_of(corner.substr(0, at)), columns = column_of(corner.substr(at + 1));
+    return (rows == Column::Horizontal && columns == Column::Vertical) || (rows == Column::C && columns == Column::Gamma);
+}
+
 /// Which columns of a list are the horizontal angle, the vertical one and the intensity.
 struct ListColumns {
     size_t horizontal = 0, vertical = 0, candela = 0;
@@ -220,6 +228,7 @@ Distribution parse_grid_csv(std::span<const uint8_t> text, const std::string& na
     Distribution made;
     const std::vector<std::string_view> header = rows.next();
     if (header.size() < 2) lines.fail("no row of horizontal angles");
+    if (names_tan_gamma(header[0])) lines.fail("the corner cell is tan gamma: this is an r-table, not a lamp");
     const auto stated = goniometry_of(header[0]);
     if (!stated) lines.fail("the corner cell holds a number: nothing, or A, B or C is expected");
     Places places;
@@ -231,6 +240,7 @@ Distribution parse_grid_csv(std::span<const uint8_t> text, const std::string& na
         for (const std::string& word : words_of(header[0]))
             for (const char* unit : {"lx", "lux", "lm", "klm", "kcd", "mcd"})
                 if (word == unit) lines.fail("the corner cell names " + quoted(unit) + ": intensities are read in cd");
+        if (names_rows_horizontal(header[0])) lines.fail("the corner cell " + quoted(header[0]) + " says that each row has one horizontal angle: rows of V or gamma are expected");
         made.goniometry = *stated;
         places = read_matrix(made, rows, header, lines);
     }

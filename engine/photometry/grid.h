@@ -28,5 +28,7 @@ Distribution read_grid_exr(const std::filesystem::path& file);
 /// The same from memory; `name` begins messages.
 Distribution parse_grid_csv(std::span<const uint8_t> text, const std::string& name);
 Distribution parse_grid_exr(std::span<const uint8_t> bytes, const std::string& name);
+/// Whether the start of a file is that of an OpenEXR grid, sound or not: it has its angles, or a channel of cd.
+bool is_grid_exr(std::span<const uint8_t> start);
 
 }  // namespace vesper

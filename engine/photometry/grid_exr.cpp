@@ -97,6 +97,18 @@ Distribution read_checked(std::span<const uint8_t> bytes, const std::string& nam
 
 }  // namespace
 
+bool is_grid_exr(std::span<const uint8_t> start) {
+    bool grid = false;
+    try {
+        see_exr_attributes(start, [&](std::string_view name, std::span<const uint8_t> value) {
+            const std::string_view text(reinterpret_cast<const char*>(value.data()), value.size());
+            grid |= name == "horizontalFirst" || name == "verticalTop" || (name == "channels" && text.starts_with(std::string_view("cd\0", 3)));
+        });
+    } catch (const Error&) {  // no OpenEXR file, or its start alone
+    }
+    return grid;
+}
+
 Distribution parse_grid_exr(std::span<const uint8_t> bytes, const std::string& name) {
     try {
         check_header(bytes);

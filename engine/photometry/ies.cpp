@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "io/atomic_file.h"
@@ -70,9 +71,17 @@ private:
 };
 
 struct Header {
-    bool ballast_lamp_factor = true;  ///< whether the field after the ballast factor multiplies
-    std::string tilt;                 ///< what follows "TILT="
+    int year = 1986;   ///< of LM-63; files without version line are of 1986
+    std::string tilt;  ///< what follows "TILT="
+
+    /// Whether the field after the ballast factor multiplies: the ballast-lamp photometric factor, up to LM-63-1995.
+    bool has_ballast_lamp_factor() const { return year <= 1995; }
 };
+
+std::string upper(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return text;
+}
 
 /// What follows "TILT=", also written "TILT = ".
 std::optional<std::string_view> tilt_of(std::string_view line) {
@@ -85,13 +94,18 @@ std::optional<std::string_view> tilt_of(std::string_view line) {
     return trimmed(line.substr(1));
 }
 
-/// Up to LM-63-1995 there is a ballast-lamp photometric factor; files without a version line are of 1986.
-bool has_ballast_lamp_factor(std::string_view version) {
-    const size_t last = version.find_last_of("0123456789");
-    if (last == version.npos) return false;
-    const size_t before = version.find_last_not_of("0123456789", last);
-    const std::string_view year = version.substr(before + 1, last - before);
-    return year == "1995" || year == "95" || year == "1991" || year == "91" || year == "1986" || year == "86";
+/// The year of a version line: "IESNA91", "IESNA:LM-63-2002", "IES:LM-63-2019"; the last where it names none. Nothing: a label.
+std::optional<int> year_of(std::string_view line) {
+    const std::string text = upper(std::string(line));
+    const size_t last = text.find_last_of("0123456789"), standard = text.find("LM-63");
+    if (!text.starts_with("IES")) return std::nullopt;
+    if (standard == text.npos && !(text.starts_with("IESNA") && text.size() > 5 && std::isdigit(static_cast<unsigned char>(text[5])))) return std::nullopt;
+    const size_t before = text.find_last_not_of("0123456789", last);
+    const std::string year = text.substr(before + 1, last - before);
+    constexpr std::pair<const char*, int> kYears[]{{"86", 1986}, {"1986", 1986}, {"91", 1991}, {"1991", 1991}, {"95", 1995}, {"1995", 1995}, {"02", 2002}, {"2002", 2002}};
+    for (const auto& [name, number] : kYears)
+        if (year == name) return number;
+    return 2019;
 }
 
 void read_keyword(Distribution& made, std::string_view line) {
@@ -108,6 +122,7 @@ void read_keyword(Distribution& made, std::string_view line) {
 Header read_header(LineReader& lines, Distribution& made) {
     Header header;
     std::string label;
+    bool first = true;
     for (size_t i = 0; i < kMaxHeaderLines; ++i) {
         const auto line = lines.next();
         if (!line) lines.fail("the file ends without a line TILT=: this is no IES file");
@@ -120,8 +135,11 @@ Header read_header(LineReader& lines, Distribution& made) {
             if (made.name.empty()) made.name = label;
             return header;
         }
-        if (i == 0 && text.starts_with("IES"))
-            header.ballast_lamp_factor = has_ballast_lamp_factor(text);
+        if (text.empty()) continue;
+        const std::optional<int> year = first ? year_of(text) : std::nullopt;
+        first = false;
+        if (year)
+            header.year = *year;
         else if (label.empty() && !text.starts_with('['))
             label = readable(text);
         read_keyword(made, text);
@@ -161,13 +179,10 @@ double read_tilt_file(const LineReader& lines, const std::string& file, const st
     }
 }
 
-std::string upper(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return text;
-}
-
 /// The luminous opening by the signs of LM-63: negative dimensions are diameters of something round.
-LuminousOpening opening_of(double width, double length, double height) {
+LuminousOpening opening_of(double width, double length, double height, int year) {
+    // From 2002 on (Table 1): cylinders that lie along or across, and discs that stand, which have no area from below.
+    if (year >= 2002 && height < 0 && (width < 0) != (length < 0)) return {std::abs(length), std::abs(width), std::abs(height), false};
     LuminousOpening opening{std::abs(length), std::abs(width), std::abs(height), width < 0 || length < 0};
     if (opening.round && opening.length == 0) opening.length = opening.width;  // 1995: one diameter will do
     if (opening.round && opening.width == 0) opening.width = opening.length;
@@ -207,11 +222,11 @@ void read_numbers(Distribution& made, LineReader lines, const Header& header, bo
     made.goniometry = type == 1 ? Goniometry::CGamma : type == 2 ? Goniometry::TypeB : Goniometry::TypeA;
     const double metres = units == 1 ? 0.3048 : 1;
     const double width = numbers.next("the width of the opening"), length = numbers.next("the length of the opening");
-    made.opening = opening_of(width * metres, length * metres, numbers.next("the height of the opening") * metres);
+    made.opening = opening_of(width * metres, length * metres, numbers.next("the height of the opening") * metres, header.year);
     factor *= positive("the ballast factor");
     const char* after = "the number after the ballast factor";
-    const double second = header.ballast_lamp_factor ? positive(after) : numbers.next(after);
-    if (header.ballast_lamp_factor) factor *= second;
+    const double second = header.has_ballast_lamp_factor() ? positive(after) : numbers.next(after);
+    if (header.has_ballast_lamp_factor()) factor *= second;
     if (!(factor > 0 && factor < 1e9)) lines.fail("multiplier, ballast and tilt factors multiply to nothing useful");
     numbers.next("the input watts");
     made.lamp_flux = lumens > 0 ? lumens * std::max(1.0, lamps) : 0;  // -1: absolute photometry

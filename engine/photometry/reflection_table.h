@@ -20,6 +20,7 @@ struct ReflectionTable {
     std::vector<double> beta;       ///< deg, ascending from 0 to 180, at least 2
     std::vector<double> r;          ///< sr^-1, beta.size() values for each tan_gamma
     double stated_q0 = 0;           ///< the Q0 of the class, sr^-1; 0 where none is stated
+    bool wet = false;               ///< of a wet surface, which the limits of dry ones do not hold for
     bool extended = false;          ///< see extended()
 
     double at(size_t t, size_t b) const { return r[t * beta.size() + b]; }
@@ -55,8 +56,10 @@ ReflectionTable without_sheen(ReflectionTable);
 /// Throws Error (starting with `place`) unless the table is as described above, of at most 512 by 512 finite values.
 void check_reflection_table(const ReflectionTable&, const std::string& place);
 
+/// Whether a CSV file is an r-table: its corner cell is tan gamma.
+bool is_reflection_table(std::span<const uint8_t> text);
 /// Parses comma-separated text: comments (#), a row of beta, then rows of tan gamma followed by r x 1e4; an empty field
-/// is 0. A comment "# Q0 0.07" states Q0. Throws Error naming file, line and reason.
+/// is 0. A comment "# Q0 0.07" states Q0, "# wet" a wet surface. Throws Error naming file, line and reason.
 ReflectionTable parse_reflection_table(std::span<const uint8_t> text, const std::string& name);
 ReflectionTable read_reflection_table(const std::filesystem::path& file);
 

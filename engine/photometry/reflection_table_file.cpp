@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/lower.h"
 #include "io/atomic_file.h"
 #include "photometry/reflection_table.h"
 #include "photometry/table.h"
@@ -31,6 +32,8 @@ void read_row(ReflectionTable& table, const LineReader& lines, std::string_view 
     if (table.beta.empty()) {
         for (size_t i = 1; i < fields.size(); ++i) table.beta.push_back(value_of(lines, fields[i]));
         if (table.beta.empty()) lines.fail("is not a row of beta, separated by commas");
+        if (!fields[0].empty() && !names_tan_gamma(fields[0]))
+            lines.fail("begins with " + quoted(fields[0]) + ": rows of tan gamma, under 'tan_gamma' and a row of beta in degrees, are expected");
         return;
     }
     if (fields.size() != table.beta.size() + 1)
@@ -49,16 +52,29 @@ ReflectionTable parse(std::string_view text, const std::string& name) {
         const std::string_view line = trimmed(*next);
         if (line.starts_with('#')) {
             const std::string_view comment = trimmed(line.substr(1));
-            if (comment.starts_with("Q0 ")) table.stated_q0 = value_of(lines, trimmed(comment.substr(3)));
+            const std::string_view stated = comment.substr(std::min<size_t>(2, comment.size()));
+            if (lower(comment.substr(0, 2)) == "q0" && !stated.empty() && stated.find_first_of(" \t:=") == 0)
+                table.stated_q0 = value_of(lines, stated.substr(std::min(stated.find_first_not_of(" \t:="), stated.size())));
+            if (lower(comment) == "wet") table.wet = true;
         } else if (!line.empty()) {
             read_row(table, lines, line);
         }
     }
     check_reflection_table(table, name);
+    if (*std::max_element(table.r.begin(), table.r.end()) < 1e-4) throw Error(name + ": no value reaches 1: r times 10^4, in sr^-1, is expected");
     return table;
 }
 
 }  // namespace
+
+bool is_reflection_table(std::span<const uint8_t> text) {
+    LineReader lines(text, {});
+    while (const auto next = lines.next()) {
+        const std::string_view line = trimmed(*next);
+        if (!line.empty() && !line.starts_with('#')) return names_tan_gamma(fields_of(line, ',', 1).front());
+    }
+    return false;
+}
 
 ReflectionTable parse_reflection_table(std::span<const uint8_t> text, const std::string& name) {
     return parse({reinterpret_cast<const char*>(text.data()), text.size()}, one_line(name));

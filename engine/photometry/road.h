@@ -134,10 +134,11 @@ struct RoadResult {
 /// Throws Error when the layout is no road's, or none of its light is seen.
 RoadResult calculate_road(const RoadLayout&);
 
-/// A lighting class for motorised traffic, dry road (EN 13201-2:2015, Table 1): all but `increment` are lower limits.
+/// A lighting class for motorised traffic (EN 13201-2:2015, Table 1): all but `increment` are lower limits, of the dry road but for
+/// `overall_wet`.
 struct LightingClass {
     const char* name;
-    double luminance, overall, lengthwise, increment, edge;
+    double luminance, overall, lengthwise, increment, edge, overall_wet = 0.15;
 };
 std::span<const LightingClass> lighting_classes();
 /// Of that name, or nothing.

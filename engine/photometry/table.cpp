@@ -9,7 +9,8 @@
 namespace vesper {
 namespace {
 
-constexpr double kSame = 1e-6;  // deg: angles closer than this are one
+constexpr double kSame = 1e-6;   // deg: angles closer than this are one
+constexpr double kClosing = 0.1;  // of the largest intensity: what C0 and C360 as measured may differ by
 
 bool same(double a, double b) { return std::abs(a - b) < kSame; }
 
@@ -46,8 +47,8 @@ void rebuild(Distribution& table, std::vector<double> angles, const std::functio
     table.candela = std::move(candela);
 }
 
-/// Planes of type C as files hold them, brought to 0..360; false when they are none of the known ranges.
-bool close_planes(Distribution& table) {
+/// Planes of type C as files hold them, brought to 0..360; false when they are none of the known ranges. `largest`: intensity, cd.
+bool close_planes(Distribution& table, double largest, const TableFault& fault) {
     std::vector<double>& list = table.horizontal;
     const double first = list.front(), last = list.back();
     std::vector<double> angles{0, 360};
@@ -72,9 +73,13 @@ bool close_planes(Distribution& table) {
     } else if (same(first, 0) && same(last, 360)) {
         list.front() = 0, list.back() = 360;  // both are one plane: the mean keeps the flux
         const size_t count = table.vertical.size(), end = table.candela.size() - count;
-        for (size_t v = 0; v < count; ++v)
+        for (size_t v = 0; v < count; ++v) {
+            if (std::abs(table.candela[v] - table.candela[end + v]) > kClosing * largest)
+                fault(TablePart::Candela, "C0 and C360 are one plane, but at gamma " + degrees(table.vertical[v]) + " have " +
+                                              degrees(table.candela[v]) + " and " + degrees(table.candela[end + v]) + " cd");
             table.candela[v] = table.candela[end + v] = (table.candela[v] + table.candela[end + v]) / 2;
-    } else if (same(first, 0) && last > 180 && last < 360) {
+        }
+    } else if (same(first, 0) && last > 180 && go_round(list)) {
         list.front() = 0;
         list.push_back(360);
         table.candela.reserve(list.size() * table.vertical.size());
@@ -134,6 +139,12 @@ std::string objection_to_size(double horizontal, double vertical) {
     return {};
 }
 
+bool go_round(const std::vector<double>& planes) {
+    double widest = 0;
+    for (size_t i = 1; i < planes.size(); ++i) widest = std::max(widest, planes[i] - planes[i - 1]);
+    return 360 - planes.back() <= 1.5 * widest + kSame;
+}
+
 void finish_table(Distribution& table, bool halves, const TableFault& fault) {
     const bool c = table.goniometry == Goniometry::CGamma, b = table.goniometry == Goniometry::TypeB;
     drop_repeated_ends(table, fault);
@@ -159,10 +170,10 @@ void finish_table(Distribution& table, bool halves, const TableFault& fault) {
     const size_t copies = !c || table.horizontal.size() == 1 || range > 181 ? 1 : range > 91 ? 2 : 4;
     if (copies * table.candela.size() > kMaxCells)
         fault(TablePart::Horizontal, "more than " + std::to_string(kMaxCells) + " intensities, symmetry expanded");
-    if (c && !close_planes(table))
+    if (c && !close_planes(table, largest, fault))
         fault(TablePart::Horizontal, "C planes from " + degrees(table.horizontal.front()) + " to " +
                                          degrees(table.horizontal.back()) +
-                                         " are no range that is defined (0 to 90, 180 or 360; 90 to 270)");
+                                         " are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round");
     if (c) return;
     if (table.horizontal.size() < 2) fault(TablePart::Horizontal, "one horizontal angle makes no distribution");
     if (halves && same(table.horizontal.front(), 0)) {

@@ -45,6 +45,8 @@ std::string readable(std::string_view text);
 std::string quoted(std::string_view text);
 /// The words of a heading in lower case, whatever stands between them: "V [°]" is one, "I_cd" are two.
 std::vector<std::string> words_of(std::string_view heading);
+/// Whether a corner cell names tan gamma ("tan_gamma", "t", "beta\\tan(gamma)"): the file is an r-table.
+bool names_tan_gamma(std::string_view cell);
 /// A finite number; the whole text must be one. One too small for a double is 0. A decimal comma will do where `comma` is set.
 std::optional<double> number_of(std::string_view text, bool comma = true);
 
@@ -57,10 +59,13 @@ using TableFault = std::function<void(TablePart, const std::string& reason)>;  /
 /// Why a table of so many angles is not read; empty if it is.
 std::string objection_to_size(double horizontal, double vertical);
 
+/// Whether C planes from 0 on go round the circle: from the last to 360 deg is at most half as much again as their widest step.
+bool go_round(const std::vector<double>& planes);
+
 /// Makes a distribution of a table as a file holds it: checks angles and intensities, drops a last angle that is there
 /// twice, sets negative noise (down to -1 % of the largest intensity) to 0 and expands symmetry. C planes may be one; 0
-/// to 90, 180 or 360; 0 to less than 360; 90 to 270; -90 to 90. `halves`: H of types A and B from 0 stands for both
-/// sides.
+/// to 90, 180 or 360 (whose two ends differ by at most 10 % of the largest intensity: their mean is taken); 0 to less than
+/// 360 where they go round; 90 to 270; -90 to 90. `halves`: H of types A and B from 0 stands for both sides.
 void finish_table(Distribution& table, bool halves, const TableFault& fault);
 
 }  // namespace vesper

@@ -96,6 +96,12 @@ std::vector<std::string> words_of(std::string_view heading) {
     return words;
 }
 
+bool names_tan_gamma(std::string_view cell) {
+    for (const std::string& word : words_of(cell))
+        if (word == "t" || word.starts_with("tan") || word.starts_with("tg")) return true;
+    return false;
+}
+
 std::optional<double> number_of(std::string_view text, bool comma) {
     text = trimmed(text);
     if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);

@@ -34,43 +34,51 @@ dvec3 seen_normal(const Light& light, dvec3 normal, dvec3 up, dvec3 to_eye) {
     return kGrazing * to_eye + std::sqrt(1 - kGrazing * kGrazing) * edge;
 }
 
+// A lamp and the eye.
+struct Aim {
+    dvec3 centre, right, up, back, to_eye;  ///< view frame; the axes are of unit length
+    double distance;                        ///< m
+    double candela;                         ///< towards the eye
+};
+
+// Nothing where the eye gets no light from there.
+std::optional<Aim> aim_of(const Light& light, float dimming, const std::vector<Distribution>& distributions, const glm::mat4& m, const View& view) {
+    const dvec3 centre(m[3]);
+    const dvec3 columns[] = {dvec3(m[0]), dvec3(m[1]), dvec3(m[2])};
+    for (const dvec3& column : columns)
+        if (!(glm::length(column) > 0)) return std::nullopt;  // a node squeezed flat has no direction left
+    const dvec3 right = glm::normalize(columns[0]), up = glm::normalize(columns[1]), back = glm::normalize(columns[2]);
+    const double distance = glm::length(centre);
+    const double reach = std::hypot(light.opening.length, light.opening.width) / 2;
+    if (!(distance > 1e-6) || -centre.z + reach < view.near) return std::nullopt;
+    const dvec3 to_eye = -centre / distance;
+    const dvec3 direction(glm::dot(right, to_eye), glm::dot(up, to_eye), glm::dot(back, to_eye));
+    const double candela = double(dimming) * luminous_intensity(light, distributions, direction);
+    if (!(candela > 0)) return std::nullopt;
+    return Aim{centre, right, up, back, to_eye, distance, candela};
+}
+
 struct Seen {
     Outline outline;
     double luminance;  // cd/m^2
     double hidden;     // m
-    dvec3 to_eye;
-    double distance;   // m
-    double candela;    // towards the eye; 0: nothing to see
 };
 
-Seen look_at(const Light& light, float dimming, const std::vector<Distribution>& distributions, const glm::mat4& m, const View& view) {
-    const Seen nothing{{}, 0, 0, {}, 0, 0};
-    const dvec3 centre(m[3]);
-    const dvec3 columns[] = {dvec3(m[0]), dvec3(m[1]), dvec3(m[2])};
-    for (const dvec3& column : columns)
-        if (!(glm::length(column) > 0)) return nothing;  // a node squeezed flat has no direction left
-    const dvec3 right = glm::normalize(columns[0]), up = glm::normalize(columns[1]), back = glm::normalize(columns[2]);
-    const double distance = glm::length(centre);
-    const double reach = std::hypot(light.opening.length, light.opening.width) / 2;
-    if (!(distance > 1e-6) || -centre.z + reach < view.near) return nothing;
-    const dvec3 to_eye = -centre / distance;
-    const dvec3 direction(glm::dot(right, to_eye), glm::dot(up, to_eye), glm::dot(back, to_eye));
-    const double candela = double(dimming) * luminous_intensity(light, distributions, direction);
-    if (!(candela > 0)) return nothing;
-
-    const dvec3 normal = seen_normal(light, -back, up, to_eye);
-    const glm::dquat turned = turn(-back, normal, up);
+Seen look_at(const Light& light, const Aim& aim, const View& view) {
+    const dvec3 normal = seen_normal(light, -aim.back, aim.up, aim.to_eye);
+    const glm::dquat turned = turn(-aim.back, normal, aim.up);
     // Axes of a sheared node are not at right angles; those of the opening are.
-    const dvec3 across = turned * glm::normalize(right - glm::dot(right, back) * back), along = glm::cross(normal, across);
+    const dvec3 across = turned * glm::normalize(aim.right - glm::dot(aim.right, aim.back) * aim.back), along = glm::cross(normal, across);
     const LuminousOpening& o = light.opening;
-    const Opening opening{centre, 0.5 * o.length * across, 0.5 * o.width * along, o.round};
+    const Opening opening{aim.centre, 0.5 * o.length * across, 0.5 * o.width * along, o.round};
     Outline outline = project(opening, view, kSmallest);
-    const double luminance = candela / (light.opening.area() * glm::dot(normal, to_eye) * outline.widening);
-    return {std::move(outline), luminance, -centre.z * 0.999 - kHousing - reach - double(shared::kSourceEdge), to_eye, distance, candela};
+    const double luminance = aim.candela / (o.area() * glm::dot(normal, aim.to_eye) * outline.widening);
+    const double reach = std::hypot(o.length, o.width) / 2;
+    return {std::move(outline), luminance, -aim.centre.z * 0.999 - kHousing - reach - double(shared::kSourceEdge)};
 }
 
 // Part of a lamp's light that its outline in the picture has.
-double part_inside(const Seen& seen, const View& view) {
+double part_inside(const Seen& seen, const Aim& aim, const View& view) {
     double twice_area = 0;
     const std::vector<dvec2>& v = seen.outline.vertices;
     for (size_t i = 0; i < v.size(); ++i) {
@@ -78,10 +86,16 @@ double part_inside(const Seen& seen, const View& view) {
         twice_area += a.x * b.y - b.x * a.y;
     }
     const dvec2 pixel = glm::abs(dvec2(view.ray_scale()));
-    const double cosine = seen.to_eye.z;
+    const double cosine = aim.to_eye.z;
     const double drawn = seen.luminance * std::abs(twice_area) / 2 * pixel.x * pixel.y * cosine * cosine * cosine;
-    const double part = drawn / (seen.candela / (seen.distance * seen.distance));
+    const double part = drawn / (aim.candela / (aim.distance * aim.distance));
     return part > 0.99 ? 1 : part;  // outlines are good to so much
+}
+
+// 1 where the picture shows the middle of a lamp, else 0.
+double middle_inside(const Aim& aim, const View& view) {
+    const dvec2 at = dvec2(aim.centre) / -aim.centre.z, low = glm::min(view.tangent_low, view.tangent_high), high = glm::max(view.tangent_low, view.tangent_high);
+    return at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y ? 1 : 0;
 }
 
 // Where a convex polygon crosses a horizontal line: empty (low > high) outside it.
@@ -153,8 +167,7 @@ void add(SourceList& list, std::vector<Touched>& touched, const Seen& seen, glm:
 SourceSet placed_sources(const Scene& scene) {
     SourceSet set;
     for (const PlacedLight& placed : placed_lights(scene))
-        if (placed.light.kind != Light::Kind::Directional && placed.light.opening.area() > 0)
-            set.lamps.push_back(placed);
+        if (placed.light.kind != Light::Kind::Directional) set.lamps.push_back(placed);
     if (!set.lamps.empty()) set.distributions = scene.distributions;
     return set;
 }
@@ -163,9 +176,17 @@ SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View
     SourceList list;
     std::vector<Touched> touched;
     for (const auto& [light, node] : set.lamps) {
-        const Seen seen = look_at(light, frame.dimming_of(node), set.distributions, view.world_to_view * frame.world[node], view);
-        if (seen.candela > 0 && std::isfinite(seen.luminance) && seen.to_eye.z > 0)
-            list.dazzling.push_back({node, -seen.to_eye, seen.distance, seen.candela, seen.candela / (seen.distance * seen.distance) * dvec3(light.colour), part_inside(seen, view)});
+        const std::optional<Aim> aim = aim_of(light, frame.dimming_of(node), set.distributions, view.world_to_view * frame.world[node], view);
+        if (!aim) continue;
+        const auto dazzles = [&](double inside) {
+            if (aim->to_eye.z > 0) list.dazzling.push_back({node, -aim->to_eye, aim->distance, aim->candela, aim->candela / (aim->distance * aim->distance) * dvec3(light.colour), inside});
+        };
+        if (!(light.opening.area() > 0)) {  // what is modelled of it is seen where the picture has its place
+            dazzles(middle_inside(*aim, view));
+            continue;
+        }
+        const Seen seen = look_at(light, *aim, view);
+        if (std::isfinite(seen.luminance)) dazzles(part_inside(seen, *aim, view));
         if (seen.outline.vertices.empty()) continue;
         const glm::vec3 c = light.colour;
         const double largest = std::max({c.r, c.g, c.b, 1e-6f});

@@ -9,7 +9,7 @@
 
 namespace vesper {
 
-/// The lamps of a scene that have an opening. Keeps no reference to the Scene.
+/// The lamps of a scene that have a place. Keeps no reference to the Scene.
 struct SourceSet {
     std::vector<PlacedLight> lamps;
     std::vector<Distribution> distributions;
@@ -33,7 +33,9 @@ struct GlareSource {
     double distance;             ///< m
     double candela;              ///< towards the eye
     glm::dvec3 illuminance;      ///< RGB lx, on a plane at the eye that faces the lamp
-    double inside;               ///< part of its light that lies within the picture, 0 .. 1
+    /// Part of its light that the picture has, 0 .. 1. Of a lamp without opening, 1 where its middle is in the picture: there it dazzles by the
+    /// surfaces that are modelled of it, if any; beside the picture it does as a point.
+    double inside;
 };
 
 /// Outlines in the image, and which squares of kSourceTile px they touch.

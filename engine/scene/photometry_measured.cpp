@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/lower.h"
 #include "photometry/eulumdat.h"
 
 namespace vesper {
@@ -26,6 +27,7 @@ uint32_t measured_lamp(const JsonValue& source, const std::filesystem::path& fol
     }
     try {
         const std::filesystem::path path = folder / wanted.file;
+        if (wanted.lamp_set > 0 && lower(path.extension().string()) != ".ldt") throw Error("lamp_set is for EULUMDAT (.ldt)");
         wanted.distribution = wanted.lamp_set > 0 ? read_eulumdat(path, wanted.lamp_set) : read_distribution(path);
     } catch (const Error& error) {
         file.fail(error.what());

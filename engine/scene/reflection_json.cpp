@@ -33,13 +33,15 @@ nlohmann::json json_of(const ReflectionTable& table) {
     nlohmann::json json = {
         {"name", table.name}, {"tan_gamma", table.tan_gamma}, {"beta_deg", table.beta}, {"r", table.r}};
     if (table.stated_q0 > 0) json["q0"] = table.stated_q0;
+    if (table.wet) json["wet"] = true;
     return json;
 }
 
 ReflectionTable read_whole_table(const JsonValue& source) {
-    source.allow_only({"name", "q0", "tan_gamma", "beta_deg", "r"});
+    source.allow_only({"name", "q0", "tan_gamma", "beta_deg", "r", "wet"});
     ReflectionTable table{.name = source.text_or("name", "")};
     table.stated_q0 = source.number_or("q0", 0, 0, 100);
+    table.wet = source.boolean_or("wet", false);
     table.tan_gamma = numbers_of(source.at("tan_gamma"));
     table.beta = numbers_of(source.at("beta_deg"));
     table.r = numbers_of(source.at("r"));

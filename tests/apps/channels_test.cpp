@@ -113,9 +113,13 @@ TEST(Channels, GlareGoesOnAcrossTheSeam) {
     clear.glare = Glare::None;
     const Wall without = rig.wall.render(rig.renderer, three(), clear, driver, rig.frame, 0, {.display = true, .scene = true});
     const auto veil = [&](uint32_t x) {
-        const size_t at = 4 * (size_t(kSide / 2) * 3 * kSide + x);
-        return double(wall.shown.scene[at + 1] - without.shown.scene[at + 1]);
+        const size_t at = 4 * (size_t(kSide / 2) * kSide + x % kSide);
+        return double(wall.channels[x / kSide].retina[at + 1] - without.channels[x / kSide].scene[at + 1]);
     };
+    // Luminance is that of the scene, whatever the eye scatters; 0.4 %: what shading adds up over blocks.
+    for (size_t i = 0; i < wall.shown.scene.size(); ++i) ASSERT_NEAR(wall.shown.scene[i], without.shown.scene[i], 0.004 * without.shown.scene[i] + 1e-6) << i;
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t i = 0; i < wall.channels[c].scene.size(); ++i) ASSERT_NEAR(wall.channels[c].scene[i], without.channels[c].scene[i], 0.004 * without.channels[c].scene[i] + 1e-6) << i;
     for (const uint32_t seam : {kSide, 2 * kSide}) {
         const double left = veil(seam - 2), right = veil(seam + 1);
         EXPECT_GT(right, 0.01);
@@ -166,7 +170,7 @@ double seen_at(const Wall& wall, size_t channel, int column, double part) {
     const VkExtent2D extent = wall.channels[channel].extent;
     const double row = part * extent.height - 0.5, first = std::floor(row);
     const size_t x = column < 0 ? extent.width - size_t(-column) : size_t(column);
-    const auto at = [&](double y) { return double(wall.channels[channel].scene[4 * (size_t(y) * extent.width + x)]); };
+    const auto at = [&](double y) { return double(wall.channels[channel].retina[4 * (size_t(y) * extent.width + x)]); };
     return std::lerp(at(first), at(first + 1), row - first);
 }
 
@@ -217,7 +221,7 @@ TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
                     const double theta = light > 0 ? reference::degrees_apart(towards(channel, glm::dvec2(at) + 0.5), towards(0, pixel)) : 0;
                     if (light > 0) want += light * psf(theta) * reference::solid_angle(left, reference::direction_of(left, pixel));
                 }
-            EXPECT_NEAR(seen.channels[channel].scene[4 * (size_t(at.y) * extent.width + size_t(at.x))] / want, 1, 0.03) << channel << ": " << at.x << ", " << at.y;
+            EXPECT_NEAR(seen.channels[channel].retina[4 * (size_t(at.y) * extent.width + size_t(at.x))] / want, 1, 0.03) << channel << ": " << at.x << ", " << at.y;
         }
 }
 
@@ -234,10 +238,24 @@ TEST(Channels, LampsOfOtherScreensCountOnce) {
     for (const glm::ivec2 at : {glm::ivec2(0, 60), {60, 60}, {119, 10}}) {
         const double theta = reference::degrees_apart(lamp, reference::direction_of(middle, glm::dvec2(at) + 0.5));
         const double want = lux * psf(theta) * 1;
-        EXPECT_NEAR(wall.channels[1].scene[4 * size_t(at.y * 120 + at.x) + 1] / want, 1, 0.04) << at.x;
+        EXPECT_NEAR(wall.channels[1].retina[4 * size_t(at.y * 120 + at.x) + 1] / want, 1, 0.04) << at.x;
     }
     EXPECT_TRUE(wall.channels[0].outside.empty());
     ASSERT_EQ(wall.channels[1].outside.size(), 1u);  // for the log
+}
+
+// One screen: the same picture and the same codes as without a file of screens, and the luminance of the scene.
+TEST(Channels, OneScreenIsAView) {
+    Rig rig(wall_scene(0.02f, 20000, Light::Kind::Spot));
+    Channels one;
+    one.screens.push_back(three().screens[0]);
+    const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
+    const Wall wall = rig.wall.render(rig.renderer, one, kScattering, driver, rig.frame, 0, {.display = true, .scene = true});
+    const Frame alone = rig.renderer.render(kScattering, channel_view(one.screens[0], driver), rig.frame, 0, {.display = true, .scene = true});
+    EXPECT_EQ(wall.shown.scene, alone.scene);
+    EXPECT_EQ(wall.channels[0].scene, alone.scene);
+    EXPECT_NE(wall.channels[0].retina, alone.scene);
+    EXPECT_EQ(wall.shown.display, alone.display);
 }
 
 // Needles are those of the one eye, which adapts and lives from frame to frame.
@@ -250,9 +268,9 @@ TEST(Channels, NeedlesMoveWithTheOneEye) {
     EXPECT_GT(first.pupil, 2);
     EXPECT_NE(later.pupil, first.pupil);
     EXPECT_NE(last.pupil, later.pupil);
-    EXPECT_NE(last.scene, later.scene);
+    EXPECT_NE(last.retina, later.retina);
     rig.wall.reset_adaptation();
-    EXPECT_EQ(left(0).scene, first.scene);
+    EXPECT_EQ(left(0).retina, first.retina);
 }
 
 TEST(Channels, TurnedScreensSeeWhereTheyLook) {

@@ -54,6 +54,12 @@ TEST_F(Road, PrintsFiguresAndWritesPoints) {
     EXPECT_NE(json.find("\"class_reached\": \"M5\""), std::string::npos);
     ASSERT_EQ(run("--r-table R2 --class M4"), 0);
     EXPECT_NE(text_of("out.txt").find("1.139   >= 0.75  ok"), std::string::npos) << text_of("out.txt");
+    ASSERT_EQ(run("--r-table W3 --class M3 --json wet.json"), 0);
+    const std::string wet = text_of("out.txt");
+    EXPECT_NE(wet.find("   >= 0.15 "), std::string::npos) << wet;
+    EXPECT_EQ(wet.find(">= 1 "), std::string::npos) << wet;
+    EXPECT_EQ(wet.find("class reached"), std::string::npos) << wet;
+    EXPECT_NE(text_of("wet.json").find("\"class_reached\": null"), std::string::npos);
 }
 
 /// Largest differences of points and of averages between calculation and pictures, %, of what `--json a.json` wrote.

@@ -64,6 +64,8 @@ TEST(HdrRadiance, UndoesExposureAndPrimaries) {
     const HdrImage exposed = radiance(kRgbe + "EXPOSURE=4\nVIEW= -vtv\nEXPOSURE= 0.5 \n", one);
     expect_values(exposed, {rgbe(128, 128), rgbe(64, 128), rgbe(32, 128)});
     EXPECT_EQ(exposed.header.size(), 4u);
+    expect_values(radiance(kRgbe + "COLORCORR= 2 1 0.5\nCOLORCORR=1 1 0.5\n", one), {rgbe(128, 128), rgbe(64, 129), rgbe(32, 131)}, 1e-6);
+    expect_values(radiance("#?RADIANCE\nFORMAT= 32-bit_rle_rgbe \n", one), {rgbe(128, 129), rgbe(64, 129), rgbe(32, 129)});
     EXPECT_EQ(exposed.white_luminance, 0.0);
     const Values plain = {rgbe(128, 129), rgbe(64, 129), rgbe(32, 129)};
     expect_values(radiance(kRgbe + "PRIMARIES=0 0 0 0 0 0 0 0\n", one), plain);
@@ -95,8 +97,9 @@ TEST(HdrRadiance, RefusesWithAReason) {
     EXPECT_TRUE(contains(reason(kRgbe + "EXPOSURE=0\n\n-Y 1 +X 1\nabcd"), "EXPOSURE"));
     for (const char* each : {"1e300", "1e-300"}) {
         const std::string line = std::string("EXPOSURE=") + each + "\n";
-        EXPECT_TRUE(contains(reason(kRgbe + line + line + "\n-Y 1 +X 1\nabcd"), "the EXPOSUREs multiply")) << each;
+        EXPECT_TRUE(contains(reason(kRgbe + line + line + "\n-Y 1 +X 1\nabcd"), "the EXPOSUREs and COLORCORRs multiply")) << each;
     }
+    EXPECT_TRUE(contains(reason(kRgbe + "COLORCORR=1 0 1\n\n-Y 1 +X 1\nabcd"), "COLORCORR=1 0 1"));
     EXPECT_TRUE(contains(reason(kRgbe + "PRIMARIES=1 2 3\n\n-Y 1 +X 1\nabcd"), "PRIMARIES"));
     EXPECT_TRUE(contains(reason(kRgbe + "PRIMARIES=.1 .1 .1 .1 .1 .1 .1 .1\n\n-Y 1 +X 1\nabcd"), "primaries"));
     EXPECT_TRUE(contains(reason("#?RADIANCE\nFORMAT=other\n\n-Y 1 +X 1\nabcd"), "FORMAT"));

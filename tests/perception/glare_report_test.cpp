@@ -57,6 +57,20 @@ TEST(GlareReport, WhatIsLookedAtIsNoGlare) {
     EXPECT_GT(report_glare(picture.image, picture.rgba, {}, {.gaze = {0.6, 0.5}, .source_luminance = 100}).veil, 0);
 }
 
+// What is a source follows from the picture, not from how it is shown: 100 times its log average.
+TEST(GlareReport, SourcesStandOutFromThePicture) {
+    Picture picture(0.5f);
+    picture.set(250, 60, 49), picture.set(60, 60, 52);
+    EXPECT_NEAR(report_glare(picture.image, picture.rgba, {}, {}).veil / report_glare(picture.image, picture.rgba, {}, {.source_luminance = 50.01}).veil, 1, 1e-12);
+    EXPECT_LT(report_glare(picture.image, picture.rgba, {}, {}).veil, 0.7 * report_glare(picture.image, picture.rgba, {}, {.source_luminance = 48}).veil);
+}
+
+TEST(GlareReport, OnABlackRoadTheIncrementHasNoEnd) {
+    Picture picture(0);
+    EXPECT_EQ(report_glare(picture.image, picture.rgba, {}, {}).increment, 0);
+    EXPECT_TRUE(std::isinf(report_glare(picture.image, picture.rgba, std::vector{DazzlingLight{glm::normalize(glm::dvec3(1, 0, -4)), 3}}, {}).increment));
+}
+
 TEST(GlareReport, NothingIsNotANumber) {
     Picture picture(0);
     picture.set(3, 3, std::numeric_limits<float>::quiet_NaN());

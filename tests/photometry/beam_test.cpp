@@ -67,6 +67,9 @@ TEST(Beam, FindsSymmetries) {
     };
     EXPECT_EQ(symmetry_of(lamp(0, 0)), BeamSymmetry::Quadrants);
     EXPECT_EQ(symmetry_of(lamp(30, 0)), BeamSymmetry::AboutC0);
+    Distribution noisy = lamp(30, 0);
+    for (size_t h = 0; h < noisy.horizontal.size(); ++h) noisy.candela[h * noisy.vertical.size()] += double(h % 3);  // nadir as each plane has measured it
+    EXPECT_EQ(symmetry_of(noisy), BeamSymmetry::AboutC0);
     EXPECT_EQ(symmetry_of(lamp(0, 30)), BeamSymmetry::AboutC90);
     EXPECT_EQ(symmetry_of(lamp(30, 30)), BeamSymmetry::None);
     const auto beam = [](double skew) {

@@ -47,6 +47,21 @@ File plain() {
     return file;
 }
 
+// With no symmetry stated all planes are there.
+TEST(Eulumdat, PlanesGoRound) {
+    File file = plain();
+    EXPECT_NO_THROW(read(file.text()));
+    file.planes = {0, 30, 60, 90};
+    EXPECT_TRUE(contains(complaint(file.text()), "no symmetry is stated, but the C angles do not go round"));
+    file.planes = {0, 60, 120, 180};
+    EXPECT_TRUE(contains(complaint(file.text()), "do not go round"));
+    file.symmetry = 2;
+    EXPECT_NO_THROW(read(file.text()));
+    file = plain();
+    file.planes = {0, 180}, file.candela.resize(2);
+    EXPECT_NO_THROW(read(file.text()));
+}
+
 double at(const Distribution& d, double c) { return intensity(d, c_gamma(c, 45)); }
 
 TEST(Eulumdat, AnAngleThatIsThereTwiceMustSayTheSame) {

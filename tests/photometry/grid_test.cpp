@@ -86,6 +86,9 @@ TEST(Grid, SaysWhereAndWhy) {
         {"H,V,cd/klm\n0,0,1\n", "line 1: the heading 'cd/klm'"},
         {"H,H,cd\n0,0,1\n", "line 1: the headings are not"},
         {"H,gamma,cd\n0,0,1\n", "line 1: the headings are not"},
+        {"tan_gamma,0,180\n0,3,3\n2,2,2\n", "line 1: the corner cell is tan gamma"},
+        {"H\\V,-10,0\n-5,1,2\n5,4,5\n", "line 1: the corner cell 'H\\V' says that each row has one horizontal angle"},
+        {"C_deg/gamma,0,45\n0,1,2\n90,4,5\n", "line 1: the corner cell 'C_deg/gamma' says"},
         {"# lx at 25 m\nE [lx],-10,0\n-5,1,2\n5,4,5\n", "line 2: the corner cell names 'lx'"},
     };
     for (const auto& c : cases) EXPECT_TRUE(contains(complaint(c.text), c.wanted)) << c.text.substr(0, 60);
@@ -125,6 +128,9 @@ TEST(Grid, ReadsOpenExr) {
     write_picture(folder / "e.exr", "", false);
     EXPECT_TRUE(contains(complaint_of([&] { read_grid_exr(folder / "e.exr"); }), "verticalTop"));
 
+    for (const char* name : {"a.exr", "d.exr", "e.exr"}) EXPECT_TRUE(is_grid_exr(bytes_of(read_text(folder / name)))) << name;
+    EXPECT_TRUE(is_grid_exr(bytes_of(read_text(folder / "a.exr").substr(0, 300))));
+    EXPECT_FALSE(is_grid_exr(bytes_of("no OpenEXR file at all")));
     // A header that states more than is there is refused before anything is allocated for it.
     std::string huge = read_text(folder / "a.exr");
     const size_t window = huge.find("dataWindow");

@@ -70,6 +70,33 @@ TEST(Ies, ExpandsSymmetry) {
     EXPECT_EQ(open.horizontal.back(), 360);
     EXPECT_NEAR(at(open, 300), 130, 1e-9);
     EXPECT_TRUE(contains(complaint(file("IES:LM-63-2019", "2", "0 100", "1 1 1 1 1 1")), "C planes from 0 to 100"));
+    // What is missing is no more than a closing plane.
+    EXPECT_TRUE(contains(complaint(file("IES:LM-63-2019", "3", "0 95 190", "1 1 1\n1 1 1\n1 1 1")), "C planes from 0 to 190 are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round"));
+    EXPECT_NO_THROW(read(file("IES:LM-63-2019", "3", "0 95 240", "1 1 1\n1 1 1\n1 1 1")));
+    // Both ends are one plane.
+    const std::string ends = file("IES:LM-63-2019", "3", "0 120 360", "1 100 0\n1 50 0\n1 91 0");
+    EXPECT_NEAR(at(read(ends), 0), 95.5, 1e-9);
+    EXPECT_TRUE(contains(complaint(replaced(ends, "1 91 0", "1 89 0")), "line 11: C0 and C360 are one plane, but at gamma 45 have 100 and 89 cd"));
+}
+
+TEST(Ies, KnowsVersionLinesFromLabels) {
+    const auto first = [](const std::string& start) { return read(replaced(file("IESNA91", "1", "0", "100 50 25", "1 0.8 20"), "IESNA91\n", start)).candela[0]; };
+    for (const char* old : {"", "IES PHOTOMETRIC REPORT NO. 4711\n", "IES 99\n", "IESNA91\n", "IESNA86\n", "iesna:lm-63-1995\n", "\n\nIESNA:LM-63-1995\n"}) EXPECT_NEAR(first(old), 80, 1e-9) << old;
+    for (const char* since : {"IESNA02\n", "\n \nIES:LM-63-2019\n", "ies:lm-63-2019\n", "IESNA:LM-63-2002\n", "IES:LM-63-2031\n"}) EXPECT_NEAR(first(since), 100, 1e-9) << since;
+    EXPECT_EQ(read(replaced(file("", "1", "0", "1 1 1"), "\n[TEST]", "IES REPORT 12\n[TEST]")).name, "IES REPORT 12");
+}
+
+// LM-63-2002 and -2019, Table 1: what lies, and what stands, in m.
+TEST(Ies, CylindersLieAndDiscsStand) {
+    const auto opening = [](const char* version, const char* sizes) { return read(replaced(file(version, "1", "0", "1 1 1"), "1 2 0 0 0", std::string("1 2 ") + sizes)).opening; };
+    for (const char* version : {"IESNA:LM-63-2002", "IES:LM-63-2019"}) {
+        EXPECT_NEAR(opening(version, "-2 3 -2").area(), 6, 1e-12);
+        EXPECT_NEAR(opening(version, "3 -2 -2").area(), 6, 1e-12);
+        EXPECT_EQ(opening(version, "-2 0 -2").area(), 0) << "a disc that stands has no area from below";
+        EXPECT_NEAR(opening(version, "-2 -2 0").area(), 3.14159265, 1e-6);
+        EXPECT_NEAR(opening(version, "-2 -2 -2").area(), 3.14159265, 1e-6) << "a sphere";
+    }
+    EXPECT_NEAR(opening("IESNA:LM-63-1995", "-2 3 -2").area(), 3.14159265 * 1.5, 1e-6) << "an ellipsoid";
 }
 
 TEST(Ies, ReadsTypesBAndA) {

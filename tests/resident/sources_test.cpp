@@ -154,7 +154,28 @@ TEST(Source, WhatCannotBeSeenIsLeftOut) {
     Scene scene;
     scene.lights = {light, lamp_with_opening(80, 0, 0), lamp_with_opening(80, 1, 1, false, Light::Kind::Directional)};
     for (uint32_t i = 0; i < 3; ++i) scene.nodes.emplace_back().light = i;
-    EXPECT_EQ(placed_sources(scene).lamps.size(), 1u);
+    EXPECT_EQ(placed_sources(scene).lamps.size(), 2u) << "a sun has no place";
+}
+
+// Without opening: nothing is drawn, but beside the picture it dazzles with I / d^2, as it does with one.
+TEST(Source, LampsWithoutOpeningDazzleAsPoints) {
+    for (const Light::Kind kind : {Light::Kind::Point, Light::Kind::CosinePower}) {
+        Lamps lamps;
+        for (const double side : {0.0, 0.2})
+            for (const glm::vec3 at : {glm::vec3(0, 0, -10), {20, 3, -10}, {1, 0, 10}}) lamps.add(lamp_with_opening(90, side, side, false, kind), aimed(at, -at));
+        const SourceList list = lamps.seen(kView);
+        EXPECT_EQ(list.sources.size(), 1u);
+        ASSERT_EQ(list.dazzling.size(), 4u);
+        for (size_t i = 0; i < 2; ++i) {
+            const GlareSource &point = list.dazzling[i], &opening = list.dazzling[i + 2];
+            EXPECT_EQ(point.node, i);
+            EXPECT_EQ(point.inside, i == 0 ? 1 : 0);
+            EXPECT_EQ(opening.inside, point.inside);
+            EXPECT_LT(glm::distance(point.direction, opening.direction), 1e-12);
+            EXPECT_NEAR(point.illuminance.g, 90 / glm::dot(dvec3(i == 0 ? 0 : 20, i == 0 ? 0 : 3, 10), dvec3(i == 0 ? 0 : 20, i == 0 ? 0 : 3, 10)), 1e-6);
+            EXPECT_EQ(point.illuminance, opening.illuminance);
+        }
+    }
 }
 
 TEST(Source, MoreThanTheShaderCanLookAtIsAnError) {

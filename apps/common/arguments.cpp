@@ -32,6 +32,22 @@ void Files::writes(const std::string& option, const std::string& file) {
     if (!written_.insert(name).second) throw Error(place + "would be written twice");
 }
 
+std::string options_of(const CLI::App& command, const std::set<std::string>& but) {
+    std::string text;
+    for (const CLI::Option* option : command.get_options()) {
+        if (!option->nonpositional() || option->count() == 0 || but.contains(option->get_name())) continue;
+        if (option->get_items_expected_max() == 0) {
+            text += (text.empty() ? "" : " ") + option->get_name();
+            continue;
+        }
+        for (const std::string& value : option->results()) {
+            const bool first = &value == &option->results().front() || option->get_delimiter() == 0;
+            text += first ? (text.empty() ? "" : " ") + option->get_name() + " " + value : std::string(1, option->get_delimiter()) + value;
+        }
+    }
+    return one_line(text, 4000);
+}
+
 CLI::Validator between(double low, double high) {
     const std::string range = format("%g to %g", low, high);
     return {[=](const std::string& given) {

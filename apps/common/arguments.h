@@ -22,6 +22,9 @@ private:
 /// A number in a range; not-a-number is in none.
 CLI::Validator between(double low, double high);
 
+/// The options given, but for those named, as they would be given again: what a picture was made with.
+std::string options_of(const CLI::App& command, const std::set<std::string>& but);
+
 /// Writes a text file, which is replaced only when complete.
 void write_text(const std::string& file, const std::string& text);
 /// printf into a string.

@@ -128,9 +128,12 @@ private:
         if (read.contains(file)) throw Error("--video " + one_line(file) + ": would replace what is read");
     }
     Header header(const Session& session, const ToneMapped& frame, uint32_t lights) const {
+        std::string options;  // settings other than the defaults
+        for (const auto& [name, value] : session.settings().values()) options += (options.empty() ? "--" : " --") + name + " " + value;
         Header made{{"vesper:version", VESPER_VERSION},
                     {"vesper:scene", session.scenery().scene().name},
                     {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
+                    {"vesper:options", options},
                     {"vesper:seconds", digits(session.world().seconds())},
                     {"vesper:lights", std::to_string(lights)}};
         const Header tone = describe_tone(session.settings().render(), frame);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "false_colour.h"
 #include "inspect.h"
+#include "io/atomic_file.h"
 #include "io/hdr_image.h"
 #include "photometry/road.h"
 #include "scene/colour.h"
@@ -90,7 +91,7 @@ Inspection inspect_picture(const InspectArguments& arguments) {
     const LuminanceStatistics statistics = luminance_statistics(factor == 1 ? image.rgb : scaled, 3);
     Inspection made;
     made.text = arguments.file + format("\n  %u x %u px\n", image.width, image.height);
-    for (const auto& [key, value] : image.header) made.text += "  " + key + ": " + value + "\n";
+    for (const auto& [key, value] : image.header) made.text += "  " + one_line(key, 60) + ": " + one_line(value, 120) + "\n";  // whole in JSON
     made.text += text_of(statistics, absolute ? "luminance, cd/m^2" : "luminance, relative (the header names no unit)");
     made.json = {{"kind", "picture"}, {"width", image.width}, {"height", image.height}, {"white_luminance_cd_m2", image.white_luminance}};
     made.json["absolute"] = absolute;

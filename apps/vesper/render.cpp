@@ -33,6 +33,7 @@ struct RenderArguments {
     unsigned frames = 1;
     double dt = 1.0 / 30, start = 0;
     bool statistics = false, plan = false;
+    std::string options;  // as given
 };
 
 // The file of one frame of several: %04d is replaced by its number, or the number is put before the extension.
@@ -49,6 +50,7 @@ Header describe_frame(const RenderArguments& arguments, const Device& device, co
         for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + digits(double(view.world_to_view[c][r]));
     Header header{{"vesper:version", VESPER_VERSION},
             {"vesper:scene", arguments.scene},
+            {"vesper:options", arguments.options},
             {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
             {"vesper:camera", arguments.camera},
             {"vesper:worldToView", pose},
@@ -245,7 +247,10 @@ void add_render(CLI::App& program) {
     command->footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"
                     "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
-    command->callback([a] { run(*a); });
+    command->callback([a, command] {
+        a->options = options_of(*command, {"--output", "--log", "--glare-sources", "--stats", "--stats-json", "--plan"});
+        run(*a);
+    });
 }
 
 }  // namespace vesper

@@ -32,6 +32,7 @@ struct TonemapArguments {
     GlareArguments glare;
     double scale = 0, fps = 0, fov = 0;
     bool statistics = false;
+    std::string options;  // as given
 };
 
 /// One picture to do.
@@ -132,7 +133,7 @@ Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings,
     return shown;
 }
 
-void write_outputs(const ToneChainSettings& settings, const Device& device, const Job& job, const Shown& shown) {
+void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& settings, const Device& device, const Job& job, const Shown& shown) {
     const ToneMapped& picture = shown.picture;
     for (const std::string& output : job.outputs) {
         if (output.ends_with(".png")) {
@@ -141,6 +142,7 @@ void write_outputs(const ToneChainSettings& settings, const Device& device, cons
         }
         Header header{{"vesper:version", VESPER_VERSION},
                       {"vesper:source", one_line(job.input)},
+                      {"vesper:options", arguments.options},
                       {"vesper:unit", "cd/m^2 on the display, linear Rec. 709 RGB"},
                       {"vesper:sourceScale", digits(shown.scale)},
                       {"vesper:device", device.name() + ", " + device.driver()}};
@@ -187,7 +189,7 @@ void run(const TonemapArguments& arguments) {
             const Shown shown = show(arguments, settings, lamps, mapper, job, !plan.film.empty());
             const auto [width, height] = shown.picture.extent;
             if (!plan.film.empty() && !film) film = std::make_unique<Video>(plan.film, width, height, plan.fps, settings.display);
-            write_outputs(settings, device, job, shown);
+            write_outputs(arguments, settings, device, job, shown);
             if (film) film->add(shown.picture.display);
             report(arguments, job, shown, first);
             first = false;
@@ -222,7 +224,10 @@ void add_tonemap(CLI::App& program) {
                     "  vesper tonemap *.hdr --scale 179 --operator reinhard -o shown/\n"
                     "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"
                     "  vesper tonemap night.exr --display hdr10 -o night-pq.png -o night-on-display.exr\n");
-    command->callback([a] { run(*a); });
+    command->callback([a, command] {
+        a->options = options_of(*command, {"--output", "--stats"});
+        run(*a);
+    });
 }
 
 }  // namespace vesper

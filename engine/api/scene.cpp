@@ -73,14 +73,14 @@ Light light_of(const VesperLamp& l) {
     const auto [y, colour] = split(l.colour, "a lamp's colour has no negative part");
     require(y > 0, "a lamp's colour has luminance");
     require(l.inner_cone >= 0 && l.outer_cone >= l.inner_cone && l.outer_cone <= 1.5707964f, "a lamp's cones are 0 <= inner <= outer <= pi / 2");
-    require(l.opening_length >= 0 && l.opening_length <= 1000 && l.opening_width >= 0 && l.opening_width <= 1000, "a lamp's opening is 0 to 1000 m long and wide");
-    require((l.opening_length > 0) == (l.opening_width > 0), "a lamp's opening has a length and a width, or neither");
+    require(l.opening_width >= 0 && l.opening_width <= 1000 && l.opening_height >= 0 && l.opening_height <= 1000, "a lamp's opening is 0 to 1000 m wide and high");
+    require((l.opening_width > 0) == (l.opening_height > 0), "a lamp's opening has a width and a height, or neither");
     require(!l.distribution || (l.inner_cone == 0 && l.outer_cone == 0), "a lamp has cones or a distribution");
     Light light;
     light.intensity = l.intensity, light.colour = colour;
     light.inner_cone = l.inner_cone, light.outer_cone = l.outer_cone;
     light.kind = l.distribution ? Light::Kind::Measured : l.outer_cone > 0 ? Light::Kind::Spot : Light::Kind::Point;
-    if (l.opening_length > 0 && l.opening_width > 0) light.opening = {l.opening_length, l.opening_width, 0, false};
+    if (l.opening_width > 0 && l.opening_height > 0) light.opening = {l.opening_width, l.opening_height, 0, false};
     return light;
 }
 

@@ -8,7 +8,6 @@
 #include "base/luminance.h"
 #include "perception/visibility.h"
 #include "photometry/road.h"
-#include "shared/photometry.h"
 
 namespace vesper {
 namespace {
@@ -18,6 +17,7 @@ using glm::dvec2, glm::dvec3;
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kBackground = 10;  // deg about the line of sight
 constexpr double kLooked = 0.1;     // deg: nearer is not beside the line of sight
+constexpr double kLeast = 1e-4;    // cd/m^2: what is darker counts as this in log averages
 
 // E cos(theta) f(theta), summed.
 struct Veils {
@@ -60,7 +60,7 @@ private:
 double log_average(const ImageAngles& image, const Pixels& pixels) {
     double sum = 0;
     for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) sum += std::log(std::max(pixels.luminance(x, y), double(shared::kLuminanceFloor)));
+        for (int x = 0; x < image.width; ++x) sum += std::log(std::max(pixels.luminance(x, y), kLeast));
     return std::exp(sum / (double(image.width) * image.height));
 }
 

@@ -291,8 +291,8 @@ TEST_F(CScene, RefusesWhatCannotBe) {
     lamp([](VesperLamp& l) { l.outer_cone = 1; });  // a spot without an axis
     lamp([](VesperLamp& l) { l.outer_cone = 0.5f, l.inner_cone = 0.6f, l.axis[1] = -1; });
     lamp([](VesperLamp& l) { l.outer_cone = 0.5f, l.axis[1] = -1, l.up[1] = 1; });
-    lamp([](VesperLamp& l) { l.opening_width = -1; });
-    lamp([](VesperLamp& l) { l.opening_width = 0.1f; });  // and no length
+    lamp([](VesperLamp& l) { l.opening_height = -1; });
+    lamp([](VesperLamp& l) { l.opening_height = 0.1f; });  // and no width
     const std::string file = std::string(VESPER_SOURCE_DIR) + "/data/photometry/street-lamp.ies";
     lamp([&](VesperLamp& l) { l.distribution = file.c_str(), l.axis[1] = -1, l.outer_cone = 0.5f; });
     const float flat[16]{}, light[3]{}, negative[3]{-1, 0, 0};

@@ -91,6 +91,10 @@ TEST_F(Program, LogsTheEyeAndReplaysItToTheLastBit) {
         EXPECT_EQ(text_of(folder / "again.csv"), log) << op;
     }
     const std::string header = text_of(folder / "a5.exr").substr(0, 20000);
+    // What was chosen is there, where it was written to is not.
+    EXPECT_NE(header.find("vesper:options"), std::string::npos);
+    EXPECT_NE(header.find("--frames 6 --dt 0.05"), std::string::npos);
+    EXPECT_EQ(header.find("a%d.exr"), std::string::npos);
     for (const char* name : {"vesper:eye:cone_pigment", "vesper:eye:nodes", "vesper:toneCurve"}) EXPECT_NE(header.find(name), std::string::npos) << name;
     for (const char* bad : {"", "frame\n1\n"}) {
         std::ofstream(folder / "bad.csv") << bad;

@@ -299,8 +299,8 @@ typedef struct VesperLamp {
     float outer_cone;         /**< half angle beyond which it is dark, rad, up to pi / 2; 0: a point lamp, without cones */
     float inner_cone;         /**< half angle of full intensity, rad */
     const char *distribution; /**< .ies, .ldt, or a laboratory's grid (.csv, .exr; docs/photometry.md), without cones; null: the cones above */
-    float opening_length;     /**< along its x, m: seen as a luminous opening; 0: as the file has it, or not at all */
-    float opening_width;      /**< along its y, m */
+    float opening_width;     /**< along its x, m: seen as a luminous opening; 0: as the file has it, or not at all */
+    float opening_height;      /**< along its y, m */
 } VesperLamp;
 
 /** Adds a lamp, at a node of its own, whose number may not be asked for (null). Scenes of up to 21,000 lamps can be rendered. */

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -9,17 +10,26 @@
 #include "in_file.h"
 #include "road_render.h"
 #include "road_report.h"
+#include "scene/gltf_save.h"
 #include "scene/road_file.h"
+#include "scene/road_scene.h"
 
 namespace vesper {
 namespace {
 
 struct RoadArguments {
-    std::string layout, csv, json, wanted, device;
+    std::string layout, csv, json, wanted, device, scene;
     std::vector<std::string> pictures;
     RoadOverrides overrides;
     bool grid = false;
 };
+
+/// The road as a scene whose luminaires are seen, too, where their file states an opening.
+Scene lit_road(const RoadLayout& road) {
+    Scene scene = road_scene(road);
+    for (Light& light : scene.lights) light.opening = road.distribution.opening;
+    return scene;
+}
 
 void run(const RoadArguments& arguments) {
     Files files;
@@ -30,6 +40,9 @@ void run(const RoadArguments& arguments) {
     }
     files.writes("--csv", arguments.csv);
     files.writes("--json", arguments.json);
+    if (!arguments.scene.empty() && !arguments.scene.ends_with(".gltf") && !arguments.scene.ends_with(".glb"))
+        throw Error("--scene " + arguments.scene + ": a .gltf or .glb file is expected");
+    files.writes("--scene", arguments.scene);
     if (!arguments.device.empty() && arguments.pictures.empty()) throw Error("--device has a meaning only beside --render");
     const RoadFile file = read_road(arguments.layout, arguments.overrides);
     const RoadResult result = in_file(arguments.layout, [&] { return calculate_road(file.layout); });
@@ -43,6 +56,7 @@ void run(const RoadArguments& arguments) {
         for (const std::string& picture : arguments.pictures) write_picture(picture, file.layout, result, rendered);
     }
     const RenderedRoad* beside = arguments.pictures.empty() ? nullptr : &rendered;
+    if (!arguments.scene.empty()) save_gltf(lit_road(file.layout), std::filesystem::path(arguments.layout).filename().string(), arguments.scene);
     if (!arguments.csv.empty()) write_text(arguments.csv, csv_of(file.layout, result, beside));
     if (!arguments.json.empty()) write_text(arguments.json, json_of(file.layout, result, wanted, beside));
 }
@@ -60,6 +74,7 @@ void add_road(CLI::App& program) {
     command->add_option("--csv", a->csv, "Write the points to a CSV file");
     command->add_option("--json", a->json, "Write figures and points to a JSON file");
     command->add_option("--render", a->pictures, "Render the road too and compare: OUT.png in false colours, OUT.exr in cd/m^2; may be given twice");
+    command->add_option("--scene", a->scene, "Write the road as a scene for vesper render: OUT.gltf or OUT.glb, with a camera for each observer");
     command->add_option("--device", a->device, "Where to render: part of a name, cpu, or an index of vesper devices");
     command->add_option("--class", a->wanted, "Lighting class to compare with (default: that of the file)")
         ->check(CLI::IsMember(classes));
@@ -75,7 +90,8 @@ void add_road(CLI::App& program) {
     command->footer(
         "Examples:\n  vesper road data/road/worked-example.json\n"
         "  vesper road data/road/worked-example.json --r-table R2 --spacing 36 --grid --csv points.csv\n"
-        "  vesper road data/road/worked-example.json --render road.png\n");
+        "  vesper road data/road/worked-example.json --render road.png\n"
+        "  vesper road data/road/worked-example.json --scene road.gltf && vesper render road.gltf --camera \"observer lane 1\" --glare cie -o seen.png\n");
     command->callback([a] { run(*a); });
 }
 

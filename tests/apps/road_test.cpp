@@ -62,6 +62,23 @@ TEST_F(Road, PrintsFiguresAndWritesPoints) {
     EXPECT_NE(text_of("wet.json").find("\"class_reached\": null"), std::string::npos);
 }
 
+// The designed road can be seen: as a scene of its luminaires with their openings, and a camera for each observer.
+TEST_F(Road, WritesItsScene) {
+    ASSERT_EQ(run("--scene road.gltf"), 0) << text_of("err.txt");
+    const auto json = nlohmann::json::parse(text_of("road.gltf"));
+    std::vector<std::string> cameras;
+    size_t lamps = 0;
+    for (const auto& node : json["nodes"]) {
+        if (node.contains("camera")) cameras.push_back(node["name"]);
+        lamps += node.contains("extensions");
+    }
+    EXPECT_EQ(cameras, (std::vector<std::string>{"observer lane 1", "observer lane 2"}));
+    EXPECT_GT(lamps, 5u);
+    EXPECT_GT(json["extras"]["vesper"]["openings"].size(), 0u);
+    EXPECT_EQ(run("--scene road.obj"), 2);
+    EXPECT_EQ(text_of("err.txt"), "vesper: --scene road.obj: a .gltf or .glb file is expected\n");
+}
+
 /// Largest differences of points and of averages between calculation and pictures, %, of what `--json a.json` wrote.
 struct Differences {
     double point = 0, average = 0, every_average = 0;

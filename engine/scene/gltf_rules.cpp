@@ -38,9 +38,9 @@ public:
         for (const std::string& broken : reader_.document.broken_rules()) note("", broken);
         walk(lists_.root(), "");
         objects();
-        check_schema(lists_.root(), take_note_);
+        check_schema(lists_, take_note_);
         needed();
-        check_required_extensions(lists_.root(), take_note_);
+        check_required_extensions(lists_, take_note_);
         lists_.each("buffers", [&](const json& b, const std::string& at, uint32_t) { uri(b, at, {"application/octet-stream", "application/gltf-buffer"}); });
         const std::vector<AccessorUse> uses = check_uses(lists_, take_note_);
         check_accessors(reader_, lists_, uses, take_note_);
@@ -72,7 +72,7 @@ private:
             if (key == "extras") continue;
             const std::string here = at + "/" + key;
             if (key == "extensions" && value.is_object()) {
-                if (member.is_object()) check_extensions(lists_.root(), member, at, take_note_);
+                if (member.is_object()) check_extensions(lists_, member, at, take_note_);
                 walk(member, here, true);
                 continue;
             }

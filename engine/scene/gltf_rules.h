@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +34,7 @@ const nlohmann::json& array_member(const nlohmann::json& holder, const char* key
 /// The lists of a glTF file, whatever stands in them.
 class GltfLists {
 public:
-    explicit GltfLists(const nlohmann::json& root) : root_(root) {}
+    explicit GltfLists(const nlohmann::json& root);
 
     const nlohmann::json& root() const { return root_; }
     size_t count(const char* list) const { return array_member(root_, list).size(); }
@@ -49,11 +50,13 @@ public:
         for (size_t i = 0; i < list.size(); ++i)
             if (list[i].is_object()) see(list[i], at + "/" + std::to_string(i), static_cast<uint32_t>(i));
     }
-    /// Whether the file uses an extension, or any whose name begins so.
+    /// Whether the file uses an extension, or any whose name begins so; whether it requires one.
     bool uses(std::string_view extension, bool or_begins_so = false) const;
+    bool requires_it(std::string_view extension) const { return required_.contains(extension); }
 
 private:
     const nlohmann::json& root_;
+    std::set<std::string_view> used_, required_;
 };
 
 /// What the numbers of an accessor are to be, by what it is used for.
@@ -67,8 +70,9 @@ std::vector<AccessorUse> check_uses(const GltfLists&, const RuleNote&);
 /// Accessors and their numbers; those of large files as far as the first million.
 void check_accessors(struct GltfReader&, const GltfLists&, const std::vector<AccessorUse>&, const RuleNote&);
 
-/// Types, ranges and lengths of all that the specification names, required properties, lists without doubles.
-void check_schema(const nlohmann::json& root, const RuleNote&);
+/// Types, ranges and lengths of all that the specification and Khronos' extensions name, required properties, lists without doubles, and what those
+/// extensions refer to.
+void check_schema(const GltfLists&, const RuleNote&);
 /// Attributes, morph targets, and the texture coordinates that materials need.
 void check_primitives(const GltfLists&, const RuleNote&);
 void check_cameras(const GltfLists&, const RuleNote&);
@@ -76,8 +80,8 @@ void check_animations(const GltfLists&, const RuleNote&);
 void check_skins(const GltfLists&, const RuleNote&);
 
 /// The extensions of the object at a place.
-void check_extensions(const nlohmann::json& root, const nlohmann::json& extensions, const std::string& at, const RuleNote&);
-/// What a file requires, it uses.
-void check_required_extensions(const nlohmann::json& root, const RuleNote&);
+void check_extensions(const GltfLists&, const nlohmann::json& extensions, const std::string& at, const RuleNote&);
+/// What a file requires, it uses; what nobody can do without, it requires.
+void check_required_extensions(const GltfLists&, const RuleNote&);
 
 }  // namespace vesper

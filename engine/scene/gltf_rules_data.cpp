@@ -59,7 +59,7 @@ private:
         if (offset % (matrix ? 4 : size) != 0 || (offset + whole_member(*view, "byteOffset")) % size != 0) note_(at, "does not begin at a multiple of the size of its numbers");
         if (stride < padded) note_(at, "lies in a buffer view with a stride of " + std::to_string(stride) + " bytes");
         if (elements > 0 && elements < UINT32_MAX && stride <= UINT32_MAX && offset <= bytes && (elements - 1) * stride + padded - (matrix ? (4 - column % 4) % 4 : 0) > bytes - offset) note_(at, "reaches beyond its buffer view");
-        if (!matrix && has_bytes(*view)) numbers(a, at, index, type->first, elements * components);
+        if (padded == components * size && has_bytes(*view)) numbers(a, at, index, type->first, elements * components);
     }
 
     bool has_bytes(const json& view) {
@@ -96,20 +96,27 @@ private:
     // What is stated of the numbers of an accessor, and what they have to be by their use. Normals were looked at as they were read.
     void numbers(const json& a, const std::string& at, uint32_t index, const std::string& type, uint64_t count) {
         if (!take(count)) return;
-        Floats floats;
+        const JsonFile reference{"", json(index)};
+        const auto read = [&](Numbers numbers) { return read_floats(reader_.document, JsonValue(reference), {type}, kMostNumbers, numbers); };
         try {
-            const JsonFile reference{"", json(index)};
-            floats = read_floats(reader_.document, JsonValue(reference), {type}, kMostNumbers);
+            const Floats floats = read(Numbers::Meant);
+            for (const float value : floats.values)
+                if (!std::isfinite(value)) return note_(at, "holds numbers that are not finite");
+            if (a.contains("min") || a.contains("max")) limits(a, at, true_member(a, "normalized") ? read(Numbers::Stored) : floats);
+            const AccessorUse& use = uses_[index];
+            if (use.kind == AccessorUse::Kind::KeyTimes && floats.components == 1) times(floats, at);
+            if (use.kind == AccessorUse::Kind::Matrices && floats.components == 16) matrices(floats, at);
+            if (use.kind == AccessorUse::Kind::Indices && floats.components == 1) indices(floats, at, whole_member(a, "componentType"));
+            if (use.tangent && floats.components == 4) tangents(floats, at);
         } catch (const Error& error) {
-            return note_(at, error.what());
+            note_(at, error.what());
         }
-        for (const float value : floats.values)
-            if (!std::isfinite(value)) return note_(at, "holds numbers that are not finite");
-        if (!true_member(a, "normalized"))
-            for (size_t c = 0; c < floats.components; ++c)
-                if (!limits(a, at, floats, c)) break;
-        if (uses_[index].kind == AccessorUse::Kind::KeyTimes && floats.components == 1) times(floats, at);
-        if (uses_[index].tangent && floats.components == 4) tangents(floats, at);
+    }
+
+    // Limits are those of the numbers as they are stored.
+    void limits(const json& a, const std::string& at, const Floats& floats) {
+        for (size_t c = 0; c < floats.components; ++c)
+            if (!limits(a, at, floats, c)) return;
     }
 
     bool limits(const json& a, const std::string& at, const Floats& floats, size_t c) {
@@ -128,6 +135,17 @@ private:
         if (floats.values[0] < 0) note_(at, "holds times of keys before 0");
         for (size_t i = 1; i < floats.values.size(); ++i)
             if (floats.values[i] <= floats.values[i - 1]) return note_(at, "holds times of keys that do not ascend");
+    }
+
+    void matrices(const Floats& floats, const std::string& at) {
+        for (size_t i = 0; i < floats.count; ++i)
+            if (const auto m = floats[i]; m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) return note_(at, "holds matrices of joints whose last row is not 0 0 0 1");
+    }
+
+    // The largest index there can be would begin a new strip elsewhere. (Of 32 bits there are more than vertices may be.)
+    void indices(const Floats& floats, const std::string& at, uint64_t component) {
+        const float last = component == 5121 ? 255 : 65535;
+        if (component != 5125 && std::find(floats.values.begin(), floats.values.end(), last) != floats.values.end()) note_(at, "holds the index " + std::to_string(int(last)) + ", the last of its type, which is none");
     }
 
     void tangents(const Floats& floats, const std::string& at) {

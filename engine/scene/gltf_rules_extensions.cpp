@@ -51,11 +51,6 @@ bool may_stand(const std::string& extension, const std::string& kind) {
     return std::any_of(first, last, [&](const auto& place) { return place.second == kind; });
 }
 
-bool lists(const json& root, const char* key, const std::string& extension) {
-    const auto list = root.find(key);
-    return list != root.end() && list->is_array() && std::find(list->begin(), list->end(), extension) != list->end();
-}
-
 void check_lights(const json& punctual, const RuleNote& note) {
     const std::string lights = "/extensions/KHR_lights_punctual/lights";
     const auto list = punctual.find("lights");
@@ -76,25 +71,55 @@ void check_lights(const json& punctual, const RuleNote& note) {
     }
 }
 
+// The variants that a file has: each has a name.
+void check_variants(const json& extension, const std::string& at, const RuleNote& note) {
+    const json& variants = array_member(extension, "variants");
+    if (!extension.contains("variants")) note(at, "has no variants");
+    if (variants.empty() && extension.contains("variants") && extension["variants"].is_array()) note(at + "/variants", "is empty");
+}
+
+// The materials of a primitive in some of them: one in each.
+void check_mappings(const GltfLists& lists, const json& extension, const std::string& at, const RuleNote& note) {
+    const size_t count = array_member(object_member(object_member(lists.root(), "extensions"), "KHR_materials_variants"), "variants").size();
+    if (!extension.contains("mappings")) note(at, "has no mappings");
+    std::map<uint64_t, uint32_t> mapped;  // by variant: the mapping that has it
+    GltfLists::each_of(array_member(extension, "mappings"), at + "/mappings", [&](const json& mapping, const std::string& place, uint32_t number) {
+        if (array_member(mapping, "variants").empty() && mapping.contains("variants")) note(place + "/variants", "is empty");
+        for (const json& name : array_member(mapping, "variants")) {
+            const auto variant = whole_number(name);
+            if (!variant) continue;  // noted as such
+            if (*variant >= count) return note(place + "/variants", "names none of the " + std::to_string(count) + " variants");
+            if (const auto [first, added] = mapped.try_emplace(*variant, number); !added && first->second != number) return note(place + "/variants", "names a variant that another mapping names");
+        }
+    });
+}
+
 }  // namespace
 
-void check_extensions(const json& root, const json& extensions, const std::string& at, const RuleNote& note) {
+void check_extensions(const GltfLists& lists, const json& extensions, const std::string& at, const RuleNote& note) {
     const std::string kind = kind_of(at);
     for (const auto& [name, value] : extensions.items()) {
         const std::string here = at + "/extensions/" + name;
-        if (!lists(root, "extensionsUsed", name)) note(here, "is not listed in extensionsUsed");
+        if (!lists.uses(name)) note(here, "is not listed in extensionsUsed");
         if (!may_stand(name, kind)) note(here, "is an extension that has no place there");
-        if (!value.is_object()) note(here, "is no object");
-        if (at.empty() && name == "KHR_lights_punctual" && value.is_object()) check_lights(value, note);
+        if (!value.is_object()) {
+            note(here, "is no object");
+        } else if (at.empty() && name == "KHR_lights_punctual") {
+            check_lights(value, note);
+        } else if (at.empty() && name == "KHR_materials_variants") {
+            check_variants(value, here, note);
+        } else if (kind == "/meshes/#/primitives/#" && name == "KHR_materials_variants") {
+            check_mappings(lists, value, here, note);
+        }
     }
 }
 
-void check_required_extensions(const json& root, const RuleNote& note) {
-    const auto required = root.find("extensionsRequired");
-    if (required == root.end() || !required->is_array()) return;
-    for (size_t i = 0; i < required->size(); ++i)
-        if (const json& name = (*required)[i]; name.is_string() && !lists(root, "extensionsUsed", name.get<std::string>()))
-            note("/extensionsRequired/" + std::to_string(i), "is not listed in extensionsUsed");
+void check_required_extensions(const GltfLists& lists, const RuleNote& note) {
+    const json& required = array_member(lists.root(), "extensionsRequired");
+    for (size_t i = 0; i < required.size(); ++i)
+        if (const json& name = required[i]; name.is_string() && !lists.uses(name.get_ref<const std::string&>())) note("/extensionsRequired/" + std::to_string(i), "is not listed in extensionsUsed");
+    // Without it, attributes have formats that they cannot have.
+    if (lists.uses("KHR_mesh_quantization") && !lists.requires_it("KHR_mesh_quantization")) note("/extensionsUsed", "lists KHR_mesh_quantization, which extensionsRequired has to list too");
 }
 
 }  // namespace vesper

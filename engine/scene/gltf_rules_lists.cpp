@@ -1,6 +1,6 @@
 // What the checks of glTF's rules share: looking at JSON that may hold anything. SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scene/gltf_rules.h"
 
@@ -57,6 +57,12 @@ const json& array_member(const json& holder, const char* key) {
     return found && found->is_array() ? *found : kEmpty;
 }
 
+GltfLists::GltfLists(const json& root) : root_(root) {
+    for (const auto& [key, names] : {std::pair{"extensionsUsed", &used_}, std::pair{"extensionsRequired", &required_}})
+        for (const json& name : array_member(root, key))
+            if (name.is_string()) names->insert(name.get_ref<const std::string&>());
+}
+
 const json* GltfLists::named(const json& holder, const char* key, const char* list) const {
     const json& elements = array_member(root_, list);
     const uint64_t i = whole_member(holder, key, UINT64_MAX);
@@ -64,12 +70,8 @@ const json* GltfLists::named(const json& holder, const char* key, const char* li
 }
 
 bool GltfLists::uses(std::string_view extension, bool or_begins_so) const {
-    const json& used = array_member(root_, "extensionsUsed");
-    return std::any_of(used.begin(), used.end(), [&](const json& e) {
-        if (!e.is_string()) return false;
-        const std::string& name = e.get_ref<const std::string&>();
-        return or_begins_so ? name.starts_with(extension) : name == extension;
-    });
+    const auto found = used_.lower_bound(extension);
+    return found != used_.end() && (or_begins_so ? found->starts_with(extension) : *found == extension);
 }
 
 }  // namespace vesper

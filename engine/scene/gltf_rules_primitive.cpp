@@ -51,6 +51,15 @@ struct NeededSet {
     std::string texture, set;
 };
 
+/// A texture of a material that needs tangents, which none can be made for without a normalTexture; empty for none.
+std::string needed_tangents(const json& material, const std::string& at) {
+    if (material.contains("normalTexture")) return "";
+    const json& extensions = object_member(material, "extensions");
+    for (const auto& [extension, texture] : {std::pair{"KHR_materials_clearcoat", "clearcoatNormalTexture"}, std::pair{"KHR_materials_anisotropy", "anisotropyTexture"}})
+        if (object_member(extensions, extension).contains(texture)) return at + "/extensions/" + extension + "/" + texture;
+    return "";
+}
+
 /// Those of a material, where its extensions have theirs as well.
 void find_needed(const json& holder, const std::string& at, std::vector<NeededSet>& needed) {
     for (const auto& [key, value] : holder.items()) {
@@ -70,7 +79,8 @@ public:
 
     void check() {
         needed_.resize(lists_.count("materials"));
-        lists_.each("materials", [&](const json& m, const std::string& at, uint32_t i) { find_needed(m, at, needed_[i]); });
+        tangents_.resize(needed_.size());
+        lists_.each("materials", [&](const json& m, const std::string& at, uint32_t i) { find_needed(m, at, needed_[i]), tangents_[i] = needed_tangents(m, at); });
         lists_.each("meshes", [&](const json& mesh, const std::string& at, uint32_t) { this->mesh(mesh, at); });
     }
 
@@ -107,6 +117,7 @@ private:
     void attribute(const json& attributes, const std::string& name, const std::string& semantic, const std::string& at, bool of_target, uint64_t count) {
         const json* accessor = lists_.named(attributes, name.c_str(), "accessors");
         if (accessor && count && whole_member(*accessor, "count") != count) note_(at + "/" + name, "has not as many elements as the others");
+        if (name.starts_with('_') && accessor && whole_member(*accessor, "componentType") == 5125) note_(at + "/" + name, "has an accessor of a format that it cannot have");
         if (name.starts_with('_') || name.find(':') != name.npos) return;  // of applications and extensions
         const auto rule = kAttributes.find(semantic);
         if (rule == kAttributes.end() || (of_target && !*rule->second.of_targets)) return note_(at + "/" + name, "is no attribute of glTF");
@@ -136,6 +147,7 @@ private:
     void textures(const json& p, const json& attributes, const std::string& at) {
         const uint64_t material = whole_member(p, "material", UINT64_MAX);
         if (material >= needed_.size()) return;
+        if (!tangents_[material].empty() && !(attributes.contains("TANGENT") && attributes.contains("NORMAL"))) note_(at, "has no TANGENT, which " + tangents_[material] + " needs where there is no normalTexture");
         for (const NeededSet& needed : needed_[material])
             if (!attributes.contains(needed.set)) return note_(at, "has no " + needed.set + ", which " + needed.texture + " needs: where it is read, then at (0, 0)");
     }
@@ -144,6 +156,7 @@ private:
     const RuleNote& note_;
     const bool quantized_;
     std::vector<std::vector<NeededSet>> needed_;  // by material
+    std::vector<std::string> tangents_;           // as well
 };
 
 }  // namespace

@@ -17,15 +17,16 @@ constexpr double kRightAngle = 1.5707963268 * (1 + 1e-6);  // of a float that wa
 
 enum class Is : uint8_t { Text, Flag, Whole, Number, Texts, Wholes, Numbers, Object, Objects };
 
-enum : uint8_t { kNeeded = 1, kNotLow = 2 };  // must be there; is more than `low`
+enum : uint8_t { kNeeded = 1, kNotLow = 2, kOrZero = 4 };  // must be there; is more than `low`; may be zero as well
 
-/// A property of a kind of object. The kind of those inside of it is its own key, or `kind`.
+/// A property of a kind of object, with the kind of those inside of it. (What is referred to outside of extensions is checked where all of the file is walked through.)
 struct Property {
     Is is;
     double low = -kInfinity, high = kInfinity;
     size_t length = 0;  // of lists, where that is fixed
     uint8_t flags = 0;
     const char* kind = "";
+    const char* of = "";  // the list that a number names an element of
 };
 
 using Properties = std::map<std::string, Property, std::less<>>;
@@ -37,7 +38,10 @@ constexpr Property kColour{.is = Is::Numbers, .low = 0, .high = 1, .length = 3},
 
 constexpr Property object(const char* kind, uint8_t flags = 0) { return {.is = Is::Object, .flags = flags, .kind = kind}; }
 constexpr Property objects(const char* kind, uint8_t flags = 0) { return {.is = Is::Objects, .flags = flags, .kind = kind}; }
+constexpr Property index_of(const char* list, uint8_t flags = 0) { return {.is = Is::Whole, .flags = flags, .of = list}; }
 constexpr Property numbers(size_t length, double low = -kInfinity, double high = kInfinity) { return {.is = Is::Numbers, .low = low, .high = high, .length = length}; }
+
+constexpr Property kTexture = object("texture of an extension");
 
 /// Kinds of objects, as the specification has them (chapter 5); extensions by their names.
 const std::map<std::string, Properties, std::less<>> kKinds{
@@ -53,10 +57,10 @@ const std::map<std::string, Properties, std::less<>> kKinds{
     {"sparse values", {{"bufferView", kNeededIndex}, {"byteOffset", kIndex}}},
     {"animation", {{"channels", objects("channel", kNeeded)}, {"name", kText}, {"samplers", objects("animation sampler", kNeeded)}}},
     {"channel", {{"sampler", kNeededIndex}, {"target", object("target", kNeeded)}}},
-    {"target", {{"node", kIndex}, {"path", kNeededText}}},
+    {"target", {{"extensions", object("extensions")}, {"node", kIndex}, {"path", kNeededText}}},
     {"animation sampler", {{"input", kNeededIndex}, {"interpolation", kText}, {"output", kNeededIndex}}},
     {"buffer", {{"byteLength", kNeededCount}, {"name", kText}, {"uri", kText}}},
-    {"bufferView", {{"buffer", kNeededIndex}, {"byteLength", kNeededCount}, {"byteOffset", kIndex}, {"byteStride", {.is = Is::Whole, .low = 4, .high = 252}}, {"name", kText}, {"target", kIndex}}},
+    {"bufferView", {{"extensions", object("extensions")}, {"buffer", kNeededIndex}, {"byteLength", kNeededCount}, {"byteOffset", kIndex}, {"byteStride", {.is = Is::Whole, .low = 4, .high = 252}}, {"name", kText}, {"target", kIndex}}},
     {"camera", {{"name", kText}, {"orthographic", object("orthographic")}, {"perspective", object("perspective")}, {"type", kNeededText}}},
     {"orthographic", {{"xmag", {.is = Is::Number, .flags = kNeeded}}, {"ymag", {.is = Is::Number, .flags = kNeeded}}, {"zfar", {.is = Is::Number, .low = 0, .flags = kNeeded | kNotLow}},
                       {"znear", {.is = Is::Number, .low = 0, .flags = kNeeded}}}},
@@ -71,28 +75,46 @@ const std::map<std::string, Properties, std::less<>> kKinds{
     {"normalTexture", {{"extensions", object("extensions")}, {"index", kNeededIndex}, {"scale", kNumber}, {"texCoord", kIndex}}},
     {"occlusionTexture", {{"extensions", object("extensions")}, {"index", kNeededIndex}, {"strength", kUnit}, {"texCoord", kIndex}}},
     {"mesh", {{"name", kText}, {"primitives", objects("primitive", kNeeded)}, {"weights", kNumbers}}},
-    {"primitive", {{"attributes", object("attributes", kNeeded)}, {"indices", kIndex}, {"material", kIndex}, {"mode", {.is = Is::Whole, .low = 0, .high = 6}}, {"targets", objects("attributes")}}},
-    {"node", {{"camera", kIndex}, {"children", kIndices}, {"matrix", numbers(16)}, {"mesh", kIndex}, {"name", kText}, {"rotation", numbers(4, -1, 1)}, {"scale", numbers(3)}, {"skin", kIndex},
+    {"primitive", {{"extensions", object("extensions")}, {"attributes", object("attributes", kNeeded)}, {"indices", kIndex}, {"material", kIndex}, {"mode", {.is = Is::Whole, .low = 0, .high = 6}}, {"targets", objects("attributes")}}},
+    {"node", {{"extensions", object("extensions")}, {"camera", kIndex}, {"children", kIndices}, {"matrix", numbers(16)}, {"mesh", kIndex}, {"name", kText}, {"rotation", numbers(4, -1, 1)}, {"scale", numbers(3)}, {"skin", kIndex},
               {"translation", numbers(3)}, {"weights", kNumbers}}},
     {"sampler", {{"magFilter", kIndex}, {"minFilter", kIndex}, {"name", kText}, {"wrapS", kIndex}, {"wrapT", kIndex}}},
     {"scene", {{"name", kText}, {"nodes", kIndices}}},
     {"skin", {{"inverseBindMatrices", kIndex}, {"joints", {.is = Is::Wholes, .flags = kNeeded}}, {"name", kText}, {"skeleton", kIndex}}},
-    {"texture", {{"name", kText}, {"sampler", kIndex}, {"source", kIndex}}},
-    {"extensions", {{"KHR_lights_punctual", object("lights")}, {"KHR_materials_clearcoat", object("clearcoat")}, {"KHR_materials_dispersion", object("dispersion")},
-                    {"KHR_materials_emissive_strength", object("emissive strength")}, {"KHR_materials_iridescence", object("iridescence")}, {"KHR_materials_sheen", object("sheen")},
-                    {"KHR_materials_specular", object("specular")}, {"KHR_materials_transmission", object("transmission")}, {"KHR_materials_volume", object("volume")},
-                    {"KHR_texture_transform", object("texture transform")}}},
+    {"texture", {{"extensions", object("extensions")}, {"name", kText}, {"sampler", kIndex}, {"source", kIndex}}},
+    {"extensions", {{"EXT_meshopt_compression", object("meshopt compression")}, {"EXT_texture_avif", object("texture source")}, {"EXT_texture_webp", object("texture source")},
+                    {"KHR_animation_pointer", object("animation pointer")}, {"KHR_draco_mesh_compression", object("draco mesh compression")}, {"KHR_lights_punctual", object("lights")},
+                    {"KHR_materials_anisotropy", object("anisotropy")}, {"KHR_materials_clearcoat", object("clearcoat")},
+                    {"KHR_materials_diffuse_transmission", object("diffuse transmission")}, {"KHR_materials_dispersion", object("dispersion")},
+                    {"KHR_materials_emissive_strength", object("emissive strength")}, {"KHR_materials_ior", object("ior")}, {"KHR_materials_iridescence", object("iridescence")},
+                    {"KHR_materials_pbrSpecularGlossiness", object("specular glossiness")}, {"KHR_materials_sheen", object("sheen")}, {"KHR_materials_specular", object("specular")},
+                    {"KHR_materials_transmission", object("transmission")}, {"KHR_materials_variants", object("variants")}, {"KHR_materials_volume", object("volume")},
+                    {"KHR_node_visibility", object("visibility")}, {"KHR_texture_basisu", object("texture source")}, {"KHR_texture_transform", object("texture transform")}}},
+    {"texture of an extension", {{"extensions", object("extensions")}, {"index", index_of("textures", kNeeded)}, {"scale", kNumber}, {"texCoord", kIndex}}},
+    {"texture source", {{"source", index_of("images")}}},
+    {"meshopt compression", {{"buffer", index_of("buffers")}, {"fallback", kFlag}}},
+    {"animation pointer", {{"pointer", kNeededText}}},
+    {"draco mesh compression", {{"attributes", object("attributes", kNeeded)}, {"bufferView", index_of("bufferViews", kNeeded)}}},
+    {"variants", {{"mappings", objects("mapping")}, {"variants", objects("variant")}}},
+    {"variant", {{"name", kNeededText}}},
+    {"mapping", {{"material", index_of("materials", kNeeded)}, {"name", kText}, {"variants", {.is = Is::Wholes, .flags = kNeeded}}}},
+    {"visibility", {{"visible", kFlag}}},
     {"lights", {{"lights", objects("light")}}},
     {"light", {{"color", kColour}, {"intensity", kFromZero}, {"name", kText}, {"range", kAboveZero}, {"spot", object("spot")}, {"type", kNeededText}}},
     {"spot", {{"innerConeAngle", {.is = Is::Number, .low = 0, .high = kRightAngle}}, {"outerConeAngle", {.is = Is::Number, .low = 0, .high = kRightAngle, .flags = kNotLow}}}},
-    {"clearcoat", {{"clearcoatFactor", kUnit}, {"clearcoatRoughnessFactor", kUnit}}},
+    {"anisotropy", {{"anisotropyRotation", kNumber}, {"anisotropyStrength", kUnit}, {"anisotropyTexture", kTexture}}},
+    {"clearcoat", {{"clearcoatFactor", kUnit}, {"clearcoatNormalTexture", kTexture}, {"clearcoatRoughnessFactor", kUnit}, {"clearcoatRoughnessTexture", kTexture}, {"clearcoatTexture", kTexture}}},
+    {"diffuse transmission", {{"diffuseTransmissionColorFactor", numbers(3, 0)}, {"diffuseTransmissionColorTexture", kTexture}, {"diffuseTransmissionFactor", kUnit}, {"diffuseTransmissionTexture", kTexture}}},
     {"dispersion", {{"dispersion", kFromZero}}},
     {"emissive strength", {{"emissiveStrength", kFromZero}}},
-    {"iridescence", {{"iridescenceFactor", kUnit}, {"iridescenceIor", {.is = Is::Number, .low = 1}}, {"iridescenceThicknessMaximum", kFromZero}, {"iridescenceThicknessMinimum", kFromZero}}},
-    {"sheen", {{"sheenColorFactor", kColour}, {"sheenRoughnessFactor", kUnit}}},
-    {"specular", {{"specularColorFactor", numbers(3, 0)}, {"specularFactor", kUnit}}},
-    {"transmission", {{"transmissionFactor", kUnit}}},
-    {"volume", {{"attenuationColor", kColour}, {"attenuationDistance", kAboveZero}, {"thicknessFactor", kFromZero}}},
+    {"ior", {{"ior", {.is = Is::Number, .low = 1, .flags = kOrZero}}}},
+    {"iridescence", {{"iridescenceFactor", kUnit}, {"iridescenceIor", {.is = Is::Number, .low = 1}}, {"iridescenceTexture", kTexture}, {"iridescenceThicknessMaximum", kFromZero},
+                     {"iridescenceThicknessMinimum", kFromZero}, {"iridescenceThicknessTexture", kTexture}}},
+    {"sheen", {{"sheenColorFactor", kColour}, {"sheenColorTexture", kTexture}, {"sheenRoughnessFactor", kUnit}, {"sheenRoughnessTexture", kTexture}}},
+    {"specular", {{"specularColorFactor", numbers(3, 0)}, {"specularColorTexture", kTexture}, {"specularFactor", kUnit}, {"specularTexture", kTexture}}},
+    {"specular glossiness", {{"diffuseFactor", numbers(4, 0, 1)}, {"diffuseTexture", kTexture}, {"glossinessFactor", kUnit}, {"specularFactor", kColour}, {"specularGlossinessTexture", kTexture}}},
+    {"transmission", {{"transmissionFactor", kUnit}, {"transmissionTexture", kTexture}}},
+    {"volume", {{"attenuationColor", kColour}, {"attenuationDistance", kAboveZero}, {"thicknessFactor", kFromZero}, {"thicknessTexture", kTexture}}},
     {"texture transform", {{"offset", numbers(2)}, {"rotation", kNumber}, {"scale", numbers(2)}, {"texCoord", kIndex}}},
 };
 
@@ -127,7 +149,7 @@ std::optional<Is> element_of(Is list) {
 
 class Schema {
 public:
-    explicit Schema(const RuleNote& note) : note_(note) {}
+    Schema(const GltfLists& lists, const RuleNote& note) : lists_(lists), note_(note) {}
 
     void check(const json& object, const char* kind, const std::string& at) const {
         const auto properties = kKinds.find(kind);
@@ -144,6 +166,7 @@ private:
         if (!matches(value, property.is)) return note_(at, std::string("is not ") + name_of(property.is));
         if (property.is == Is::Object) return check(value, property.kind, at);
         if (property.is == Is::Objects) return GltfLists::each_of(value, at, [&](const json& element, const std::string& place, uint32_t) { check(element, property.kind, place); });
+        if (*property.of && *whole_number(value) >= lists_.count(property.of)) return note_(at, "names none of the " + std::to_string(lists_.count(property.of)) + " " + property.of);
         if (value.is_number()) return range(value.get<double>(), property, at);
         if (!value.is_array()) return;
         if (property.length && value.size() != property.length) return note_(at, "has not " + std::to_string(property.length) + " elements");
@@ -162,6 +185,7 @@ private:
     }
     void range(double number, const Property& property, const std::string& at) const {
         if (!std::isfinite(number)) return note_(at, "is not finite");
+        if (number == 0 && property.flags & kOrZero) return;
         if (number < property.low || (number == property.low && property.flags & kNotLow)) {
             note_(at, (property.flags & kNotLow ? "is not more than " : "is less than ") + decimal(property.low));
         } else if (number > property.high) {
@@ -174,11 +198,12 @@ private:
         return digits;
     }
 
+    const GltfLists& lists_;
     const RuleNote& note_;
 };
 
 }  // namespace
 
-void check_schema(const json& root, const RuleNote& note) { Schema(note).check(root, "glTF", ""); }
+void check_schema(const GltfLists& lists, const RuleNote& note) { Schema(lists, note).check(lists.root(), "glTF", ""); }
 
 }  // namespace vesper

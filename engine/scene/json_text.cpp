@@ -91,6 +91,16 @@ std::string json_pointer_token(std::string_view key) {
     return token;
 }
 
+std::string json_pointer_key(std::string_view token) {
+    std::string key;
+    for (size_t i = 0; i < token.size(); ++i) {
+        const char next = token[i] == '~' && i + 1 < token.size() ? token[i + 1] : ' ';
+        if (next == '0' || next == '1') ++i;
+        key += next == '0' ? '~' : next == '1' ? '/' : token[i];
+    }
+    return key;
+}
+
 void check_json_text(std::span<const uint8_t> text, const std::string& file, uint64_t most_values) {
     const auto nul = std::find(text.begin(), text.end(), uint8_t{0});
     if (std::any_of(nul, text.end(), [](uint8_t byte) { return byte != 0; }))

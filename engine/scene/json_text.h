@@ -10,6 +10,8 @@ namespace vesper {
 
 /// A JSON pointer's token for a key.
 std::string json_pointer_token(std::string_view key);
+/// The key of such a token.
+std::string json_pointer_key(std::string_view token);
 
 /// Throws Error, with file and place, if a NUL stands in the text with anything but more of them behind, which parsers take for the end,
 /// or an object has a key twice: which one counts is for no reader to say (RFC 8259, 4). So it does where there are more values than

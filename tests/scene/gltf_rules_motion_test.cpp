@@ -1,4 +1,6 @@
 // Rules of glTF for nodes, cameras, skins and animations, and for the types and ranges of all properties. SPDX-License-Identifier: MIT
+#include <cmath>
+
 #include "scene/broken_rules.h"
 
 namespace vesper::test {
@@ -6,12 +8,13 @@ namespace {
 
 using nlohmann::json;
 
-/// Two joints under a node, a camera, and keys of a node's translation.
-json moving(const std::vector<float>& times = {0, 1, 2}) {
+/// Two joints under a node, a camera, and keys of a node's translation. The last row of the second joint's matrix is another where it is stated.
+json moving(const std::vector<float>& times = {0, 1, 2}, float corner = 1) {
     GltfFile file;
     const size_t input = file.accessor(times, 5126, "SCALAR", 1), output = file.vec3({0, 0, 0, 1, 0, 0, 2, 0, 0});
     std::vector<float> matrices(32, 0);
     for (size_t i = 0; i < 32; i += i == 15 ? 1 : 5) matrices[i] = 1;
+    matrices[31] = corner;
     const size_t inverse = file.accessor(matrices, 5126, "MAT4", 16);
     file.root["accessors"][input]["min"] = {times[0]}, file.root["accessors"][input]["max"] = {times[2]};
     file.root["nodes"] = {{{"children", {1, 2}}, {"camera", 0}}, {{"matrix", {1, 0, 0, 0, 0, 0, 2, 0, 0, -1, 0, 0, 5, 0, 0, 1}}}, json::object()};
@@ -39,6 +42,8 @@ TEST(GltfMotionRules, WhatIsBrokenIsNotedWithItsPlace) {
         {"/skins/0/joints", {1, 1}, "/skins/0/joints: names something twice"},
         {"/skins/0/joints", nullptr, "/skins/0: has no joints"},
         {"/nodes/0/children", {1}, "/skins/0/joints: hang on no common node"},
+        {"/skins/0/skeleton", 1, "/skins/0/skeleton: is no node that all joints hang on"},
+        {"/nodes/3", {{"skin", 0}}, "/nodes/3: has no mesh to its skin"},
         {"/skins/0/inverseBindMatrices", 1, "/skins/0/inverseBindMatrices: has an accessor of a format that it cannot have"},
         {"/skins/0/joints", {0, 1, 2}, "/skins/0/inverseBindMatrices: has less than the 3 matrices of its joints"},
         {"/animations/0/channels/1", {{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}, "/animations/0/channels/1/target: moves what channel 0 moves"},
@@ -50,6 +55,72 @@ TEST(GltfMotionRules, WhatIsBrokenIsNotedWithItsPlace) {
     json whole = moving();
     whole["accessors"][0] = {{"bufferView", 0}, {"componentType", 5121}, {"count", 3}, {"type", "SCALAR"}, {"min", {0}}, {"max", {0}}};
     EXPECT_TRUE(mentions(broken(whole), "/animations/0/samplers/0/input: has an accessor of a format that it cannot have"));
+}
+
+TEST(GltfMotionRules, MatricesOfJointsAreLookedAt) {
+    EXPECT_EQ(broken(moving({0, 1, 2}, 0.5f)), std::vector<std::string>{"/accessors/2: holds matrices of joints whose last row is not 0 0 0 1"});
+    EXPECT_EQ(broken(moving({0, 1, 2}, NAN)), std::vector<std::string>{"/accessors/2: holds numbers that are not finite"});
+}
+
+// A skeleton is any node that all joints hang on, the one above them or one above that.
+TEST(GltfMotionRules, SkeletonsAreAboveTheirJoints) {
+    json root = moving();
+    root["nodes"].push_back({{"children", {0}}}), root["nodes"].push_back(json::object());
+    root["scenes"][0]["nodes"] = {3, 4};
+    for (const int above : {0, 3}) {
+        root["skins"][0]["skeleton"] = above;
+        EXPECT_EQ(broken(root), std::vector<std::string>{}) << above;
+    }
+    for (const int beside : {1, 4}) {
+        root["skins"][0]["skeleton"] = beside;
+        EXPECT_EQ(broken(root), std::vector<std::string>{"/skins/0/skeleton: is no node that all joints hang on"}) << beside;
+    }
+    root["skins"][0]["joints"] = {2}, root["skins"][0]["skeleton"] = 2;
+    EXPECT_EQ(broken(root), std::vector<std::string>{});
+}
+
+// Every node is above all that follow, and a joint: no step of a check may go over all of them.
+TEST(GltfMotionRules, DeepSkeletonsTakeNoTime) {
+    constexpr int kNodes = 100'000;
+    GltfFile file;
+    json& nodes = file.root["nodes"] = json::array();
+    json joints = json::array();
+    for (int i = 0; i < kNodes; ++i) nodes.push_back(i + 1 < kNodes ? json{{"children", {i + 1}}} : json::object()), joints.push_back(kNodes - 1 - i);
+    file.root["scenes"] = {{{"nodes", {0}}}};
+    file.root["skins"] = {{{"joints", joints}, {"skeleton", 0}}, {{"joints", std::move(joints)}, {"skeleton", 1}}};
+    EXPECT_EQ(broken(file.root), std::vector<std::string>{"/skins/1/skeleton: is no node that all joints hang on"});
+}
+
+TEST(GltfMotionRules, ScenesHaveTheJointsOfTheirMeshes) {
+    GltfFile file;
+    const size_t joints = file.accessor(std::vector<uint8_t>(12, 0), 5121, "VEC4", 4), weights = file.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4);
+    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}}}, {{"skin", 0}});
+    file.root["nodes"].push_back({{"children", {2}}}), file.root["nodes"].push_back(json::object());
+    file.root["skins"] = {{{"joints", {2}}}};
+    file.root["scenes"] = {{{"nodes", {1}}}, {{"nodes", {0, 1}}}};
+    file.text();
+    expect_broken(file.root, {{"/scenes/1/nodes", {0}, "/nodes/0/skin: has joints that are not in every scene of the node"}, {"/scenes/2", {{"nodes", {0}}}, "/nodes/0/skin: has joints that are not in"}});
+}
+
+TEST(GltfMotionRules, PointersLeadSomewhere) {
+    json root = moving();
+    root["extensionsUsed"].push_back("KHR_animation_pointer");
+    const auto target = [](const char* pointer) { return json{{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}; };
+    const auto set = [&](const json& to) { root["animations"][0]["channels"][0]["target"] = to; };
+    for (const char* there : {"/nodes/2/translation", "/materials/0/emissiveFactor", "/extensions/KHR_lights_punctual/lights/0/intensity", "/cameras/0/perspective/yfov"}) {
+        set(target(there));
+        EXPECT_EQ(broken(root), std::vector<std::string>{}) << there;
+    }
+    for (const char* nowhere : {"/nodes/3/translation", "/meshes/0/weights", "/extensions/KHR_lights_punctual/lights/1/intensity", "/materials/x", "nodes/0/scale", "", "/asset/version/0"}) {
+        set(target(nowhere));
+        EXPECT_EQ(broken(root), std::vector<std::string>{"/animations/0/channels/0/target/extensions/KHR_animation_pointer/pointer: leads nowhere"}) << nowhere;
+    }
+    set(target("/nodes/0/translation"));
+    expect_broken(root, {
+        {"/animations/0/channels/0/target/node", 0, "/animations/0/channels/0/target/node: stands beside a pointer"},
+        {"/animations/0/channels/0/target/path", "translation", "/animations/0/channels/0/target/path: is not pointer, and there is one"},
+        {"/animations/0/channels/0/target/extensions/KHR_animation_pointer/pointer", nullptr, "/KHR_animation_pointer: has no pointer"},
+    });
 }
 
 TEST(GltfSchemaRules, TypesAndRangesAreThoseOfTheSpecification) {

@@ -75,6 +75,8 @@ TEST(GltfPrimitiveRules, QuantizedAttributesNeedTheExtension) {
     EXPECT_EQ(broken(file.root), (std::vector<std::string>{"/meshes/0/primitives/0/attributes/NORMAL: has an accessor of a format that it cannot have",
                                                             "/meshes/0/primitives/0/attributes/POSITION: has an accessor of a format that it cannot have"}));
     file.root["extensionsUsed"] = {"KHR_mesh_quantization"};
+    EXPECT_EQ(broken(file.root), std::vector<std::string>{"/extensionsUsed: lists KHR_mesh_quantization, which extensionsRequired has to list too"});
+    file.root["extensionsRequired"] = {"KHR_mesh_quantization"};
     EXPECT_EQ(broken(file.root), std::vector<std::string>{});
     file.root["bufferViews"][normal].erase("byteStride");
     file.root["accessors"][normal]["count"] = 3;
@@ -87,6 +89,50 @@ TEST(GltfPrimitiveRules, NumbersAreLookedAt) {
     EXPECT_EQ(broken(Triangle{.tangents = {1, 0, 0, 1, 2, 0, 0, 1, 1, 0, 0, 1}}.root()), std::vector<std::string>{"/accessors/4: holds tangents that are not of length 1"});
     EXPECT_EQ(broken(Triangle{.tangents = {1, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1}}.root()), std::vector<std::string>{"/accessors/4: holds tangents with a sign that is neither 1 nor -1"});
     EXPECT_EQ(broken(Triangle{.changed = {2, 0}}.root()), std::vector<std::string>{"/accessors/0/sparse/indices: do not ascend"});
+}
+
+// Limits are those of the bytes, also where a byte of 255 means 1.
+TEST(GltfPrimitiveRules, LimitsAreOfStoredNumbers) {
+    GltfFile file;
+    const size_t colour = file.accessor(std::vector<uint8_t>{0, 0, 51, 255, 255, 0, 51, 255, 7, 0, 51, 255}, 5121, "VEC4", 4, true);
+    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}, {"COLOR_0", colour}}}});
+    file.root["accessors"][colour]["min"] = {0, 0, 51, 255}, file.root["accessors"][colour]["max"] = {255, 0, 51, 255};
+    file.text();
+    expect_broken(file.root, {
+        {"/accessors/0/max", {1, 0, 0.2, 1}, "/accessors/0/max: is not that of its numbers"},
+        {"/accessors/0/min/3", 254, "/accessors/0/min: is not that of its numbers"},
+    });
+}
+
+TEST(GltfPrimitiveRules, TheLastIndexOfAType) {
+    GltfFile file;
+    std::vector<float> many(3 * 256, 0.5f);
+    file.show({{"attributes", {{"POSITION", file.vec3(many)}}}, {"indices", file.accessor(std::vector<uint8_t>{0, 1, 255}, 5121, "SCALAR", 1)}});
+    file.text();
+    EXPECT_EQ(broken(file.root), std::vector<std::string>{"/accessors/1: holds the index 255, the last of its type, which is none"});
+    file.root["accessors"][1]["count"] = 2;
+    EXPECT_EQ(broken(file.root), std::vector<std::string>{});
+}
+
+TEST(GltfPrimitiveRules, OwnAttributesHaveNoLongIntegers) {
+    json root = Triangle{}.root();
+    root["accessors"].push_back({{"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}});
+    root["meshes"][0]["primitives"][0]["attributes"]["_OWN"] = 8;
+    expect_broken(root, {{"/accessors/8/componentType", 5125, "/meshes/0/primitives/0/attributes/_OWN: has an accessor of a format"}});
+}
+
+// A clear coat's own bumps and the direction of brushed metal lie along tangents; those of a normal texture can be found by it.
+TEST(GltfPrimitiveRules, TangentsAreThereWhereTheyAreNeeded) {
+    for (const auto& [extension, texture] : {std::pair{"KHR_materials_clearcoat", "clearcoatNormalTexture"}, std::pair{"KHR_materials_anisotropy", "anisotropyTexture"}}) {
+        json root = Triangle{}.root();
+        root["extensionsUsed"] = {extension};
+        root["materials"][0]["extensions"][extension][texture] = {{"index", 0}};
+        const std::string needs = "has no TANGENT, which /materials/0/extensions/" + std::string(extension) + "/" + texture;
+        expect_broken(root, {{"/meshes/0/primitives/0/attributes/TANGENT", nullptr, needs.c_str()}, {"/meshes/0/primitives/0/attributes/NORMAL", nullptr, needs.c_str()}});
+        root["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
+        root["materials"][0]["normalTexture"] = {{"index", 0}};
+        EXPECT_EQ(broken(root), std::vector<std::string>{});
+    }
 }
 
 TEST(GltfPrimitiveRules, AccessorsAndViewsAreForOneThing) {

@@ -15,12 +15,13 @@ std::optional<Channel::Path> path_of(GltfReader& reader, const JsonValue& target
     return std::nullopt;
 }
 
-Channel::Interpolation interpolation_of(const JsonValue& sampler) {
+Channel::Interpolation interpolation_of(GltfReader& reader, const JsonValue& sampler) {
     const std::string mode = sampler.text_or("interpolation", "LINEAR");
     if (mode == "LINEAR") return Channel::Interpolation::Linear;
     if (mode == "STEP") return Channel::Interpolation::Step;
     if (mode == "CUBICSPLINE") return Channel::Interpolation::Cubic;
-    sampler.at("interpolation").fail("is none of LINEAR, STEP and CUBICSPLINE");
+    reader.notes.add("an interpolation that glTF does not have is read as LINEAR");
+    return Channel::Interpolation::Linear;
 }
 
 void read_times(GltfReader& reader, Channel& channel, const JsonValue& input) {
@@ -65,7 +66,7 @@ void read_channel(GltfReader& reader, const JsonValue& animation, const JsonValu
     Channel channel;
     channel.node = moved;
     channel.path = *path;
-    channel.interpolation = interpolation_of(sampler);
+    channel.interpolation = interpolation_of(reader, sampler);
     read_times(reader, channel, sampler.at("input"));
     read_values(reader, channel, sampler.at("output"));
     reader.scene.channels.push_back(std::move(channel));

@@ -46,8 +46,10 @@ Light read_light(GltfReader& reader, const JsonValue& source) {
         light.kind = Light::Kind::Spot;
     else if (type == "directional")
         light.kind = Light::Kind::Directional;
-    else
-        source.at("type").fail("is none of point, spot and directional");
+    else {
+        reader.notes.add("a light of a type that glTF does not have is left out");
+        reader.unknown_lights.insert(static_cast<uint32_t>(reader.scene.lights.size()));
+    }
     const auto colour = source.find("color");
     normalise(light, source.number_or("intensity", 1, 0), colour ? rgb_of(*colour) : glm::vec3(1), source);
     if (light.kind == Light::Kind::Spot)

@@ -34,7 +34,7 @@ uint32_t read_image(GltfReader& reader, const JsonValue& reference) {
     return reader.image_of[index] = static_cast<uint32_t>(reader.scene.images.size() - 1);
 }
 
-Wrap wrap_of(const JsonValue& sampler, const char* key) {
+Wrap wrap_of(GltfReader& reader, const JsonValue& sampler, const char* key) {
     const auto mode = sampler.find(key);
     if (!mode) return Wrap::Repeat;
     switch (mode->integer()) {
@@ -45,7 +45,8 @@ Wrap wrap_of(const JsonValue& sampler, const char* key) {
         case 33071:
             return Wrap::Clamp;
         default:
-            mode->fail("is no wrapping mode of glTF");
+            reader.notes.add("a wrapping mode that glTF does not have is read as REPEAT");
+            return Wrap::Repeat;
     }
 }
 
@@ -73,8 +74,8 @@ UvMapping read_uv_mapping(const JsonValue& info) {
 
 void read_sampler(GltfReader& reader, const JsonValue& index, TextureUse& use) {
     const JsonValue sampler = reader.document.element("samplers", index);
-    use.wrap_u = wrap_of(sampler, "wrapS");
-    use.wrap_v = wrap_of(sampler, "wrapT");
+    use.wrap_u = wrap_of(reader, sampler, "wrapS");
+    use.wrap_v = wrap_of(reader, sampler, "wrapT");
     use.nearest = sampler.integer_or("magFilter", 9729) == 9728;
 }
 
@@ -169,7 +170,7 @@ void read_alpha(GltfReader& reader, Properties& p) {
     const std::string mode = p.material.text_or("alphaMode", "OPAQUE");
     p.made.double_sided = p.material.boolean_or("doubleSided", false);
     if (mode == "OPAQUE") return;
-    if (mode != "MASK" && mode != "BLEND") p.material.at("alphaMode").fail("is none of OPAQUE, MASK and BLEND");
+    if (mode != "MASK" && mode != "BLEND") return reader.notes.add("an alpha mode that glTF does not have is read as OPAQUE");
     if (mode == "BLEND" && p.made.emission != glm::vec3(0)) {
         // The glass of a lamp must not vanish while it shines.
         reader.notes.add("a material of alpha mode BLEND that emits is drawn opaque");

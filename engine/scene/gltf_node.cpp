@@ -103,12 +103,21 @@ uint32_t read_camera(GltfReader& reader, const JsonValue& reference, const std::
         reader.notes.add("an orthographic camera is left out");
         return kNone;
     }
-    if (type != "perspective") source.at("type").fail("is neither perspective nor orthographic");
+    if (type != "perspective") {
+        reader.notes.add("a camera of a type that glTF does not have is left out");
+        return kNone;
+    }
     const JsonValue perspective = source.at("perspective");
+    constexpr double kWidest = std::numbers::pi - 1e-4;
+    const double fov = perspective.at("yfov").number(1e-4);
+    if (fov > kWidest) {
+        reader.notes.add("a camera with a field of view of 180 degrees or more is left out");
+        return kNone;
+    }
     Camera camera;
     const std::string own_name = source.text_or("name", "");
     camera.name = own_name.empty() || shared ? node_name : own_name;
-    camera.vertical_fov = static_cast<float>(perspective.at("yfov").number(1e-4, std::numbers::pi - 1e-4));
+    camera.vertical_fov = static_cast<float>(fov);
     camera.near = static_cast<float>(perspective.at("znear").number(1e-6));
     reader.scene.cameras.push_back(camera);
     return static_cast<uint32_t>(reader.scene.cameras.size() - 1);
@@ -171,7 +180,7 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
     Node second;  // a node has one light: a measured one beside another becomes a child's
     if (extensions) {
         if (const auto light = extensions->find("KHR_lights_punctual"))
-            node.light = light->at("light").index(reader.punctual_lights, "lights");
+            if (const uint32_t used = light->at("light").index(reader.punctual_lights, "lights"); !reader.unknown_lights.contains(used)) node.light = used;
         if (const auto light = extensions->find("EXT_lights_ies"))
             (node.light == kNone ? node : second).light = read_measured_light(reader, *light);
     }

@@ -51,6 +51,7 @@ struct GltfReader {
     std::vector<uint32_t> mesh_of{}, node_of{}, image_of{};
     std::map<uint32_t, std::string> image_types{};  ///< of the pictures read: what their bytes are
     std::set<uint32_t> scaled_normals{};            ///< accessors whose normals are not of length 1
+    bool photometric = false;  ///< there is an extras block
     uint32_t default_material = kNone;
     uint32_t punctual_lights = 0;  ///< those of KHR_lights_punctual, the first of the scene's
     /// Scene light of a distribution, with its multiplier and colour.

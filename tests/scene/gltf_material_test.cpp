@@ -77,6 +77,20 @@ TEST(GltfMaterial, NotesWhatIsReadWithAChange) {
     EXPECT_FLOAT_EQ(old.scene.materials[0].roughness, 0.75f);
 }
 
+TEST(GltfMaterial, TakesDefaultsForValuesItDoesNotKnow) {
+    GltfFile file = with_material({{"alphaMode", "DITHER"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    add_texture(file, png_uri({10, 20, 30, 255}), {{"wrapS", 10496}, {"wrapT", 33071}});
+    const LoadedScene loaded = file.read();
+    const Material& m = loaded.scene.materials.at(0);
+    EXPECT_EQ(m.alpha, Material::Alpha::Opaque);
+    EXPECT_EQ(m.base_colour_texture.wrap_u, Wrap::Repeat);
+    EXPECT_EQ(m.base_colour_texture.wrap_v, Wrap::Clamp);
+    EXPECT_TRUE(mentions(loaded.notes, "an alpha mode that glTF does not have is read as OPAQUE"));
+    EXPECT_TRUE(mentions(loaded.notes, "a wrapping mode that glTF does not have is read as REPEAT"));
+    file.root["materials"][0]["alphaMode"] = 1;
+    EXPECT_TRUE(contains(file.complaint(), "/materials/0/alphaMode"));
+}
+
 TEST(GltfMaterial, ChoosesAndTransformsTextureCoordinates) {
     const json transform = {
         {"offset", {0.5, 0.25}}, {"scale", {2, 4}}, {"rotation", std::acos(-1) / 2}, {"texCoord", 1}};

@@ -69,6 +69,22 @@ TEST(GltfNode, NamesCameras) {
     EXPECT_TRUE(mentions(loaded.notes, "orthographic"));
 }
 
+// What is new to this version is left out; the others stay.
+TEST(GltfNode, LeavesOutCamerasThatItCannotHave) {
+    GltfFile file;
+    const auto lens = [](double fov) { return json{{"type", "perspective"}, {"perspective", {{"yfov", fov}, {"znear", 0.05}}}}; };
+    file.root["cameras"] = {{{"type", "fisheye"}}, lens(3.2), lens(3.1)};
+    for (int i = 0; i < 3; ++i) file.root["nodes"].push_back({{"camera", i}});
+    const LoadedScene loaded = file.read();
+    ASSERT_EQ(loaded.scene.cameras.size(), 1u);
+    EXPECT_EQ(loaded.scene.nodes[2].camera, 0u);
+    EXPECT_TRUE(loaded.scene.nodes[0].camera == kNone && loaded.scene.nodes[1].camera == kNone);
+    EXPECT_TRUE(mentions(loaded.notes, "a camera of a type that glTF does not have is left out"));
+    EXPECT_TRUE(mentions(loaded.notes, "a camera with a field of view of 180 degrees or more is left out"));
+    file.root["cameras"][1] = lens(-3);
+    EXPECT_TRUE(contains(file.complaint(), "/cameras/1/perspective/yfov"));
+}
+
 json lights(const json& list) { return {{"KHR_lights_punctual", {{"lights", list}}}}; }
 json light(int index) { return {{"extensions", {{"KHR_lights_punctual", {{"light", index}}}}}}; }
 
@@ -92,6 +108,19 @@ TEST(GltfLight, KeepsTheProductOfIntensityAndColour) {
     EXPECT_FLOAT_EQ(read[1].intensity, 1);  // the default
     EXPECT_EQ(read[2].kind, Light::Kind::Directional);
     EXPECT_EQ(loaded.scene.nodes[2].light, 2u);
+}
+
+TEST(GltfLight, LeavesOutTypesThatItDoesNotKnow) {
+    GltfFile file;
+    file.root["extensions"] = lights({{{"type", "area"}, {"intensity", 100}}, {{"type", "point"}, {"intensity", 7}}});
+    file.root["nodes"] = {light(0), light(1)};
+    const LoadedScene loaded = file.read();
+    EXPECT_EQ(loaded.scene.nodes[0].light, kNone);
+    ASSERT_EQ(loaded.scene.nodes[1].light, 1u);
+    EXPECT_EQ(loaded.scene.lights[1].intensity, 7);
+    EXPECT_TRUE(mentions(loaded.notes, "a light of a type that glTF does not have is left out"));
+    file.root["extensions"] = lights(json::array({json{{"intensity", 100}}}));
+    EXPECT_TRUE(contains(file.complaint(), "has no \"type\""));
 }
 
 TEST(GltfLight, ReadsTheVesperBlock) {
@@ -133,7 +162,7 @@ Scene animated(const std::string& path, const std::string& mode, const std::vect
 TEST(GltfAnimation, InterpolatesStepAndLinear) {
     const std::vector<float> times = {1, 3}, values = {0, 0, 0, 8, 0, 0};
     const Scene linear = animated("translation", "LINEAR", times, values, 3),
-                step = animated("translation", "STEP", times, values, 3);
+                step = animated("translation", "STEP", times, values, 3), unknown = animated("translation", "WAVY", times, values, 3);
     const auto x = [](const Scene& scene, double seconds) { return world_transforms(scene, seconds)[0][3].x; };
     EXPECT_EQ(animation_length(linear), 3);
     for (const auto& [seconds, expected] :
@@ -141,6 +170,7 @@ TEST(GltfAnimation, InterpolatesStepAndLinear) {
         EXPECT_FLOAT_EQ(x(linear, seconds), expected) << seconds;
     EXPECT_EQ(x(step, 2.9), 0);
     EXPECT_EQ(x(step, 3), 8);
+    EXPECT_FLOAT_EQ(x(unknown, 1.5), 2);
 }
 
 TEST(GltfAnimation, TurnsAlongTheShortestWay) {

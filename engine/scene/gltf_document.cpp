@@ -163,7 +163,12 @@ std::span<const uint8_t> GltfDocument::buffer(uint32_t index) {
         if (!buffers_[index]) buffers_[index] = bytes_of_uri(*uri);
         bytes = *buffers_[index];
     } else {
-        if (!has_bytes(index)) buffer.fail("has neither a uri nor a binary chunk to lie in");
+        if (!has_bytes(index)) {
+            const auto extensions = buffer.find("extensions");
+            for (const char* compression : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+                if (extensions && extensions->find(compression)) buffer.fail("has no bytes but those of " + std::string(compression) + ", which is not read");
+            buffer.fail("has neither a uri nor a binary chunk to lie in");
+        }
         bytes = binary_chunk_;
     }
     if (length > bytes.size())

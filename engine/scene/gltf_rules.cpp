@@ -4,9 +4,12 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/lower.h"
+#include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "scene/gltf_reader.h"
 #include "scene/gltf_rules.h"
+#include "scene/uri.h"
 
 namespace vesper {
 namespace {
@@ -108,17 +111,18 @@ private:
         const auto found = holder.find("uri");
         if (found == holder.end() || !found->is_string()) return;
         const std::string& text = found->get_ref<const std::string&>();
-        if (text.starts_with("data:")) {
-            const std::string_view head = std::string_view(text).substr(0, text.find(','));
-            const std::string_view type = head.substr(5, head.find(';') - 5);
+        if (is_data_uri(text)) {
+            const size_t comma = text.find(',');
+            if (comma == text.npos) return;  // refused, or noted where it is read
+            const std::string head = lower(std::string_view(text).substr(0, comma)), type = head.substr(5, head.find(';') - 5);
             for (size_t i = head.find(';'); i != head.npos;) {  // parameters have values, but for the last
                 const size_t next = head.find(';', i + 1);
-                const std::string_view parameter = head.substr(i + 1, next - i - 1);
+                const std::string_view parameter = std::string_view(head).substr(i + 1, next - i - 1);
                 if (parameter.find('=') == parameter.npos && !(parameter == "base64" && next == head.npos)) note(at + "/uri", "has a type with a parameter that has no value");
                 i = next;
             }
-            if (std::find(types.begin(), types.end(), type) == types.end() && !(type.starts_with("image/") && extended_pictures())) note(at + "/uri", "has data of the type '" + std::string(type) + "'");
-            if (const size_t comma = text.find(','); comma != text.npos && text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=", comma + 1) != text.npos)
+            if (std::find(types.begin(), types.end(), type) == types.end() && !(type.starts_with("image/") && extended_pictures())) note(at + "/uri", "has data of the type '" + one_line(type, 60) + "'");
+            if (text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=", comma + 1) != text.npos)
                 note(at + "/uri", "has data that are not base64");
         } else if (text.find(':') < text.find('/') || text.find_first_of(" \\<>\"^`{|}") != text.npos || text.starts_with('/')) {
             note(at + "/uri", "is no relative URI");
@@ -144,7 +148,7 @@ private:
         const std::string_view stated = text_member(i, "mimeType"), text = text_member(i, "uri");
         if (type.empty()) return;
         if (!stated.empty() && stated != type) note(at + "/mimeType", "is not that of the picture, which is " + type);
-        if (text.starts_with("data:image/") && text.compare(5, type.size(), type) != 0) note(at + "/uri", "has not the type of the picture, which is " + type);
+        if (const std::string head = lower(text.substr(0, 5 + type.size())); head.starts_with("data:image/") && !head.ends_with(type)) note(at + "/uri", "has not the type of the picture, which is " + type);
     }
 
     void node(const json& n, const std::string& at) {

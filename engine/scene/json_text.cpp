@@ -102,6 +102,8 @@ std::string json_pointer_key(std::string_view token) {
 }
 
 void check_json_text(std::span<const uint8_t> text, const std::string& file, uint64_t most_values) {
+    if (text.size() > 1 && ((text[0] == 0xff && text[1] == 0xfe) || (text[0] == 0xfe && text[1] == 0xff) || (text[0] == 0) != (text[1] == 0)))
+        throw Error(file + ": is not valid JSON: it is no UTF-8, as it has to be, but looks like UTF-16");
     const auto nul = std::find(text.begin(), text.end(), uint8_t{0});
     if (std::any_of(nul, text.end(), [](uint8_t byte) { return byte != 0; }))
         throw Error(file + ": byte " + std::to_string(nul - text.begin() + 1) + ": not valid JSON: a NUL");

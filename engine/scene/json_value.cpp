@@ -53,7 +53,8 @@ JsonFile parse_json(std::span<const uint8_t> text, const std::string& name) {
     try {
         return JsonFile(file, nlohmann::json::parse(text.begin(), text.end()));
     } catch (const nlohmann::json::parse_error& error) {
-        throw Error(file + ": byte " + std::to_string(error.byte) + ": not valid JSON");
+        const bool encoding = std::string_view(error.what()).find("ill-formed UTF-8") != std::string_view::npos;
+        throw Error(file + ": byte " + std::to_string(error.byte) + ": not valid JSON" + (encoding ? ": is no UTF-8" : ""));
     } catch (const nlohmann::json::exception& error) {  // a number beyond double
         throw Error(file + ": not valid JSON: " + one_line(error.what()));
     }

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "base/lower.h"
 #include "io/atomic_file.h"
 
 namespace vesper {
@@ -42,15 +43,16 @@ std::vector<uint8_t> base64_decoded(std::string_view text) {
     for (size_t i = 0; i < kDigits.size(); ++i) value[static_cast<uint8_t>(kDigits[i])] = static_cast<int8_t>(i);
     value['-'] = 62, value['_'] = 63;
     while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+    for (const char c : text)
+        if (value[static_cast<uint8_t>(c)] < 0)
+            throw Error("base64 data contains " + std::string(c == '\n' || c == '\r' ? "a line break" : c == ' ' ? "a space" : "a character that is none of its digits"));
     if (text.size() % 4 == 1) throw Error("base64 data is cut off");
     std::vector<uint8_t> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     uint32_t bits = 0;
     int count = 0;
     for (const char c : text) {
-        const int8_t digit = value[static_cast<uint8_t>(c)];
-        if (digit < 0) throw Error("base64 data contains a character that is none of its digits");
-        bits = bits << 6 | static_cast<uint32_t>(digit);
+        bits = bits << 6 | static_cast<uint32_t>(value[static_cast<uint8_t>(c)]);
         count += 6;
         if (count >= 8) {
             count -= 8;
@@ -71,14 +73,14 @@ bool has_scheme(const std::string& uri) {
 }  // namespace
 
 bool is_data_uri(std::string_view uri) {
-    return uri.size() >= 5 && (uri[0] == 'd' || uri[0] == 'D') && uri.substr(1, 4) == "ata:";
+    return lower(uri.substr(0, 5)) == "data:";
 }
 
 std::vector<uint8_t> decode_data_uri(std::string_view uri) {
     const size_t comma = uri.find(',');
     if (comma == std::string_view::npos) throw Error("data URI without a comma");
     const std::string_view head = uri.substr(0, comma), body = uri.substr(comma + 1);
-    if (head.ends_with(";base64"))
+    if (constexpr std::string_view kMark = ";base64"; head.size() >= kMark.size() && lower(head.substr(head.size() - kMark.size())) == kMark)
         return body.find('%') == std::string_view::npos ? base64_decoded(body) : base64_decoded(percent_decoded(body));
     const std::string bytes = percent_decoded(body);
     return {bytes.begin(), bytes.end()};
@@ -105,7 +107,7 @@ std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std
     if (uri.empty()) throw Error("empty URI");
     if (decoded.find('\0') != std::string::npos) throw Error("URI contains a zero byte");
     if (has_scheme(uri))
-        throw Error("URI '" + one_line(uri) + "' is not a relative path: only files beside this one are read");
+        throw Error("URI '" + one_line(uri, 80) + "' is not a relative path: only files beside this one are read");
     for (const std::string& path : {uri, decoded})
         if (path[0] == '/' || path[0] == '\\')
             throw Error("URI '" + one_line(uri) + "' is an absolute path: only files beside this one are read");

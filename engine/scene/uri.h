@@ -10,7 +10,7 @@
 
 namespace vesper {
 
-/// Whether the URI holds its bytes itself ("data:...").
+/// Whether the URI holds its bytes itself ("data:...", in small or capital letters).
 bool is_data_uri(std::string_view uri);
 
 /// The bytes of a data URI, base64 or percent-encoded. Throws Error (reason only).

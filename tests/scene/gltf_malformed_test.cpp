@@ -181,6 +181,26 @@ TEST(GltfMalformed, RefusesNestingWithoutEnd) {
                          "not valid JSON"));
 }
 
+// Buffers that only a compression fills are no fault of the file.
+TEST(GltfMalformed, NamesTheExtensionThatBuffersNeed) {
+    GltfFile file = triangle();
+    file.text();
+    file.bytes.clear();  // or the buffer is written again
+    file.root["buffers"][0].erase("uri");
+    EXPECT_TRUE(contains(file.complaint(), "neither a uri nor a binary chunk"));
+    file.root["buffers"][0]["extensions"]["EXT_meshopt_compression"]["fallback"] = true;
+    EXPECT_TRUE(contains(file.complaint(), "/buffers/0: has no bytes but those of EXT_meshopt_compression, which is not read"));
+}
+
+TEST(GltfMalformed, SaysWhatIsNoUtf8) {
+    const TempFolder folder;
+    const auto complaint = [&](const std::string& text) { return complaint_of([&] { read_gltf(folder.write("x.gltf", text)); }); };
+    EXPECT_TRUE(contains(complaint("{\"asset\":{\"version\":\"2.0\",\"copyright\":\"M\xfcller\"}}"), "x.gltf: byte 41: not valid JSON: is no UTF-8"));
+    for (const std::string& begins : {std::string("\xff\xfe{\0", 4), std::string("\xfe\xff\0{", 4), std::string("{\0}\0", 4), std::string("\0{\0}", 4)})
+        EXPECT_TRUE(contains(complaint(begins), "looks like UTF-16"));
+    EXPECT_FALSE(contains(complaint("{\"asset\" \"M\xc3\xbcller\"}"), "UTF"));
+}
+
 TEST(GltfMalformed, RefusesFilesThatAreNone) {
     const TempFolder folder;
     EXPECT_THROW(read_gltf(folder / "missing.gltf"), Error);

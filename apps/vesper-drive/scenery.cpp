@@ -16,7 +16,7 @@
 #include "road_world.h"
 #include "scene/colour.h"
 #include "scene/convert.h"
-#include "scene/gltf.h"
+#include "scene_notes.h"
 #include "simulation/daylight.h"
 
 namespace vesper {
@@ -97,12 +97,12 @@ Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scen
     } else if (extension == ".json") {
         WorldFile world = read_world(file);
         LoadedScene loaded = load(world.scene, world.photometry);
-        scene_ = std::move(loaded.scene), notes_ = std::move(loaded.notes);
+        notes_ = notes_of(loaded, world.scene.string()), scene_ = std::move(loaded.scene);
         scene_.name = world.scene.string();
         adopt(std::move(world));
     } else if (extension == ".gltf" || extension == ".glb") {
         LoadedScene loaded = load(file, {});
-        scene_ = std::move(loaded.scene), notes_ = std::move(loaded.notes);
+        notes_ = notes_of(loaded, file.string()), scene_ = std::move(loaded.scene);
         scene_.name = file.string();
         adopt(plain_world(scene_));
     } else {

@@ -15,7 +15,7 @@
 #include "picture_arguments.h"
 #include "progress.h"
 #include "renderer.h"
-#include "scene/gltf.h"
+#include "scene_notes.h"
 #include "statistics.h"
 #include "tone_arguments.h"
 #include "tone_log.h"
@@ -203,6 +203,7 @@ void run(RenderArguments& arguments) {
         const Frame frame = renderer.render(arguments.settings, view, moment, step,
                                             {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
+        if (const std::string note = photometry_note(loaded, arguments.scene); index == 0 && !note.empty()) std::fprintf(stderr, "note: %s\n", note.c_str());
         GlareReport glare;
         if (outputs.scene && !ldr) glare = glare_of(arguments.glare, arguments.settings, frame, angles_of(view), frame.outside);
         write_outputs(arguments, device, view, frame, glare, index, seconds);

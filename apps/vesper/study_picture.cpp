@@ -10,7 +10,7 @@
 #include "io/atomic_file.h"
 #include "picture_arguments.h"
 #include "renderer.h"
-#include "scene/gltf.h"
+#include "scene_notes.h"
 #include "shared/photometry.h"
 
 namespace vesper {
@@ -22,7 +22,7 @@ bool is_scene(const std::string& name) { return name.ends_with(".gltf") || name.
 StudyPicture rendered(const PictureSource& arguments, Device& device, const ToneChainSettings& settings, const std::string& input) {
     const VkExtent2D extent = parse_size(arguments.size);
     LoadedScene loaded = read_gltf(input);
-    for (const std::string& note : loaded.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+    for (const std::string& note : notes_of(loaded, input)) std::fprintf(stderr, "note: %s\n", note.c_str());
     loaded.scene.name = input;
     const SceneFrame frame{world_transforms(loaded.scene, arguments.start)};
     const View view = camera_view(loaded.scene, frame, arguments.camera, extent);

@@ -70,7 +70,7 @@ LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limi
         GltfDocument document(file, limits);
         GltfReader reader{.document = document, .limits = limits};
         read_all(reader);
-        return {std::move(reader.scene), reader.notes.lines()};
+        return {std::move(reader.scene), reader.notes.lines(), reader.photometric};
     } catch (const std::bad_alloc&) {
         throw OutOfHostMemory(one_line(file.string()) + ": not enough memory");
     }

@@ -27,6 +27,7 @@ struct SceneLimits {
 struct LoadedScene {
     Scene scene;
     std::vector<std::string> notes;  ///< what was left out or read with a change, one line each
+    bool photometric = false;        ///< whether the file has the vesper extras block, as `convert` writes it
 };
 
 /// Reads a scene: meshes, materials, node tree, cameras, KHR_lights_punctual (cd), EXT_lights_ies,

@@ -112,6 +112,7 @@ void read_photometry_block(GltfReader& reader) {
     const auto extras = reader.document.root().find("extras");
     const auto block = extras && extras->json().is_object() ? extras->find("vesper") : std::nullopt;
     if (!block) return;
+    reader.photometric = true;
     const JsonValue version = block->at("version");
     if (version.integer() != 1)
         version.fail("vesper extras of version " + std::to_string(version.integer()) +

@@ -53,6 +53,7 @@ struct GltfReader {
     std::set<uint32_t> scaled_normals{};            ///< accessors whose normals are not of length 1
     bool photometric = false;  ///< there is an extras block
     uint32_t default_material = kNone;
+    std::set<uint32_t> unknown_lights{};  ///< of a type that glTF does not have: no node shows them
     uint32_t punctual_lights = 0;  ///< those of KHR_lights_punctual, the first of the scene's
     /// Scene light of a distribution, with its multiplier and colour.
     std::map<std::tuple<uint32_t, float, float, float, float>, uint32_t> measured_lights{};

@@ -55,6 +55,16 @@ TEST_F(Program, WritesBothKindsOfPictures) {
     EXPECT_NE(text_of(folder / "out.txt").find("gbuffer"), std::string::npos);
 }
 
+// Who forgot to convert a scene is told; who did not is not.
+TEST_F(Program, SaysWhereThereIsNoPhotometry) {
+    ASSERT_EQ(render("-o a.png"), 0) << said;
+    EXPECT_TRUE(said.starts_with("note: empty.gltf has no photometry: read as plain glTF")) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    std::ofstream(folder / "empty.gltf") << R"({"asset":{"version":"2.0"},"extras":{"vesper":{"version":1}}})";
+    ASSERT_EQ(render("-o a.png"), 0) << said;
+    EXPECT_EQ(said, "");
+}
+
 TEST_F(Program, DrawsLampsThatHaveAnOpening) {
     for (const bool opening : {true, false}) {
         std::ofstream(folder / "empty.gltf")

@@ -132,7 +132,9 @@ TEST(GltfLight, ReadsTheVesperBlock) {
                                      {"ambient", {{"illuminance_lx", 0.4}, {"colour", {2, 2, 2}}}},
                                      {"sky", {{"luminance_cd_m2", 0.02}}},
                                      {"lobes", {{{"light", 0}, {"type", "cosine_power"}, {"exponent", 250}}}}};
-    const Scene scene = file.read().scene;
+    const LoadedScene loaded = file.read();
+    const Scene& scene = loaded.scene;
+    EXPECT_TRUE(loaded.photometric);
     EXPECT_EQ(scene.transfer.kind, Transfer::Kind::Gamma);
     EXPECT_FLOAT_EQ(scene.ambient_illuminance, 0.4f);
     EXPECT_NEAR(luminance(scene.ambient_colour), 1, 1e-6);
@@ -168,9 +170,9 @@ TEST(GltfAnimation, InterpolatesStepAndLinear) {
     for (const auto& [seconds, expected] :
          std::vector<std::pair<double, float>>{{0, 0}, {1, 0}, {1.5, 2}, {2, 4}, {3, 8}, {9, 8}})
         EXPECT_FLOAT_EQ(x(linear, seconds), expected) << seconds;
+    EXPECT_FLOAT_EQ(x(unknown, 1.5), 2);
     EXPECT_EQ(x(step, 2.9), 0);
     EXPECT_EQ(x(step, 3), 8);
-    EXPECT_FLOAT_EQ(x(unknown, 1.5), 2);
 }
 
 TEST(GltfAnimation, TurnsAlongTheShortestWay) {

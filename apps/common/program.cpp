@@ -10,6 +10,7 @@
 #endif
 
 #include "base/error.h"
+#include "io/atomic_file.h"
 
 namespace vesper {
 namespace {
@@ -35,7 +36,7 @@ int run_program(CLI::App& program, int argc, char** argv) {
         if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
         std::string message = error.what();
         std::replace(message.begin(), message.end(), '\n', ' ');
-        std::fprintf(stderr, "%s: %s (--help shows what is possible)\n", name.c_str(), message.c_str());
+        std::fprintf(stderr, "%s: %s (--help shows what is possible)\n", name.c_str(), one_line(message, 1000).c_str());
         return kBadInput;
     } catch (const Error& error) {
         std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());

@@ -27,7 +27,7 @@ struct ConvertArguments {
     std::string input, photometry, output;
     bool srgb = false;
     StreetLampOptions lamps;
-    std::string luminaire;
+    std::string side = "auto", luminaire;
     std::vector<const CLI::Option*> for_databases, for_lamps;
 };
 
@@ -49,7 +49,7 @@ void run_roads(const ConvertArguments& arguments) {
     const std::string output = arguments.output.empty() ? input.stem().string() + ".gltf" : arguments.output;
     LitRoadOptions options;
     for (const CLI::Option* option : arguments.for_lamps)
-        if (option->count() > 0) options.lamps = arguments.lamps;
+        if (option->count() > 0) options.lamps = arguments.lamps, options.lamps->side = kSides.at(arguments.side);
     if (!arguments.luminaire.empty()) options.lamps->luminaire = read_distribution(arguments.luminaire);
     const RoadNetwork network = read_opendrive(input);
     const LitRoads lit = in_file(arguments.input, [&] { return lit_roads(network, options); });
@@ -91,8 +91,7 @@ void add_convert(CLI::App& program) {
                         ->add_option("--lamp-height", a->lamps.height,
                                      "Roads: m, of the light points (default: 8, up to 12 on wide roads)")
                         ->check(CLI::Range(2.0, 60.0)),
-                    command->add_option("--lamp-side", a->lamps.side, "Roads: auto, right, left, both, alternating")
-                        ->transform(CLI::CheckedTransformer(kSides)),
+                    command->add_option("--lamp-side", a->side, "Roads: on which side of the way")->check(CLI::IsMember(kSides)),
                     command->add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
                         ->check(CLI::Range(0.1, 20.0)),
                     command->add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};

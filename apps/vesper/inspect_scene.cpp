@@ -2,6 +2,7 @@
 
 #include "arguments.h"
 #include "inspect.h"
+#include "io/atomic_file.h"
 #include "scene/colour.h"
 #include "scene/gltf.h"
 #include "scene/scene_report.h"
@@ -31,16 +32,16 @@ std::string lamps_text(const SceneReport& report) {
     for (const LampReport& lamp : report.lamps) {
         number += lamp.number;
         if (lamp.kind == Light::Kind::Directional) {
-            text += column(lamp.name, 26) + format("  %-12s %7zu   %10.4g lx\n", name_of(lamp.kind), lamp.number, lamp.candela);
+            text += column(one_line(lamp.name), 26) + format("  %-12s %7zu   %10.4g lx\n", name_of(lamp.kind), lamp.number, lamp.candela);
             continue;
         }
-        text += column(lamp.name, 26) + format("  %-12s %7zu %10.4g %10.4g  ", name_of(lamp.kind), lamp.number, lamp.candela, lamp.lumens);
+        text += column(one_line(lamp.name), 26) + format("  %-12s %7zu %10.4g %10.4g  ", name_of(lamp.kind), lamp.number, lamp.candela, lamp.lumens);
         text += column(colour_text(lamp.colour), 14) + " " + height_text(lamp) + "\n";
     }
     return text + format("%zu lamps, %.4g lm together; heights are above the lowest surface under a lamp\n", number, report.lumens);
 }
 
-std::string picture_text(const MaterialReport& m) { return m.picture + format(", mean %.4g", m.mean_emission); }
+std::string picture_text(const MaterialReport& m) { return one_line(m.picture) + format(", mean %.4g", m.mean_emission); }
 
 std::string materials_text(const SceneReport& report) {
     std::vector<const MaterialReport*> sorted;
@@ -49,9 +50,9 @@ std::string materials_text(const SceneReport& report) {
     std::string text = "\n" + column("material", 30) + "    area, m2  reflectance  rough  metal  emits cd/m2  r-table or picture\n";
     for (size_t i = 0; i < std::min(sorted.size(), kMostRows); ++i) {
         const MaterialReport& m = *sorted[i];
-        text += column(m.name, 30) + format("  %10.4g  %6.3f %-4s  %5.2f  %5.2f  %11s  %s\n", m.area, m.reflectance, m.textured ? "(t)" : "",
+        text += column(one_line(m.name), 30) + format("  %10.4g  %6.3f %-4s  %5.2f  %5.2f  %11s  %s\n", m.area, m.reflectance, m.textured ? "(t)" : "",
                                             m.roughness, m.metallic, m.emission > 0 ? format("%.4g", m.emission).c_str() : "",
-                                            m.picture.empty() ? m.road_table.c_str() : picture_text(m).c_str());
+                                            m.picture.empty() ? one_line(m.road_table).c_str() : picture_text(m).c_str());
     }
     if (sorted.size() > kMostRows) text += format("... and %zu smaller ones (--json has them)\n", sorted.size() - kMostRows);
     return text + format("(t) mean of a texture. Diffuse reflectance by area: %.3f\n", report.mean_reflectance);
@@ -107,7 +108,7 @@ Inspection inspect_scene(const InspectArguments& arguments) {
                    static_cast<double>(scene.sky_luminance));
     text += scene.transfer.kind == Transfer::Kind::Gamma ? format("T^%.3g\n", static_cast<double>(scene.transfer.gamma)) : "sRGB\n";
     text += "cameras: ";
-    for (size_t i = 0; i < report.cameras.size(); ++i) text += (i ? ", " : "") + report.cameras[i];
+    for (size_t i = 0; i < report.cameras.size(); ++i) text += (i ? ", " : "") + one_line(report.cameras[i]);
     text += report.cameras.empty() ? "none\n" : "\n";
     text += lamps_text(report) + materials_text(report);
     for (const std::string& note : loaded.notes) text += (&note == loaded.notes.data() ? "\nread with a change:\n  " : "  ") + note + "\n";

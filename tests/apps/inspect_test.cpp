@@ -72,6 +72,25 @@ TEST_F(Inspect, AScene) {
     EXPECT_NEAR(night["luminous_flux_lm"].get<double>(), 12566 * lamp["number"].get<double>(), 200);
 }
 
+// Names of others in a table: no control characters, and one line for each.
+TEST_F(Inspect, NamesAreShownAsText) {
+    const std::string name = "a\x1b[31m\nb";
+    GltfFile file;
+    file.root["materials"] = {{{"name", name}}};
+    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}}}, {"material", 0}}, {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    file.root["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+    file.root["nodes"].push_back({{"camera", 0}});
+    file.root["cameras"] = {{{"type", "perspective"}, {"name", name}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", name}}, {{"type", "directional"}, {"name", name}}};
+    folder.write("a.gltf", file.text());
+    ASSERT_EQ(inspect("a.gltf --json a.json"), 0) << said;
+    EXPECT_EQ(printed.find('\x1b'), std::string::npos) << printed;
+    EXPECT_EQ(printed.find("\nb"), std::string::npos) << printed;
+    EXPECT_EQ(json("a.json")["materials"][0]["name"], name);
+    EXPECT_EQ(json("a.json")["cameras"][0], name);
+}
+
 TEST_F(Inspect, ASourceThatIsAPicture) {
     HdrImage image{.width = 2, .height = 1, .rgb = {100, 100, 100, 700, 700, 700}, .white_luminance = 1};
     write_exr(folder / "sign.exr", image);

@@ -17,7 +17,6 @@
 namespace vesper {
 namespace {
 
-constexpr double kUsualSpeed = 50 / 3.6;  // m/s, where a road states none
 constexpr size_t kMostCourses = 64, kTraffic = 8;
 constexpr double kTrafficGap = 60;        // m
 constexpr double kOffRoad = 3;            // m beyond the edge of the nearest lane
@@ -27,18 +26,23 @@ constexpr double kMostOffNoted = 0.05, kMostOff = 0.5;
 // A way over lanes as one line.
 std::optional<Course> course_of(const LaneGraph& graph, const std::vector<uint32_t>& way) {
     std::vector<glm::dvec3> points;
-    double width = 3.5, speed = 0;
+    std::vector<double> limits;  // m/s from each point on
+    const double width = std::max(graph.lanes()[way.front()].poses.front().width, 2.0);
     for (const uint32_t index : way) {
         const Lane& lane = graph.lanes()[index];
-        for (const LanePose& pose : lane.poses)
-            if (points.empty() || std::hypot(pose.position.x - points.back().x, pose.position.z - points.back().z) > 0.2) points.push_back(pose.position);
-        if (speed == 0) speed = lane.speed_limit, width = std::max(lane.poses.front().width, 2.0);
+        for (const LanePose& pose : lane.poses) {
+            const double limit = allowed_speed(lane, pose, limits.empty() ? 0 : limits.back());
+            if (points.empty() || std::hypot(pose.position.x - points.back().x, pose.position.z - points.back().z) > 0.2)
+                points.push_back(pose.position), limits.push_back(limit);
+            else
+                limits.back() = limit;  // where one lane ends and the next begins
+        }
     }
     if (points.size() < 2) return std::nullopt;
     const auto& next = graph.lanes()[way.back()].successors;
     const bool closed = std::find(next.begin(), next.end(), way.front()) != next.end();
-    if (closed && std::hypot(points.front().x - points.back().x, points.front().z - points.back().z) < 0.2) points.pop_back();
-    return Course(graph.lanes()[way.front()].name, std::move(points), width, speed > 0 ? speed : kUsualSpeed, closed);
+    if (closed && std::hypot(points.front().x - points.back().x, points.front().z - points.back().z) < 0.2) points.pop_back(), limits.pop_back();
+    return Course(graph.lanes()[way.front()].name, std::move(points), width, std::move(limits), closed);
 }
 
 // Ways from every lane that none leads to, and from the first of what these leave out; the longest first.

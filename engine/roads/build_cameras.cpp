@@ -12,8 +12,7 @@ namespace vesper {
 namespace {
 
 constexpr float kView = 0.6435f;        // rad, 36.87 degrees, as the Rivoli driver's
-constexpr double kTown = 50 / 3.6;      // m/s where no limit is stated
-constexpr double kFastest = 130 / 3.6;  // m/s
+constexpr double kFastest = 130 / 3.6;  // m/s, of allowed_speed
 constexpr double kSideways = 2;         // m/s^2 in bends
 constexpr double kBraking = 1.5;        // m/s^2
 constexpr double kKeyEvery = 0.1;       // s
@@ -51,13 +50,13 @@ std::vector<uint32_t> longest_way(const LaneGraph& graph) {
 /// A pose every metre, and how fast a careful driver is there.
 std::vector<WayPoint> drive_along(const LaneGraph& graph, const std::vector<uint32_t>& way) {
     std::vector<WayPoint> points;
-    double begin = 0;
+    double begin = 0, limit = 0;
     for (const uint32_t index : way) {
         const Lane& lane = graph.lanes()[index];
-        const double limit = std::min(lane.speed_limit > 0 ? lane.speed_limit : kTown, kFastest);
         double along = begin;
         for (; along < lane.length; along += 1) {
             WayPoint point{graph.pose(index, along)};
+            limit = allowed_speed(lane, point.pose, limit);
             point.speed = std::min(limit, std::sqrt(kSideways / std::max(std::abs(point.pose.curvature), 1e-4)));
             points.push_back(point);
         }

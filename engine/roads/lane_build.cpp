@@ -16,6 +16,9 @@ constexpr double kLongest = 5;      // m
 constexpr double kNarrowest = 0.1;  // m; a lane that never is wider is none
 constexpr double kJoint = 3;        // m; links further than this lead nowhere
 constexpr double kMeet = 0.3;       // m, and within 20 degrees
+constexpr double kSameStation = 0.05;  // m
+constexpr size_t kMostFollowers = 64;    // of one lane; crossings have five
+constexpr size_t kMostLooks = 50'000'000;  // at lanes that may follow though nothing says so
 constexpr size_t kMaxPoses = 20'000'000;
 
 bool is_wanted(LaneType type) {
@@ -39,17 +42,36 @@ struct Builder {
         if (from == kNoLane || to == kNoLane) return;
         if (glm::distance(lanes[from].poses.back().position, lanes[to].poses.front().position) > kJoint) return;
         auto& after = lanes[from].successors;
-        if (std::find(after.begin(), after.end(), to) != after.end()) return;
+        if (after.size() >= kMostFollowers || std::find(after.begin(), after.end(), to) != after.end()) return;
         after.push_back(to);
         lanes[to].predecessors.push_back(from);
     }
 };
 
 double limit_at(const std::vector<SpeedLimit>& limits, double s) {
-    double found = 0;
-    for (const SpeedLimit& each : limits)
-        if (each.s <= s + 1e-6) found = each.limit;
-    return found;
+    const auto after = std::upper_bound(limits.begin(), limits.end(), s + 1e-6,
+                                        [](double at, const SpeedLimit& each) { return at < each.s; });
+    return after == limits.begin() ? 0 : (after - 1)->limit;
+}
+
+/// The stations and where the limits change, but for what is nearer than kSameStation to another.
+std::vector<double> with_limits(const std::vector<double>& stations, const std::vector<SpeedLimit>& of_lane,
+                                const std::vector<SpeedLimit>& of_road) {
+    std::vector<double> changes, all = stations;
+    for (const auto* limits : {&of_lane, &of_road})
+        for (auto each = std::upper_bound(limits->begin(), limits->end(), stations.front(),
+                                          [](double at, const SpeedLimit& limit) { return at < limit.s; });
+             each != limits->end() && each->s < stations.back(); ++each)
+            changes.push_back(each->s);
+    std::sort(changes.begin(), changes.end());
+    double last = stations.front();
+    for (const double s : changes) {
+        const auto next = std::lower_bound(stations.begin(), stations.end(), s);
+        if (*next - s < kSameStation || s - std::max(*(next - 1), last) < kSameStation) continue;
+        all.push_back(last = s);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
 }
 
 /// Distances, directions and bends of a polyline of positions.
@@ -89,9 +111,10 @@ void finish(Lane& lane) {
 }
 
 void add_lane(Builder& builder, uint32_t road_index, uint32_t section_index, const RoadLane& from, bool forwards,
-              const std::vector<double>& stations) {
+              const std::vector<double>& of_section) {
     const Road& road = builder.network.roads[road_index];
     const LaneSection& section = road.sections[section_index];
+    const std::vector<double> stations = with_limits(of_section, from.speeds, road.speeds);
     Lane lane;
     lane.road = road_index, lane.section = section_index, lane.id = from.id, lane.type = from.type;
     lane.in_junction = road.junction != kNoRoad;
@@ -100,7 +123,8 @@ void add_lane(Builder& builder, uint32_t road_index, uint32_t section_index, con
     builder.poses += stations.size();
     if (builder.poses > kMaxPoses) throw Error("the lanes have more points than " + std::to_string(kMaxPoses));
     double widest = 0;
-    for (const double s : stations) {
+    for (size_t i = 0; i < stations.size(); ++i) {
+        const double s = stations[i];
         const RoadPoint point = lane_point(road, section, from.id, s, 0.5);
         LanePose pose;
         pose.position = builder.network.to_world(point.position);
@@ -108,15 +132,18 @@ void add_lane(Builder& builder, uint32_t road_index, uint32_t section_index, con
         pose.width = std::abs(lane_border(road, section, from.id, s) -
                               lane_border(road, section, from.id > 0 ? from.id - 1 : from.id + 1, s));
         widest = std::max(widest, pose.width);
+        // From here on in the direction of travel.
+        const double other = forwards ? stations[std::min(i + 1, stations.size() - 1)] : stations[i == 0 ? 0 : i - 1];
+        const double within = other == s ? (stations[i] + stations[i == 0 ? 1 : i - 1]) / 2 : (s + other) / 2;
+        pose.speed_limit = limit_at(from.speeds, within);
+        if (pose.speed_limit <= 0) pose.speed_limit = limit_at(road.speeds, within);
         if (lane.poses.empty() || glm::distance(pose.position, lane.poses.back().position) > 1e-4)
             lane.poses.push_back(pose);
     }
     if (lane.poses.size() < 2 || widest < kNarrowest) return;
     if (!forwards) std::reverse(lane.poses.begin(), lane.poses.end());
     finish(lane);
-    const double entered = forwards ? section.s : section.end - 1e-3;
-    lane.speed_limit = limit_at(from.speeds, entered);
-    if (lane.speed_limit <= 0) lane.speed_limit = limit_at(road.speeds, entered);
+    lane.speed_limit = lane.poses.front().speed_limit;
     builder.by_key[{road_index, section_index, from.id, forwards}] = static_cast<uint32_t>(builder.lanes.size());
     builder.lanes.push_back(std::move(lane));
 }
@@ -230,6 +257,17 @@ std::vector<Lane> build_lanes(const RoadNetwork& network) {
 
 void link_where_they_meet(std::vector<Lane>& lanes) {
     SegmentGrid starts(4);
+    size_t looks = 0;
+    std::vector<uint32_t> last_section;  // of each road, that has lanes
+    for (const Lane& lane : lanes) {
+        last_section.resize(std::max<size_t>(last_section.size(), lane.road + 1));
+        last_section[lane.road] = std::max(last_section[lane.road], lane.section);
+    }
+    // Of one road the next section follows, or where it is a ring the one at its other end.
+    const auto adjoin = [&](const Lane& a, const Lane& b) {
+        const uint32_t next = a.forwards ? a.section + 1 : a.section - 1, end = last_section[a.road];
+        return a.forwards == b.forwards && (b.section == next || (a.section == (a.forwards ? end : 0) && b.section == (a.forwards ? 0 : end)));
+    };
     for (const Lane& lane : lanes) {
         const glm::dvec3 at = lane.poses.front().position;
         starts.add({at.x, at.z}, {at.x, at.z});
@@ -237,7 +275,11 @@ void link_where_they_meet(std::vector<Lane>& lanes) {
     for (uint32_t from = 0; from < lanes.size(); ++from) {
         if (!lanes[from].successors.empty()) continue;
         const LanePose& end = lanes[from].poses.back();
-        for (const uint32_t to : starts.near({end.position.x, end.position.z}, kMeet)) {
+        const std::vector<uint32_t> near = starts.near({end.position.x, end.position.z}, kMeet);
+        if ((looks += near.size()) > kMostLooks) return;
+        for (const uint32_t to : near) {
+            if (lanes[from].successors.size() >= kMostFollowers) break;
+            if (lanes[to].road == lanes[from].road && !adjoin(lanes[from], lanes[to])) continue;
             const LanePose& start = lanes[to].poses.front();
             if (lanes[to].type != lanes[from].type && !(is_driven(lanes[to].type) && is_driven(lanes[from].type)))
                 continue;

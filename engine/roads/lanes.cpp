@@ -10,6 +10,10 @@
 namespace vesper {
 namespace {
 
+constexpr double kTown = 50 / 3.6, kFree = 130 / 3.6;  // m/s
+
+constexpr size_t kMostLooks = 1'000'000;  // ahead on one way: beyond that the longest of the next lanes is taken
+
 glm::dvec2 from_above(glm::dvec3 p) { return {p.x, p.z}; }
 
 /// The nearest point of a segment, as a fraction of it.
@@ -24,6 +28,11 @@ double turn_between(const Lane& lane, const Lane& next) {
 }
 
 }  // namespace
+
+double allowed_speed(const Lane& lane, const LanePose& pose, double before) {
+    if (pose.speed_limit > 0) return std::min(pose.speed_limit, kFree);
+    return lane.in_junction && before > 0 ? before : kTown;
+}
 
 LaneGraph::LaneGraph(const RoadNetwork& network) : lanes_(build_lanes(network)), kerbs_(build_kerbs(network)) {
     link_where_they_meet(lanes_);
@@ -52,6 +61,7 @@ LanePose LaneGraph::pose(uint32_t index, double along) const {
     pose.up = glm::normalize(up - pose.forward * glm::dot(up, pose.forward));
     pose.width = glm::mix(a.width, b.width, f);
     pose.curvature = glm::mix(a.curvature, b.curvature, f);
+    pose.speed_limit = a.speed_limit;
     pose.position += pose.forward * (along - within);
     return pose;
 }
@@ -127,9 +137,10 @@ std::vector<uint32_t> LaneGraph::long_route(uint32_t from) const {
     std::vector<bool> entered(lanes_.size());
     entered[from] = true;
     // How far one gets from a lane over the next few, so that the way does not end in the first short stub.
+    size_t looks = 0;
     const auto outlook = [&](const auto& self, uint32_t lane, int depth) -> double {
         double best = 0;
-        if (depth > 0)
+        if (depth > 0 && ++looks < kMostLooks)
             for (const uint32_t next : lanes_[lane].successors)
                 if (!entered[next]) best = std::max(best, self(self, next, depth - 1));
         return lanes_[lane].length + best;

@@ -27,6 +27,7 @@ struct LanePose {
     glm::dvec3 up{0, 1, 0};        ///< unit, the normal of the surface
     double width = 0;              ///< m
     double curvature = 0;          ///< 1/m, seen from above, positive: the lane bends to the left
+    double speed_limit = 0;        ///< m/s from here to the next pose; 0: none stated, infinite: stated that there is none
     glm::dvec3 left() const { return glm::cross(up, forward); }
 };
 
@@ -40,13 +41,17 @@ struct Lane {
     bool in_junction = false;                        ///< its road is part of a junction
     bool forwards = true;                            ///< travels in the direction of the road's s
     double length = 0;                               ///< m, > 0
-    double speed_limit = 0;                          ///< m/s where it is entered, 0: none stated
+    double speed_limit = 0;                          ///< m/s of its first pose
     std::vector<uint32_t> successors, predecessors;  ///< lanes that follow where it ends, that lead to where it begins
     uint32_t left = kNoLane, right = kNoLane;        ///< next to it, of the same type and direction
     uint32_t oncoming = kNoLane;  ///< the nearest driven lane of the other direction of the same section
     std::vector<double> along;    ///< of the poses, ascending from 0 to length
     std::vector<LanePose> poses;
 };
+
+/// The speed allowed from a pose of a lane on, m/s: 50 km/h where none is stated, in junctions what was allowed `before`;
+/// at most 130 km/h.
+double allowed_speed(const Lane& lane, const LanePose& pose, double before = 0);
 
 /// A place on a lane.
 struct LanePlace {

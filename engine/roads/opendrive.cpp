@@ -41,7 +41,8 @@ void read_traffic(OpenDriveReader& reader, const XmlElement& element, Road& road
         reader.count(each);
         if (road.type.empty()) road.type = each.text_or("type", "unknown");
         const auto speed = each.child("speed");
-        road.speeds.push_back({each.number_or("s", 0, 0), speed ? speed_in(*speed, "max", "unit") : 0});
+        const double s = each.number_or("s", 0, 0);
+        road.speeds.push_back(speed ? limit_of(reader, *speed, s) : SpeedLimit{s, 0});
     }
     std::stable_sort(road.speeds.begin(), road.speeds.end(),
                      [](const SpeedLimit& a, const SpeedLimit& b) { return a.s < b.s; });
@@ -49,7 +50,9 @@ void read_traffic(OpenDriveReader& reader, const XmlElement& element, Road& road
 
 void read_road(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     road.length = element.number_or("length", 0, 0, reader.limits.road_length);
-    road.right_hand = element.text_or("rule", "RHT") != "LHT";
+    const std::string rule = element.text_or("rule", "RHT");
+    road.right_hand = rule != "LHT";
+    if (road.right_hand && rule != "RHT") reader.note(element, "the rule '" + rule + "' is neither RHT nor LHT: taken for RHT");
     const std::string junction = element.text_or("junction", "-1");
     if (junction != "-1") {
         const auto found = reader.junctions.find(junction);

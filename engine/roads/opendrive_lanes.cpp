@@ -15,7 +15,7 @@ constexpr double kShortest = 0.001;  // m, of a lane section
 constexpr double kDash = 3, kGap = 6;
 constexpr double kWidth = 0.12, kBoldWidth = 0.25;  // m
 
-LaneType lane_type_of(const std::string& name) {
+LaneType lane_type_of(OpenDriveReader& reader, const XmlElement& element) {
     static const std::map<std::string, LaneType> kTypes{{"none", LaneType::None},
                                                         {"driving", LaneType::Driving},
                                                         {"stop", LaneType::Stop},
@@ -45,8 +45,11 @@ LaneType lane_type_of(const std::string& name) {
                                                         {"shared", LaneType::Driving},
                                                         {"tram", LaneType::Rail},
                                                         {"rail", LaneType::Rail}};
+    const std::string name = element.text_or("type", "none");
     const auto found = kTypes.find(name);
-    return found == kTypes.end() ? LaneType::Other : found->second;
+    if (found != kTypes.end()) return found->second;
+    reader.note_once(element, "the lane type '" + name.substr(0, 40) + "' is not known: nobody drives there");
+    return LaneType::Other;
 }
 
 MarkColour colour_of(const std::string& name) {
@@ -74,8 +77,9 @@ void read_patterns(const XmlElement& element, RoadMark& mark, const MarkLine& li
         }
 }
 
-/// The lines that the type's name means: "solid broken" from the left to the right.
-void add_named_lines(RoadMark& mark, const MarkLine& like) {
+/// The lines that the type's name means: "solid broken" from the inside outwards, of the centre lane from the left to the
+/// right.
+void add_named_lines(RoadMark& mark, const MarkLine& like, int lane) {
     std::vector<bool> broken;
     for (size_t at = 0; at < mark.type.size();) {
         const size_t end = std::min(mark.type.find_first_of(" _", at), mark.type.size());
@@ -92,12 +96,12 @@ void add_named_lines(RoadMark& mark, const MarkLine& like) {
     for (size_t i = 0; i < broken.size() && i < 2; ++i) {
         MarkLine line = like;
         if (broken[i]) line.length = kDash, line.space = kGap;
-        if (broken.size() > 1) line.t_offset = (i == 0 ? 1 : -1) * like.width;  // a gap of one width between them
+        if (broken.size() > 1) line.t_offset = ((i == 0) != (lane > 0) ? 1 : -1) * like.width;  // a gap of one width between them
         mark.lines.push_back(line);
     }
 }
 
-RoadMark mark_of(OpenDriveReader& reader, const XmlElement& element, double from) {
+RoadMark mark_of(OpenDriveReader& reader, const XmlElement& element, double from, int lane) {
     reader.count(element);
     RoadMark mark;
     mark.s = from + element.number_or("sOffset", 0);
@@ -110,7 +114,7 @@ RoadMark mark_of(OpenDriveReader& reader, const XmlElement& element, double from
     like.width = element.number_or("width", 0, -100, 100);  // some write -1 where they know none
     if (like.width <= 0) like.width = element.text_or("weight", "") == "bold" ? kBoldWidth : kWidth;
     read_patterns(element, mark, like);
-    if (mark.lines.empty() && !mark.curb) add_named_lines(mark, like);
+    if (mark.lines.empty() && !mark.curb) add_named_lines(mark, like, lane);
     return mark;
 }
 
@@ -135,7 +139,7 @@ RoadLane lane_of(OpenDriveReader& reader, const XmlElement& element, double from
     reader.count(element);
     RoadLane lane;
     lane.id = element.integer("id", -kMaxLaneId, kMaxLaneId);
-    lane.type = lane_type_of(element.text_or("type", "none"));
+    lane.type = lane_type_of(reader, element);
     lane.level = element.flag("level");
     const std::string direction = element.text_or("direction", "standard");
     lane.direction = direction == "reversed" ? LaneDirection::Reversed
@@ -147,13 +151,15 @@ RoadLane lane_of(OpenDriveReader& reader, const XmlElement& element, double from
     if (!lane.width.parts.empty()) lane.border.parts.clear();  // width counts where both are given
     read_heights(reader, element, lane, from);
     read_lane_links(element, lane);
-    for (const XmlElement& each : element.children("roadMark")) lane.marks.push_back(mark_of(reader, each, from));
+    for (const XmlElement& each : element.children("roadMark")) lane.marks.push_back(mark_of(reader, each, from, lane.id));
     std::stable_sort(lane.marks.begin(), lane.marks.end(),
                      [](const RoadMark& a, const RoadMark& b) { return a.s < b.s; });
     for (const XmlElement& each : element.children("speed")) {
         reader.count(each);
-        lane.speeds.push_back({from + each.number_or("sOffset", 0), speed_in(each, "max", "unit")});
+        lane.speeds.push_back(limit_of(reader, each, from + each.number_or("sOffset", 0)));
     }
+    std::stable_sort(lane.speeds.begin(), lane.speeds.end(),
+                     [](const SpeedLimit& a, const SpeedLimit& b) { return a.s < b.s; });
     if (lane.id == 0) lane.width = lane.border = {};
     if (lane.id != 0 && lane.width.parts.empty() && lane.border.parts.empty())
         reader.note(element, "lane " + std::to_string(lane.id) + " has neither width nor border: it has no width");
@@ -241,12 +247,14 @@ void drop_short_sections(Road& road) {
 
 }  // namespace
 
-double speed_in(const XmlElement& element, const char* attribute, const char* unit) {
-    const std::string value = element.text_or(attribute, "no limit");
-    if (value == "no limit" || value == "undefined") return 0;
-    const std::string units = element.text_or(unit, "m/s");
-    const double factor = units == "km/h" ? 1 / 3.6 : units == "mph" ? 0.44704 : 1;
-    return factor * std::max(0.0, element.number(attribute, -1000, 1000));  // some write -1 for none
+SpeedLimit limit_of(OpenDriveReader& reader, const XmlElement& element, double s) {
+    const std::string value = element.text_or("max", "undefined");
+    if (value == "undefined") return {s, 0};
+    if (value == "no limit") return {s, INFINITY};
+    const std::string units = element.text_or("unit", "m/s");
+    const double factor = units == "km/h" ? 1 / 3.6 : units == "mph" ? 0.44704 : units == "m/s" ? 1 : 0;
+    if (factor == 0) reader.note(element, "the unit '" + units + "' is none of m/s, km/h and mph: the limit is left out");
+    return {s, factor * std::max(0.0, element.number("max", -1000, 1000))};  // some write -1 for none
 }
 
 void read_lanes(OpenDriveReader& reader, const XmlElement& element, Road& road) {
@@ -268,6 +276,8 @@ void read_lanes(OpenDriveReader& reader, const XmlElement& element, Road& road) 
             reader.note(each, "begins behind the end of road '" + road.id + "': left out");
             continue;
         }
+        if (!road.sections.empty() && section.s - road.sections.back().s < kShortest)
+            reader.note(each, "begins where the lane section before it does: that one is left out");
         if (!road.sections.empty()) keep_other_side(each, road.sections.back(), section);
         road.sections.push_back(std::move(section));
     }

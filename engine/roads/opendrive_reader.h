@@ -37,6 +37,7 @@ void check_network(OpenDriveReader&, const XmlFile& file);
 
 /// Polynomials of the children `name`, with s from the attribute `s_name` plus `from`; sorted.
 Profile profile_of(OpenDriveReader&, const XmlElement& element, std::string_view name, const char* s_name, double from);
-double speed_in(const XmlElement& element, const char* attribute, const char* unit);
+/// What a speed element states from s on.
+SpeedLimit limit_of(OpenDriveReader&, const XmlElement& element, double s);
 
 }  // namespace vesper

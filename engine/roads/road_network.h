@@ -84,7 +84,7 @@ struct LaneHeight {
 
 struct SpeedLimit {
     double s = 0;
-    double limit = 0;  ///< m/s; 0: none
+    double limit = 0;  ///< m/s; 0: none stated, infinite: stated that there is none
 };
 
 enum class LaneDirection : uint8_t { Standard, Reversed, Both };

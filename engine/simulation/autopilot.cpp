@@ -15,9 +15,7 @@ VehicleControls steer_along(const Course& lane, const VehicleState& s, const Veh
 
     VehicleControls c;
     c.angle = std::atan2(2 * p.wheelbase() * sideways, distance);
-    CarFollowing following = a.following;
-    following.speed = lane.speed_at(here.s);
-    const double wanted = idm_acceleration(following, s.speed, gap, closing);
+    const double wanted = follow_lane(lane, a.following, here.s, 1, s.speed, gap, closing);
     const double drag = p.rolling * p.mass * 9.81 + 0.5 * p.air_density * p.drag_area * s.speed * s.speed;
     const double force = p.mass * wanted + drag, most = std::min(p.drive_force, p.power / std::max(std::abs(s.speed), 1.0));
     if (force > 0)

@@ -9,9 +9,19 @@
 
 namespace vesper {
 
+namespace {
+
+constexpr double kOutlook = 0.5;  // s ahead, of the speed to have
+
+}  // namespace
+
 Course::Course(std::string name, std::vector<glm::dvec3> points, double width, double speed, bool closed)
-    : name_(std::move(name)), points_(std::move(points)), width_(width), speed_(speed), closed_(closed) {
+    : Course(std::move(name), points, width, std::vector<double>(points.size(), speed), closed) {}
+
+Course::Course(std::string name, std::vector<glm::dvec3> points, double width, const std::vector<double>& limits, bool closed)
+    : name_(std::move(name)), points_(std::move(points)), width_(width), speed_(limits.empty() ? 0 : limits.front()), closed_(closed) {
     if (points_.size() < 2) throw Error("lane " + name_ + ": at least two points are needed");
+    if (limits.size() != points_.size()) throw Error("lane " + name_ + ": " + std::to_string(limits.size()) + " limits of " + std::to_string(points_.size()) + " points");
     if (closed_) points_.push_back(points_.front());
     starts_.push_back(0);
     std::vector<double> segments;  // yaw of each
@@ -33,7 +43,12 @@ Course::Course(std::string name, std::vector<glm::dvec3> points, double width, d
         yaws_.front() -= bend, yaws_.back() += bend;
     }
 
-    speeds_.assign(points_.size(), speed_);
+    // Where the limit changes the lower one holds; between two points the higher of theirs does.
+    const size_t last = limits.size() - 1;
+    for (size_t i = 0; i < points_.size(); ++i) {
+        const double before = i > 0 ? limits[i - 1] : limits[closed_ ? last : 0];
+        speeds_.push_back(std::min(before, i <= last ? limits[i] : limits[0]));
+    }
     for (size_t i = 1; i + 1 < points_.size(); ++i) {
         const double curvature = std::abs(segments[i] - segments[i - 1]) / ((starts_[i + 1] - starts_[i - 1]) / 2);
         if (curvature > 1e-9) speeds_[i] = std::min(speeds_[i], std::sqrt(kCurve / curvature));
@@ -83,6 +98,12 @@ Course::Beside Course::beside(glm::dvec2 point) const {
         best = {starts_[i - 1] + t, std::copysign(distance, side), distance};
     }
     return best;
+}
+
+double follow_lane(const Course& lane, CarFollowing following, double s, double wish, double speed, double gap, double closing) {
+    following.speed = lane.speed_at(s) * wish;
+    const double next = lane.speed_at(s + std::max(speed, 0.0) * kOutlook) * wish, free = idm_acceleration(following, speed, gap, closing);
+    return next < following.speed ? std::min(free, std::max((next - speed) / kOutlook, -following.hardest)) : free;
 }
 
 }  // namespace vesper

@@ -6,6 +6,8 @@
 
 #include <glm/glm.hpp>
 
+#include "simulation/car_following.h"
+
 namespace vesper {
 
 /// The middle of a lane in the direction of traffic.
@@ -26,10 +28,12 @@ public:
 
     /// A closed lane goes on from its last point to its first. Throws Error.
     Course(std::string name, std::vector<glm::dvec3> points, double width, double speed, bool closed = false);
+    /// `limits`: the speed allowed from each point to the next, m/s.
+    Course(std::string name, std::vector<glm::dvec3> points, double width, const std::vector<double>& limits, bool closed = false);
 
     const std::string& name() const { return name_; }
     double width() const { return width_; }  ///< m
-    double speed() const { return speed_; }  ///< allowed, m/s
+    double speed() const { return speed_; }  ///< allowed at its start, m/s
     bool closed() const { return closed_; }
     double length() const { return starts_.back(); }  ///< m
     /// Straight on before the start and beyond the end. Between the points the direction turns evenly.
@@ -38,7 +42,7 @@ public:
     /// How far ahead `to` is of `from`, m; on a closed lane at most once round, otherwise negative where it is behind.
     double ahead(double from, double to) const;
     /// The speed to have at a place, m/s: what is allowed, slower where the curve there takes more than kCurve across, and before
-    /// that early enough to brake with kEase.
+    /// either early enough to brake with kEase.
     double speed_at(double s) const;
     static constexpr double kCurve = 2, kEase = 1.5;  ///< m/s^2, comfortable
 
@@ -55,5 +59,10 @@ private:
     size_t next_point(double s) const;
     double wrapped(double s) const;
 };
+
+/// m/s^2 of a car at `s` of a lane that wants `wish` times the speed to have there: idm_acceleration, and where that speed falls
+/// ahead, no more than keeps to it. (Of a wanted speed that falls the model alone falls short: it brakes with kEase where it is a
+/// quarter too fast.)
+double follow_lane(const Course& lane, CarFollowing following, double s, double wish, double speed, double gap, double closing);
 
 }  // namespace vesper

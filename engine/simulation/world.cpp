@@ -141,15 +141,13 @@ World::Neighbour World::behind(size_t lane, double s, double half_length, int se
 }
 
 double World::follow(const Car& car, size_t lane, double half_length, int self) const {
-    CarFollowing p = description_->autopilot.following;
     double s = car.s;
     if (lane != car.lane) {
         const glm::dvec3 at = place_of(size_t(self)).position;
         s = description_->lanes[lane].beside({at.x, at.z}).s;
     }
-    p.speed = description_->lanes[lane].speed_at(s) * car.wish;
     const Neighbour next = ahead(lane, s, half_length, self);
-    return idm_acceleration(p, car.speed, next.gap, car.speed - next.speed);
+    return follow_lane(description_->lanes[lane], description_->autopilot.following, s, car.wish, car.speed, next.gap, car.speed - next.speed);
 }
 
 void World::consider_change(size_t index) {

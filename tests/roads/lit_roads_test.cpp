@@ -10,58 +10,24 @@
 #include "roads/lit_roads.h"
 #include "roads/opendrive.h"
 #include "roads/road_texts.h"
+#include "roads/scene_parts.h"
 #include "scene/light.h"
 #include "support/shared_data.h"
 
 namespace vesper {
 namespace {
 
+using test::area_of;
 using test::geometry;
+using test::lamps_of;
 using test::network_of;
 using test::road;
+using test::Triangle;
+using test::triangles_of;
 using test::two_way_section;
 
 RoadNetwork straight(const std::string& rest = "", double length = 90, const std::string& lanes = two_way_section()) {
     return network_of(road("1", length, geometry(0, 0, 0, 0, length, "<line/>"), lanes, rest));
-}
-
-struct Triangle {
-    std::array<glm::dvec3, 3> corners;
-    std::array<glm::dvec3, 3> normals;
-    glm::dvec3 across() const { return glm::cross(corners[1] - corners[0], corners[2] - corners[0]); }
-};
-
-/// All triangles of a material, by its name; of all materials where that is empty.
-std::vector<Triangle> triangles_of(const Scene& scene, const std::string& material) {
-    std::vector<Triangle> found;
-    for (const Node& node : scene.nodes) {
-        if (node.mesh == kNone) continue;
-        for (const Primitive& primitive : scene.meshes[node.mesh].primitives) {
-            if (!material.empty() && scene.materials[primitive.material].name != material) continue;
-            for (size_t i = 0; i < primitive.indices.size(); i += 3) {
-                Triangle triangle;
-                for (size_t c = 0; c < 3; ++c) {
-                    const Vertex& vertex = primitive.vertices.at(primitive.indices[i + c]);
-                    triangle.corners[c] = vertex.position, triangle.normals[c] = vertex.normal;
-                }
-                found.push_back(triangle);
-            }
-        }
-    }
-    return found;
-}
-
-double area_of(const std::vector<Triangle>& triangles) {
-    double sum = 0;
-    for (const Triangle& triangle : triangles) sum += glm::length(triangle.across()) / 2;
-    return sum;
-}
-
-std::vector<Node> lamps_of(const Scene& scene, const std::string& prefix) {
-    std::vector<Node> found;
-    for (const Node& node : scene.nodes)
-        if (node.light != kNone && node.name.starts_with(prefix)) found.push_back(node);
-    return found;
 }
 
 /// What holds of every scene: finite, unit normals on the side that is seen, indices that exist.
@@ -199,6 +165,31 @@ TEST(LitRoads, TheDriverFollowsTheLaneAtTheLimit) {
     EXPECT_NEAR(std::abs(at(5)[2].x), 1, 1e-5) << "looks along the road";
     EXPECT_GT((at(5)[3].x - at(1)[3].x) * -at(5)[2].x, 0);
     EXPECT_EQ(lamps_of(scene, "car_ego/headlamp_").size(), 2u);
+}
+
+// 100 km/h, from s = 400 on 30 km/h: who drives there is as slow where that begins, and brakes no harder than comfortably.
+TEST(LitRoads, TheDriverSlowsDownForALowerLimit) {
+    const Scene scene = lit_roads(straight("<type s=\"0\" type=\"rural\"><speed max=\"100\" unit=\"km/h\"/></type><type s=\"400\" "
+                                           "type=\"town\"><speed max=\"30\" unit=\"km/h\"/></type>",
+                                           600, "<laneSection s=\"0\"><right>" + test::lane(-1, 3.5) + "</right></laneSection>"))
+                            .scene;
+    const auto way = std::find_if(scene.channels.begin(), scene.channels.end(), [&](const Channel& channel) {
+        return channel.path == Channel::Path::Translation && scene.nodes[channel.node].name == "car_ego";
+    });
+    ASSERT_NE(way, scene.channels.end());
+    double fastest = 0, before = 0;
+    for (size_t i = 1; i < way->times.size(); ++i) {
+        const double x = way->values[i].x, seconds = way->times[i] - way->times[i - 1], speed = (x - way->values[i - 1].x) / seconds;
+        fastest = std::max(fastest, speed);
+        if (i > 1) {
+            EXPECT_NEAR(speed, before, 1.55 * seconds + 0.01) << x;
+        }
+        if (x > 401) {
+            EXPECT_NEAR(speed, 30 / 3.6, 0.05) << x;
+        }
+        before = speed;
+    }
+    EXPECT_NEAR(fastest, 100 / 3.6, 0.1);
 }
 
 TEST(LitRoads, GroundLiesBelowRoads) {

@@ -74,6 +74,46 @@ TEST(Course, SlowsDownBeforeACurve) {
     for (double s = 0; s < 199; s += 1) EXPECT_LE(lane.speed_at(s) * lane.speed_at(s), lane.speed_at(s + 1) * lane.speed_at(s + 1) + 2 * Course::kEase * 1.01 + 1e-9);
 }
 
+// 100 km/h, between 400 m and 500 m 30 km/h: braking begins before, and the end is waited for.
+TEST(Course, KeepsToLimitsThatChange) {
+    std::vector<glm::dvec3> points;
+    std::vector<double> limits;
+    for (int i = 0; i <= 70; ++i) points.push_back({0, 0, -10.0 * i}), limits.push_back((i >= 40 && i < 50 ? 30 : 100) / 3.6);
+    const Course lane("limits", points, 3, limits);
+    EXPECT_EQ(lane.speed(), 100 / 3.6);
+    EXPECT_EQ(lane.speed_at(100), 100 / 3.6);
+    for (const double s : {400.01, 450.0, 499.99}) EXPECT_NEAR(lane.speed_at(s), 30 / 3.6, 1e-9) << s;
+    EXPECT_EQ(lane.speed_at(500.01), 100 / 3.6);
+    EXPECT_NEAR(lane.speed_at(350), std::sqrt(30 / 3.6 * 30 / 3.6 + 2 * Course::kEase * 50), 1e-9);
+    EXPECT_THROW(Course("x", points, 3, std::vector<double>(3, 10)), Error);
+    // On a ring, what is allowed at its last point holds up to its first.
+    const Course ring("ring", {{0, 0, 0}, {0, 0, -1000}, {1000, 0, -1000}, {1000, 0, 0}}, 3, {5, 50, 50, 20}, true);
+    EXPECT_LE(ring.speed_at(3990), 20);
+    EXPECT_EQ(ring.speed_at(500), 5);
+
+    auto d = one_lane(lane);
+    d->cars.push_back({.node = "car", .lane = 0, .s = 0, .speed = 100 / 3.6, .length = 4.5, .wish = 1});
+    d->driver_lane = 0, d->driver_s = 100, d->driver_speed = 100 / 3.6;
+    World world(d, 1);
+    double slowest = 100, hardest = 0, before = d->driver_speed;
+    for (int i = 0; i < 60 * 40 && world.driver().position.y > -690; ++i) {
+        world.step({.autopilot = true}, kStep);
+        const double s = -world.driver().position.y, v = world.driver().speed;
+        hardest = std::max(hardest, (before - v) / kStep), before = v;
+        if (s > 400 && s < 500) {
+            EXPECT_LT(v, 30 / 3.6 * 1.05) << s;
+        }
+        slowest = std::min(slowest, v);
+        for (const Actor& actor : world.actors())
+            if (actor.node == "car" && actor.position.z < -400 && actor.position.z > -500) {
+                EXPECT_LT(actor.speed, 30 / 3.6 * 1.05) << actor.position.z;
+            }
+    }
+    EXPECT_GT(slowest, 30 / 3.6 * 0.85);
+    EXPECT_LT(hardest, 2 * Course::kEase);
+    EXPECT_GT(before, 40 / 3.6) << "faster again";
+}
+
 // Treiber, Hennecke and Helbing 2000: a free car accelerates with a, one at its gap of equilibrium keeps its speed.
 TEST(CarFollowing, IsTheIntelligentDriverModel) {
     const CarFollowing p;

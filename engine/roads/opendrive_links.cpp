@@ -51,6 +51,17 @@ void check_joint(OpenDriveReader& reader, const XmlElement& element, const Road&
                                  std::to_string(gap) + " m apart");
 }
 
+/// s of each part of a profile within [from, to]: its beginning, where the next one takes over, and between.
+template <typename Visit>
+void over_parts(const Profile& profile, double from, double to, const Visit& visit) {
+    constexpr int kSteps = 8;
+    for (size_t i = 0; i < profile.parts.size(); ++i) {
+        const double begin = std::max(profile.parts[i].s, from),
+                     end = i + 1 < profile.parts.size() ? std::min(profile.parts[i + 1].s, to) : to;
+        for (int k = 0; k <= kSteps && begin < end; ++k) visit(std::min(begin + (end - begin) * k / kSteps, end - 1e-9));
+    }
+}
+
 /// Widths and heights that no road has; lanes that turn inside out.
 void check_extent(OpenDriveReader& reader, const XmlElement& element, const Road& road) {
     constexpr int kSamples = 16;
@@ -71,16 +82,21 @@ void check_extent(OpenDriveReader& reader, const XmlElement& element, const Road
         for (const RoadLane& lane : section.lanes) {
             if (lane.id == 0) continue;
             double least = 0, most = 0;
-            for (int i = 0; i <= kSamples; ++i) {
-                const double width = stated_width(section, lane, section.s + (section.end - section.s) * i / kSamples);
-                least = std::min(least, width), most = std::max(most, width);
-            }
+            for (const Profile* profile : {&lane.width, &lane.border})
+                over_parts(*profile, section.s, section.end, [&](double s) {
+                    const double width = stated_width(section, lane, s);
+                    least = std::min(least, width), most = std::max(most, width);
+                });
             const std::string name = "road '" + road.id + "' lane " + std::to_string(lane.id);
             if (!(most <= reader.limits.lane_width)) element.fail(name + " is " + std::to_string(most) + " m wide");
             if (least < -0.01)
                 reader.note(element, name + " is as little as " + std::to_string(least) + " m wide: taken for 0");
         }
     }
+    over_parts(road.lane_offset, 0, road.length, [&](double s) {
+        if (const double t = road.lane_offset.at(s); !(std::abs(t) <= reader.limits.lane_width))
+            element.fail("road '" + road.id + "' has a lane offset of " + std::to_string(t) + " m at s = " + std::to_string(s));
+    });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ namespace vesper {
 namespace {
 
 constexpr double kJoint = 0.01;  // m; files are written with more digits than this
+constexpr double kKink = 0.02;  // rad, as much as is not seen
 constexpr double kTorn = 1000;   // m; no road
 constexpr double kShortest = 0.001;  // m: roads that join others in one point are as long as this
 
@@ -75,6 +76,9 @@ void check_joints(OpenDriveReader& reader, const XmlElement& element, Road& road
         if (gap > kJoint)
             reader.note(element, "road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
                                      " m at s = " + std::to_string(g.s));
+        if (const double turn = std::remainder(begin.heading - end.heading, 2 * std::numbers::pi); std::abs(turn) > kKink)
+            reader.note(element, "road '" + road.id + "': the reference line has a kink of " +
+                                     std::to_string(turn * 180 / std::numbers::pi) + " degrees at s = " + std::to_string(g.s));
         const double end_s = before.s + before.length;
         if (std::abs(g.s - end_s) > kJoint)
             reader.note(element, "road '" + road.id + "': a geometry ends at s = " + std::to_string(end_s) + ", the next begins at " +

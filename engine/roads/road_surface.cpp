@@ -112,7 +112,8 @@ double lane_border(const Road& road, const LaneSection& section, int id, double 
     for (int each = 1; each <= std::abs(id); ++each)
         if (const RoadLane* lane = section.find(static_cast<int>(sign) * each))
             t += sign * clamped_width(section, *lane, s, t);
-    return road.lane_offset.at(s) + t;
+    // A step of the offset where the next section begins is not this one's.
+    return road.lane_offset.at(std::min(s, section.end - 1e-9)) + t;
 }
 
 double lane_height(const RoadLane& lane, double s, double fraction) {
@@ -124,7 +125,7 @@ double lane_height(const RoadLane& lane, double s, double fraction) {
 }
 
 RoadPoint lane_point(const Road& road, const LaneSection& section, int id, double s, double fraction) {
-    if (id == 0) return surface_point(road, s, road.lane_offset.at(s));
+    if (id == 0) return surface_point(road, s, lane_border(road, section, 0, s));
     const double outer = lane_border(road, section, id, s),
                  inner = lane_border(road, section, id > 0 ? id - 1 : id + 1, s);
     const double t = inner + (outer - inner) * fraction;
@@ -161,10 +162,18 @@ std::vector<double> road_stations(const Road& road, const LaneSection& section, 
     std::erase_if(breaks, [&](double s) { return s < section.s || s > section.end; });
     std::sort(breaks.begin(), breaks.end());
 
+    // The borders of all lanes, from the middle outwards on either side.
     const auto lines = [&](double s) {
-        return std::array{surface_point(road, s, road.lane_offset.at(s)).position,
-                          surface_point(road, s, lane_border(road, section, section.leftmost(), s)).position,
-                          surface_point(road, s, lane_border(road, section, section.rightmost(), s)).position};
+        const double middle = lane_border(road, section, 0, s);
+        std::vector<glm::dvec3> points{surface_point(road, s, middle).position};
+        for (const int side : {1, -1}) {
+            double t = 0;
+            for (int id = side; const RoadLane* lane = section.find(id); id += side) {
+                t += side * clamped_width(section, *lane, s, t);
+                points.push_back(surface_point(road, s, middle + t).position);
+            }
+        }
+        return points;
     };
     const auto leaves_chord = [&](double a, double b) {
         const auto first = lines(a), last = lines(b);

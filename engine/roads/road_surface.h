@@ -36,7 +36,7 @@ double lane_height(const RoadLane& lane, double s, double fraction);
 RoadPoint lane_point(const Road& road, const LaneSection& section, int id, double s, double fraction);
 
 /// Every s in [from, to] where something changes (geometries, profiles, widths, marks), and between them enough that
-/// neither the reference line nor the outermost borders leave their chords by more than `chord` m, none longer than
+/// neither the reference line nor the border of any lane leaves its chord by more than `chord` m, none longer than
 /// `longest` m.
 std::vector<double> road_stations(const Road& road, const LaneSection& section, double chord, double longest);
 

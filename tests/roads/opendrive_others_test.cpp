@@ -198,7 +198,7 @@ TEST(OthersOpenDrive, WhatCannotBeKnownIsLeftOutAndSaid) {
     EXPECT_TRUE(has_note(network, "signal: has no s and t: left out"));
     EXPECT_EQ(network.roads[0].objects.size(), 1u);
     EXPECT_EQ(network.roads[0].signals.size(), 1u);
-    EXPECT_EQ(network.roads[0].speeds[0].limit, 0) << "none";
+    EXPECT_EQ(network.roads[0].speeds[0].limit, 0) << "none stated";
     EXPECT_EQ(network.roads[0].sections[0].find(-1)->marks[0].lines[0].width, 0.12) << "as if not stated";
     try {
         network_of("<include file=\"more.xml\"/>");
@@ -206,6 +206,26 @@ TEST(OthersOpenDrive, WhatCannotBeKnownIsLeftOutAndSaid) {
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("has no road of its own, and includes are not read"), std::string::npos) << error.what();
     }
+}
+
+TEST(OthersOpenDrive, ValuesThatNobodyKnowsAreSaid) {
+    const std::string line = geometry(0, 0, 0, 0, 50, "<line/>"), speed = "<type s=\"0\" type=\"town\"><speed max=\"50\" unit=\"";
+    const auto said = [&](const std::string& what, const std::string& types, const std::string& lanes, const std::string& attributes = "", const std::string& plan = "") {
+        const RoadNetwork network = network_of(road("1", 50, plan.empty() ? line : plan, lanes, types, attributes));
+        EXPECT_EQ(network.notes.size(), what.empty() ? 0u : 1u) << what;
+        EXPECT_TRUE(what.empty() || has_note(network, what)) << what;
+        EXPECT_TRUE(what.empty() || has_note(network, "test.xodr:")) << what;
+        return network;
+    };
+    EXPECT_EQ(said("the unit 'kmh' is none of m/s", speed + "kmh\"/></type>", two_way_section()).roads[0].speeds[0].limit, 0);
+    EXPECT_EQ(said("", speed + "m/s\"/></type>", two_way_section()).roads[0].speeds[0].limit, 50);
+    EXPECT_TRUE(std::isinf(said("", "<type s=\"0\"><speed max=\"no limit\"/></type>", two_way_section()).roads[0].speeds[0].limit));
+    said("the lane type 'drving' is not known", "", "<laneSection s=\"0\"><right>" + lane(-1, 3) + lane(-2, 3, "drving") + lane(-3, 3, "drving") + "</right></laneSection>");
+    EXPECT_TRUE(said("the rule 'left' is neither RHT nor LHT", "", two_way_section(), "rule=\"left\"").roads[0].right_hand);
+    EXPECT_FALSE(said("", "", two_way_section(), "rule=\"LHT\"").roads[0].right_hand);
+    EXPECT_EQ(said("begins where the lane section before it does", "", two_way_section(0) + two_way_section(0)).roads[0].sections.size(), 1u);
+    said("a kink of 5.7", "", two_way_section(), "", geometry(0, 0, 0, 0, 25, "<line/>") + geometry(25, 25, 0, 0.1, 25, "<line/>"));
+    said("", "", two_way_section(), "", geometry(0, 0, 0, 0, 25, "<line/>") + geometry(25, 25, 0, 0.01 + 2 * M_PI, 25, "<line/>"));
 }
 
 }  // namespace

@@ -107,6 +107,14 @@ TEST(OpenDrive, LimitsHold) {
                             "</planView><elevationProfile><elevation s=\"0\" a=\"1e8\"/></elevationProfile></road>"))
             .find("m high"),
         std::string::npos);
+    // For a tenth of a metre between those places that are looked at anyway.
+    const std::string wide = test::lane(-1, 3, "driving", "<width sOffset=\"0\" a=\"3\"/><width sOffset=\"10.1\" a=\"3\" c=\"1e8\"/>");
+    const std::string back = "<width sOffset=\"10.2\" a=\"3\"/></lane>";
+    EXPECT_NE(complaint(opendrive(road("1", 100, kLine, "<laneSection s=\"0\"><right>" + wide.substr(0, wide.rfind("<width")) + back + "</right></laneSection>"))).find("m wide"),
+              std::string::npos);
+    EXPECT_NE(complaint(opendrive(road("1", 100, kLine, "<laneOffset s=\"0\" a=\"0\"/><laneOffset s=\"10.1\" a=\"1e5\"/><laneOffset s=\"10.2\" a=\"0\"/>" + two_way_section())))
+                  .find("has a lane offset of 100000"),
+              std::string::npos);
     RoadLimits limits;
     limits.elements = 5;
     EXPECT_NE(complaint(opendrive(road("1", 100, kLine, two_way_section())), limits).find("more than 5 elements"),
@@ -205,6 +213,23 @@ TEST(OpenDrive, MarksMeanWhatTheirNamesSay) {
     EXPECT_EQ(marks[1].lines[0].length, 4);
     EXPECT_EQ(marks[1].lines[0].width, 0.2);
     EXPECT_EQ(marks[1].lines[0].s_offset, 2);
+}
+
+// Of lanes from the inside outwards, of the centre from the left to the right.
+TEST(OpenDrive, DoubleLinesKnowTheirSides) {
+    for (const std::string& type : {std::string("solid broken"), std::string("broken solid")}) {
+        const std::string mark = "<roadMark sOffset=\"0\" type=\"" + type + "\"/>";
+        const auto network = network_of(road("1", 100, kLine,
+                                             "<laneSection s=\"0\"><left>" + test::lane(1, 3, "driving", mark) + "</left><center><lane id=\"0\">" + mark +
+                                                 "</lane></center><right>" + test::lane(-1, 3, "driving", mark) + "</right></laneSection>"));
+        for (const int id : {1, 0, -1}) {
+            const auto& lines = network.roads[0].sections[0].find(id)->marks.at(0).lines;
+            ASSERT_EQ(lines.size(), 2u);
+            const MarkLine& solid = lines[lines[0].length > 0 ? 1 : 0];
+            EXPECT_EQ(solid.length, 0);
+            EXPECT_EQ(solid.t_offset > 0, (type == "solid broken") != (id > 0)) << type << " of " << id;
+        }
+    }
 }
 
 TEST(OpenDrive, FarAwayRoadsGetAnOriginNearThem) {

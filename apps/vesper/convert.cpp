@@ -50,6 +50,7 @@ void run_roads(const ConvertArguments& arguments) {
     LitRoadOptions options;
     for (const CLI::Option* option : arguments.for_lamps)
         if (option->count() > 0) options.lamps = arguments.lamps, options.lamps->side = kSides.at(arguments.side);
+    if (options.lamps) options.lamps->beside_own = arguments.for_lamps.front()->count() > 0;  // --lamp-spacing
     if (!arguments.luminaire.empty()) options.lamps->luminaire = read_distribution(arguments.luminaire);
     const RoadNetwork network = read_opendrive(input);
     const LitRoads lit = in_file(arguments.input, [&] { return lit_roads(network, options); });

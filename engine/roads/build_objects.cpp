@@ -1,16 +1,14 @@
 // Objects beside and on roads. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "base/lower.h"
 #include "roads/lit_road_parts.h"
+#include "roads/object_kind.h"
 #include "roads/road_lamps.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr size_t kMaxCopies = 200'000;
 constexpr double kFlat = 0.02;  // m; what is lower lies on the road
 
@@ -20,28 +18,17 @@ struct Placed {
     double length = 0, width = 0, height = 0, radius = 0;
 };
 
-bool contains(const std::string& text, const char* word) { return text.find(word) != text.npos; }
-
-/// What lies on the road, whatever height above it the file reserves.
-bool is_flat(const std::string& kind) {
-    return contains(kind, "crosswalk") || contains(kind, "parkingspace") || contains(kind, "roadmark") ||
-           contains(kind, "stopline") || contains(kind, "patch");
-}
-
-std::string kind_of(const RoadObject& object) {
-    return lower(object.type + " " + object.subtype + " " + object.name);
-}
-
 struct ObjectBuilder {
     RoadBuild& build;
     const Road& road;
     RoadMesh& mesh;
     size_t copies = 0;  ///< objects that were placed
     size_t pieces = 0;  ///< of everything, for the bound
+    ObjectKind kind = ObjectKind::Other;  ///< of the object under way
 
     BodyFrame frame_of(const RoadObject& object, const Placed& at) const {
-        const double turn = object.heading + (object.orientation == '-' ? kPi : 0);
-        return frame_at(road, at.s, at.t, at.z).turned(turn, object.pitch, object.roll);
+        // Their orientation says for whom they are, not how they stand.
+        return frame_at(road, at.s, at.t, at.z).turned(object.heading, object.pitch, object.roll);
     }
 
     static Placed whole(const RoadObject& o) { return {o.s, o.t, o.z_offset, o.length, o.width, o.height, o.radius}; }
@@ -62,19 +49,16 @@ struct ObjectBuilder {
     }
 
     void body(const RoadObject& object, const Placed& at) {
-        const std::string kind = kind_of(object);
         const BodyFrame frame = frame_of(object, at);
-        if (contains(kind, "streetlamp") || contains(kind, "street_lamp") || contains(kind, "street lamp") ||
-            contains(kind, "lamppost"))
+        if (kind == ObjectKind::StreetLamp)
             return add_street_lamp(build, frame, at.height > 0 ? at.height : 8, object.t > 0 ? -1 : 1);
-        if (contains(kind, "guide-post") || contains(kind, "guidepost")) return guide_post(frame, at);
-        if (contains(kind, "tree") || contains(kind, "vegetation") || contains(kind, "bush"))
-            return tree(frame, at, contains(kind, "bush"));
-        const bool pole = contains(kind, "pole");
-        const Stuff stuff = pole || contains(kind, "rail") ? Stuff::PoleSteel
-                            : contains(kind, "building")   ? Stuff::Wall
-                                                           : Stuff::Concrete;
-        const double height = at.height > 0 ? at.height : pole ? 3 : contains(kind, "building") ? 8 : 0;
+        if (kind == ObjectKind::GuidePost) return guide_post(frame, at);
+        if (kind == ObjectKind::Tree || kind == ObjectKind::Bush) return tree(frame, at, kind == ObjectKind::Bush);
+        const bool pole = kind == ObjectKind::Pole, building = kind == ObjectKind::Building;
+        const Stuff stuff = pole || kind == ObjectKind::Railing ? Stuff::PoleSteel
+                            : building                          ? Stuff::Wall
+                                                                : Stuff::Concrete;
+        const double height = at.height > 0 ? at.height : pole ? 3 : building ? 8 : 0;
         if (at.radius > 0) return height > kFlat ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
         const double width = at.width > 0 ? at.width
                              : pole       ? 0.1
@@ -84,7 +68,7 @@ struct ObjectBuilder {
                                             : 0;
         if (width <= 0 || length <= 0) return;
         if (height > kFlat && !is_flat(kind)) return add_box(mesh, stuff, frame, length, width, height);
-        flat_rectangle(object, at, kind);
+        flat_rectangle(object, at);
     }
 
     /// Paint, or a patch: on the surface, whatever it does.
@@ -107,28 +91,27 @@ struct ObjectBuilder {
 
     /// (s, t) of a point of an object's frame, by its plan about the object's own place.
     glm::dvec2 road_place(const RoadObject& object, const Placed& at, double u, double v) const {
-        const double turn = object.heading + (object.orientation == '-' ? kPi : 0);
+        const double turn = object.heading;
         const double ds = u * std::cos(turn) - v * std::sin(turn), dt = u * std::sin(turn) + v * std::cos(turn);
         // On a bend, a metre along the object is not one along the reference line.
         const double curvature = reference_point(road, at.s).curvature, stretch = 1 - curvature * (at.t + dt);
         return {at.s + ds / (std::abs(stretch) > 0.1 ? stretch : 1), at.t + dt};
     }
 
-    void flat_rectangle(const RoadObject& object, const Placed& at, const std::string& kind) {
+    void flat_rectangle(const RoadObject& object, const Placed& at) {
         std::array<glm::dvec2, 4> places;  // rear right, front right, front left, rear left
         for (size_t i = 0; i < 4; ++i)
             places[i] =
                 road_place(object, at, (i == 1 || i == 2 ? 1 : -1) * at.length / 2, (i < 2 ? -1 : 1) * at.width / 2);
-        if (contains(kind, "crosswalk") && object.markings.empty()) return zebra({places.begin(), places.end()});
-        if (contains(kind, "parkingspace") && object.markings.empty()) return boundary({places.begin(), places.end()});
+        if (kind == ObjectKind::Crosswalk && object.markings.empty()) return zebra({places.begin(), places.end()});
+        if (kind == ObjectKind::ParkingSpace && object.markings.empty()) return boundary({places.begin(), places.end()});
         constexpr std::array<const char*, 4> kSides{"right", "front", "left", "rear"};
         for (const ObjectMarking& marking : object.markings)
             for (size_t i = 0; i < 4; ++i)
                 if (marking.side == kSides[i]) painted(places[i], places[(i + 1) % 4], marking);
         if (!object.markings.empty()) return;
-        const bool paint = contains(kind, "stop") || contains(kind, "mark");
         const auto corner = [&](size_t i) { return on_surface(places[i].x, places[i].y, 0); };
-        mesh.quad(paint ? Stuff::MarkWhite : Stuff::Shoulder, corner(0), corner(1), corner(2), corner(3));
+        mesh.quad(kind == ObjectKind::RoadMark ? Stuff::MarkWhite : Stuff::Shoulder, corner(0), corner(1), corner(2), corner(3));
     }
 
     glm::dvec2 corner_place(const RoadObject& object, const Placed& at, const ObjectCorner& corner) const {
@@ -192,7 +175,6 @@ struct ObjectBuilder {
     }
 
     void outlined(const RoadObject& object, const Placed& at, const ObjectOutline& outline) {
-        const std::string kind = kind_of(object);
         std::vector<glm::dvec2> places;
         std::vector<glm::dvec3> bottoms, tops;
         double highest = 0;
@@ -208,21 +190,26 @@ struct ObjectBuilder {
             highest = std::max(highest, height);
         }
         if (!object.markings.empty()) markings(object, at, outline);
-        if (outline.corners.size() < 3) return;
         if (highest > kFlat) {
-            const Stuff stuff = contains(kind, "building")                               ? Stuff::Wall
-                                : contains(kind, "tree") || contains(kind, "vegetation") ? Stuff::Leaves
-                                                                                         : Stuff::Concrete;
-            return add_prism(mesh, stuff, bottoms, tops);
+            const Stuff stuff = kind == ObjectKind::Building                               ? Stuff::Wall
+                                : kind == ObjectKind::Tree || kind == ObjectKind::Bush ? Stuff::Leaves
+                                                                                           : Stuff::Concrete;
+            if (outline.closed && bottoms.size() > 2) return add_prism(mesh, stuff, bottoms, tops);
+            // Open: walls without thickness, seen from either side.
+            for (size_t i = 1; i < bottoms.size() && !outline.closed; ++i)
+                mesh.quad(stuff, bottoms[i - 1], bottoms[i], tops[i], tops[i - 1]),
+                    mesh.quad(stuff, bottoms[i], bottoms[i - 1], tops[i - 1], tops[i]);
+            return;
         }
-        if (!object.markings.empty()) return;
-        if (contains(kind, "crosswalk")) return zebra(places);
-        if (contains(kind, "parkingspace")) return boundary(places);
+        if (!object.markings.empty() || places.size() < 3) return;
+        if (kind == ObjectKind::Crosswalk) return zebra(places);
+        if (kind == ObjectKind::ParkingSpace) return boundary(places);
+        if (!outline.closed) return;  // a line on the ground without paint
         std::vector<glm::dvec3> corners;
         for (const glm::dvec2& p : places) corners.push_back(on_surface(p.x, p.y, 0));
-        mesh.any_polygon(contains(kind, "mark") || contains(kind, "stop") ? Stuff::MarkWhite
-                         : contains(kind, "island")                       ? Stuff::Concrete
-                                                                          : Stuff::Shoulder,
+        mesh.any_polygon(kind == ObjectKind::RoadMark ? Stuff::MarkWhite
+                         : kind == ObjectKind::Island ? Stuff::Concrete
+                                                      : Stuff::Shoulder,
                          corners, surface_point(road, at.s, at.t).up);
     }
 
@@ -249,11 +236,9 @@ struct ObjectBuilder {
 
     /// A body without end along the road: a rail, a wall, a fence.
     void continuous(const RoadObject& object, const ObjectRepeat& repeat) {
-        const std::string kind = kind_of(object);
-        const Stuff stuff = contains(kind, "rail") || contains(kind, "barrier") || contains(kind, "fence")
-                                ? Stuff::Steel
-                            : contains(kind, "vegetation") ? Stuff::Leaves
-                                                           : Stuff::Concrete;
+        const Stuff stuff = kind == ObjectKind::Railing || kind == ObjectKind::Barrier ? Stuff::Steel
+                            : kind == ObjectKind::Tree || kind == ObjectKind::Bush     ? Stuff::Leaves
+                                                                                       : Stuff::Concrete;
         const double end = std::min(repeat.s + repeat.length, road.length);
         if (!(end > repeat.s)) return;
         const auto steps = static_cast<int>(std::clamp(std::ceil((end - repeat.s) / 4), 1.0, 100'000.0));
@@ -285,6 +270,7 @@ struct ObjectBuilder {
     }
 
     void object(const RoadObject& each) {
+        kind = kind_of(each);
         if (each.repeats.empty()) one(each, whole(each));
         for (const ObjectRepeat& repeat : each.repeats) {
             if (repeat.distance <= 0 && each.outlines.empty()) {

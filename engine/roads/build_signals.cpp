@@ -97,7 +97,7 @@ struct SignalBuilder {
     /// A line across the lanes of one direction.
     void stop_line(const RoadSignal& s) {
         const LaneSection& section = road.sections[road.section_at(std::clamp(s.s, 0.0, road.length - 1e-6))];
-        const int side = s.orientation == '-' ? 1 : -1;
+        const int side = (s.orientation == '-') == road.right_hand ? 1 : -1;
         int first = 0, last = 0;
         for (int id = side; section.find(id); id += side)
             if (is_driven(section.find(id)->type)) {

@@ -159,7 +159,7 @@ void build_street_lamps(RoadBuild& build) {
         throw Error("street lamps every " + std::to_string(options.spacing) + " m: at least 2 m are expected");
     const bool has_own = std::any_of(build.scene.lights.begin(), build.scene.lights.end(),
                                      [](const Light& light) { return light.name == "street lamp"; });
-    if (has_own && !build.options.lamps) return;
+    if (has_own && !(build.options.lamps && options.beside_own)) return;
     size_t count = 0;
     const std::vector<double> highest = highest_points(build.lanes);
     for (const Road& road : build.network.roads)

@@ -19,11 +19,12 @@ struct StreetLampOptions {
     double overhang = 1.2;                  ///< m, from the pole towards the road
     double colour_temperature = 3000;       ///< K
     std::optional<Distribution> luminaire;  ///< instead of that of data/photometry/street-lamp.ies
+    bool beside_own = true;                 ///< rows of them also where the file has street lamps among its objects
 };
 
 struct LitRoadOptions {
     std::optional<StreetLampOptions> lamps;  ///< nothing: as above, unless the file has street lamps among its objects
-    double chord = 0.01;  ///< m, how far surfaces may lie from the roads of the file (reference line and outer borders)
+    double chord = 0.01;  ///< m, how far surfaces may lie from the roads of the file (reference line and borders)
     double margin = 120;  ///< m of ground around the roads, before it goes on flat to the horizon
     double ambient = 0.1;     ///< lx on every surface, and
     double sky = 0.02;        ///< cd/m^2: a clear night over a town, as vesper convert has it

@@ -9,6 +9,7 @@ namespace vesper {
 namespace {
 
 constexpr double kMaxSize = 1e4;  // m, of one object
+constexpr double kBeyond = 0.01;  // m beyond the ends of a road: rounding
 constexpr size_t kMaxCorners = 1000;
 
 MarkColour colour_of(const std::string& name) {
@@ -95,6 +96,35 @@ bool has_place(OpenDriveReader& reader, const XmlElement& element) {
     return false;
 }
 
+void check_on_road(OpenDriveReader& reader, const XmlElement& element, const Road& road) {
+    if (const double s = element.number("s"); s < -kBeyond || s > road.length + kBeyond)
+        reader.note(element, "s = " + std::to_string(s) + " is not on road '" + road.id + "', which is " +
+                                 std::to_string(road.length) + " m long: put where it would go on straight");
+}
+
+/// Where a signal stands, if that is not where it counts: the road, and the signal's place along it.
+Road& place_of(OpenDriveReader& reader, const XmlElement& element, Road& road, RoadSignal& signal) {
+    if (const auto each = element.child("positionInertial"))
+        reader.note(*each, "is not read: the signal is put at its s and t");
+    const auto each = element.child("positionRoad");
+    if (!each) return road;
+    const auto found = reader.roads.find(each->text_or("roadId", ""));
+    if (found == reader.roads.end()) {
+        reader.note(*each, "there is no road '" + each->text_or("roadId", "") + "': the signal is put at its s and t");
+        return road;
+    }
+    Road& other = reader.network.roads[found->second];
+    if (!each->attribute("s") || !each->attribute("t")) {
+        reader.note(*each, "has no s and t: the signal is put at its own");
+        return road;
+    }
+    signal.s = each->number("s"), signal.t = each->number("t");
+    signal.z_offset = each->number_or("zOffset", 0, -kMaxSize, kMaxSize);
+    signal.heading = each->number_or("hOffset", 0), signal.pitch = each->number_or("pitch", 0),
+    signal.roll = each->number_or("roll", 0);
+    return other;
+}
+
 /// Speed limit signs state theirs in value and unit; countries without a unit mean km/h, some write it into the
 /// subtype.
 void read_value(const XmlElement& element, RoadSignal& signal) {
@@ -114,6 +144,7 @@ void read_objects(OpenDriveReader& reader, const XmlElement& element, Road& road
     for (const XmlElement& each : element.children_of("objects", "object")) {
         reader.count(each);
         if (!has_place(reader, each)) continue;
+        check_on_road(reader, each, road);
         RoadObject object;
         object.id = each.text_or("id", ""), object.name = one_line(each.text_or("name", ""), 80);
         object.type = each.text_or("type", "none"), object.subtype = each.text_or("subtype", "");
@@ -143,6 +174,7 @@ void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road
     for (const XmlElement& each : element.children_of("signals", "signal")) {
         reader.count(each);
         if (!has_place(reader, each)) continue;
+        check_on_road(reader, each, road);
         RoadSignal signal;
         signal.id = each.text_or("id", ""), signal.name = one_line(each.text_or("name", ""), 80);
         signal.type = each.text_or("type", "-1"), signal.subtype = each.text_or("subtype", "-1");
@@ -155,7 +187,8 @@ void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road
         signal.roll = each.number_or("roll", 0);
         signal.orientation = orientation_of(each);
         signal.width = size_of(each, "width"), signal.height = size_of(each, "height");
-        road.signals.push_back(std::move(signal));
+        Road& stands_on = place_of(reader, each, road, signal);
+        stands_on.signals.push_back(std::move(signal));
     }
 }
 

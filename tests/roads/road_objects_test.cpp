@@ -1,0 +1,156 @@
+// Objects and signals: what they are taken for, and how they stand. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "roads/lit_roads.h"
+#include "roads/object_kind.h"
+#include "roads/road_texts.h"
+#include "roads/scene_parts.h"
+
+namespace vesper {
+namespace {
+
+using test::area_of;
+using test::geometry;
+using test::lamps_of;
+using test::network_of;
+using test::road;
+using test::Triangle;
+using test::triangles_of;
+using test::two_way_section;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+RoadNetwork with(const std::string& rest, const std::string& attributes = "") {
+    return network_of(road("1", 90, geometry(0, 0, 0, 0, 90, "<line/>"), two_way_section(), rest, attributes) +
+                      road("2", 90, geometry(0, 0, 100, 0, 90, "<line/>"), two_way_section()));
+}
+
+Scene built(const RoadNetwork& network, StreetLampOptions lamps = {.spacing = 0}) {
+    LitRoadOptions options;
+    options.lamps = lamps;
+    return lit_roads(network, options).scene;
+}
+
+ObjectKind kind(const std::string& type, const std::string& subtype, const std::string& name) {
+    RoadObject object;
+    object.type = type, object.subtype = subtype, object.name = name;
+    return kind_of(object);
+}
+
+bool has_note(const RoadNetwork& network, const std::string& what) {
+    for (const std::string& note : network.notes)
+        if (note.find(what) != note.npos) return true;
+    return false;
+}
+
+/// Bounds in the file's frame (x, y, z) of what a material is on.
+std::pair<glm::dvec3, glm::dvec3> bounds_of(const Scene& scene, const std::string& material) {
+    glm::dvec3 low(kInfinite), high(-kInfinite);
+    for (const Triangle& triangle : triangles_of(scene, material))
+        for (const glm::dvec3& c : triangle.corners) low = glm::min(low, {c.x, -c.z, c.y}), high = glm::max(high, {c.x, -c.z, c.y});
+    return {low, high};
+}
+
+TEST(RoadObjects, AreKnownByWholeWords) {
+    for (const char* name : {"StreetLight", "street light 3", "streetlamp", "Street_Lamp_07", "lampPost", "street lamps"})
+        EXPECT_EQ(kind("pole", "", name), ObjectKind::StreetLamp) << name;
+    EXPECT_EQ(kind("streetLamp", "", "tree"), ObjectKind::StreetLamp) << "its type says";
+    for (const char* name : {"Main Street kiosk", "Bushaltestelle", "Bus stop", "Dispatch", "Market hall"})
+        EXPECT_EQ(kind("building", "", name), ObjectKind::Building) << name;
+    for (const char* name : {"Main Street kiosk", "Bushaltestelle", "Dispatch", "Polestar", "trailer", "landmark", "concrete stopper"})
+        EXPECT_EQ(kind("obstacle", "-1", name), ObjectKind::Other) << name;
+    EXPECT_EQ(kind("vegetation", "bush", "VegBush06"), ObjectKind::Bush);
+    EXPECT_EQ(kind("none", "", "oak tree"), ObjectKind::Tree);
+    EXPECT_EQ(kind("none", "", "VegBush06"), ObjectKind::Bush);
+    EXPECT_EQ(kind("rail-pole", "", "../models/railing-pole.osgb"), ObjectKind::Pole);
+    EXPECT_EQ(kind("guide-post", "", ""), ObjectKind::GuidePost);
+    EXPECT_EQ(kind("barrier", "guardRail", ""), ObjectKind::Barrier);
+    EXPECT_EQ(kind("none", "guardRail", ""), ObjectKind::Railing);
+    EXPECT_EQ(kind("parkingSpace", "", ""), ObjectKind::ParkingSpace);
+    EXPECT_EQ(kind("trafficIsland", "", ""), ObjectKind::Island);
+    EXPECT_EQ(kind("roadMark", "arrowLeft", ""), ObjectKind::RoadMark);
+}
+
+constexpr const char* kCorners = "<cornerLocal u=\"0\" v=\"0\" z=\"0\" height=\"1\"/><cornerLocal u=\"4\" v=\"0\" z=\"0\" height=\"1\"/>"
+                                 "<cornerLocal u=\"4\" v=\"2\" z=\"0\" height=\"1\"/></outline></object></objects>";
+
+// ASAM OpenDRIVE 1.8, 13.2: orientation says in which direction an object counts.
+TEST(RoadObjects, OrientationDoesNotTurnThem) {
+    for (const char* orientation : {"+", "-", "none"}) {
+        const auto [low, high] = bounds_of(built(with("<objects><object id=\"1\" type=\"building\" s=\"40\" t=\"10\" hdg=\"0\" orientation=\"" + std::string(orientation) +
+                                                      "\"><outline>" + kCorners)),
+                                           "wall");
+        EXPECT_NEAR(low.x, 40, 1e-4) << orientation;
+        EXPECT_NEAR(high.x, 44, 1e-4);
+        EXPECT_NEAR(low.y, 10, 1e-4);
+        EXPECT_NEAR(high.y, 12, 1e-4);
+    }
+}
+
+TEST(RoadObjects, OpenOutlinesAreWallsAlone) {
+    const auto area = [&](const std::string& closed) {
+        return area_of(triangles_of(built(with("<objects><object id=\"1\" type=\"building\" s=\"40\" t=\"10\"><outline closed=\"" + closed + "\">" + kCorners)), "wall"));
+    };
+    EXPECT_NEAR(area("false"), 2 * (4 + 2), 1e-3) << "either side of two walls";
+    EXPECT_NEAR(area("true"), 4 + 2 + std::sqrt(20.0) + 4, 1e-3) << "three walls and a roof";
+}
+
+TEST(RoadObjects, RowsOfLampsStandBesideOwnOnesIfAsked) {
+    const RoadNetwork network = with("<objects><object id=\"1\" type=\"streetLamp\" s=\"40\" t=\"6\" height=\"8\"/></objects>");
+    const auto lamps = [&](const LitRoadOptions& options) { return lamps_of(lit_roads(network, options).scene, "street_lamp_").size(); };
+    LitRoadOptions options;
+    EXPECT_EQ(lamps(options), 1u);
+    options.lamps = StreetLampOptions{.overhang = 2, .beside_own = false};
+    EXPECT_EQ(lamps(options), 1u);
+    options.lamps->beside_own = true;
+    EXPECT_GT(lamps(options), 3u);
+}
+
+// Of a signal that counts for traffic with and against s, in right- and left-hand traffic: at y < 0 lies the lane -1.
+TEST(RoadSignals, StopLinesLieAcrossTheLanesTheyAreFor) {
+    for (const char* rule : {"RHT", "LHT"})
+        for (const char* orientation : {"+", "-"}) {
+            const auto [low, high] = bounds_of(built(with("<signals><signal s=\"50\" t=\"-5\" id=\"7\" dynamic=\"no\" orientation=\"" + std::string(orientation) +
+                                                              "\" type=\"294\" country=\"DE\"/></signals>",
+                                                          "rule=\"" + std::string(rule) + "\"")),
+                                               "marking white");
+            const bool right = (orientation[0] == '+') == (rule[0] == 'R');
+            EXPECT_NEAR(low.y, right ? -3.5 : 0, 1e-3) << rule << orientation;
+            EXPECT_NEAR(high.y, right ? 0 : 3.5, 1e-3) << rule << orientation;
+        }
+}
+
+TEST(RoadSignals, StandWhereTheirPositionSays) {
+    const auto signal = [](const std::string& position) {
+        return with("<signals><signal s=\"50\" t=\"-5\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"3\" type=\"1000001\" country=\"OpenDRIVE\" "
+                    "height=\"0.9\" width=\"0.3\">" + position + "</signal></signals>");
+    };
+    const auto place = [](const RoadNetwork& network) { return lamps_of(built(network), "signal_7/red").at(0).translation; };
+    EXPECT_NEAR(place(signal("")).x, 50, 0.2);
+    for (const char* id : {"1", "2"}) {
+        const RoadNetwork network = signal("<positionRoad roadId=\"" + std::string(id) + "\" s=\"70\" t=\"6\" zOffset=\"2\" hOffset=\"0\"/>");
+        EXPECT_TRUE(network.notes.empty()) << network.notes[0];
+        const glm::vec3 at = place(network);
+        EXPECT_NEAR(at.x, 70, 0.2) << id;
+        EXPECT_NEAR(-at.z, 6 + (id[0] == '2' ? 100 : 0), 1e-3) << id;
+        EXPECT_NEAR(at.y, 2.75, 1e-3) << id;
+    }
+    const RoadNetwork inertial = signal("<positionInertial x=\"7\" y=\"6\" z=\"2\" hdg=\"0\"/>"), nowhere = signal("<positionRoad roadId=\"9\" s=\"7\" t=\"6\"/>");
+    EXPECT_NEAR(place(inertial).x, 50, 0.2);
+    EXPECT_TRUE(has_note(inertial, "positionInertial: is not read"));
+    EXPECT_NEAR(place(nowhere).x, 50, 0.2);
+    EXPECT_TRUE(has_note(nowhere, "positionRoad: there is no road '9'"));
+}
+
+TEST(RoadSignals, BeyondTheEndOfTheirRoadAreSaid) {
+    const RoadNetwork network = with("<objects><object id=\"1\" type=\"pole\" s=\"95\" t=\"6\"/></objects><signals><signal s=\"-4\" t=\"5\" id=\"7\"/></signals>");
+    EXPECT_TRUE(has_note(network, "object: s = 95.000000 is not on road '1', which is 90.0"));
+    EXPECT_TRUE(has_note(network, "signal: s = -4.0"));
+    EXPECT_EQ(network.notes.size(), 2u);
+}
+
+}  // namespace
+}  // namespace vesper

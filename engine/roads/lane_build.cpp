@@ -256,7 +256,7 @@ std::vector<Lane> build_lanes(const RoadNetwork& network) {
 }
 
 void link_where_they_meet(std::vector<Lane>& lanes) {
-    SegmentGrid starts(4);
+    SegmentGrid starts(0.5);
     size_t looks = 0;
     std::vector<uint32_t> last_section;  // of each road, that has lanes
     for (const Lane& lane : lanes) {

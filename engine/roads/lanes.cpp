@@ -140,7 +140,7 @@ std::vector<uint32_t> LaneGraph::long_route(uint32_t from) const {
     size_t looks = 0;
     const auto outlook = [&](const auto& self, uint32_t lane, int depth) -> double {
         double best = 0;
-        if (depth > 0 && ++looks < kMostLooks)
+        if (++looks < kMostLooks && depth > 0)
             for (const uint32_t next : lanes_[lane].successors)
                 if (!entered[next]) best = std::max(best, self(self, next, depth - 1));
         return lanes_[lane].length + best;

@@ -41,8 +41,11 @@ private:
 
 /// Parameters declared in an element, over those around it; `assigned` wins.
 Parameters declared(const XmlElement& element, const Parameters& around);
+/// The value of an expression, truth as 1 and 0; nothing where it is none of known parameters or not finite.
+std::optional<double> expression_value(std::string_view text, const Parameters& scope);
 /// An attribute with its parameters and expressions ($name, ${$a * 2}) put in; nothing where missing.
 std::optional<std::string> resolved(const XmlElement& element, const char* attribute, const Parameters& scope);
+bool flag_in(const XmlElement& element, const char* attribute, const Parameters& scope);
 double number_in(const XmlElement& element, const char* attribute, const Parameters& scope, double fallback);
 
 /// Goes through the storyboard at the run's steps and enters what it sets.

@@ -38,9 +38,10 @@ struct Columns {
 };
 
 /// What the CSV logger calls them, without number and unit.
-constexpr std::array<std::pair<std::string_view, const char*>, 18> kLogged{{{"Entity_Name", "name"},
+constexpr std::array<std::pair<std::string_view, const char*>, 19> kLogged{{{"Entity_Name", "name"},
                                                                             {"Entitity_Name", "name"},
                                                                             {"Entity_ID", "id"},
+                                                                            {"Entitity_ID", "id"},  // before 2.37.5
                                                                             {"World_Position_X", "x"},
                                                                             {"World_Position_Y", "y"},
                                                                             {"World_Position_Z", "z"},

@@ -1,4 +1,4 @@
-// OpenSCENARIO files: parameters, expressions, catalogs. SPDX-License-Identifier: MIT
+// OpenSCENARIO files: parameters and catalogs. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,74 +20,6 @@ std::unique_ptr<XmlFile> read_xml(const std::filesystem::path& path) {
                                      path.string());
 }
 
-bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
-
-/// Sums, products and brackets of numbers and parameters (OpenSCENARIO 1.1, 9.1).
-struct Expression {
-    std::string_view text;
-    const Parameters& scope;
-    size_t at = 0;
-    int depth = 0;
-
-    void skip() {
-        while (at < text.size() && std::isspace(static_cast<unsigned char>(text[at]))) ++at;
-    }
-    bool take(char c) {
-        skip();
-        if (at >= text.size() || text[at] != c) return false;
-        ++at;
-        return true;
-    }
-    std::optional<double> factor() {
-        if (++depth > 100) return std::nullopt;
-        std::optional<double> value;
-        if (take('(')) {
-            value = sum();
-            if (!take(')')) value.reset();
-        } else if (take('-')) {
-            value = factor();
-            if (value) value = -*value;
-        } else if (take('$')) {
-            const size_t first = at;
-            while (at < text.size() && is_name(text[at])) ++at;
-            const auto found = scope.find(text.substr(first, at - first));
-            if (found != scope.end()) value = number_of(found->second, false);
-        } else {
-            skip();
-            size_t last = at;
-            while (last < text.size() && (std::isdigit(static_cast<unsigned char>(text[last])) || text[last] == '.' ||
-                                          text[last] == 'e' || text[last] == 'E'))
-                ++last;
-            value = number_of(text.substr(at, last - at), false);
-            at = last;
-        }
-        --depth;
-        return value;
-    }
-    std::optional<double> product() {
-        auto value = factor();
-        while (value) {
-            const bool times = take('*'), over = !times && take('/');
-            if (!times && !over) return value;
-            const auto other = factor();
-            if (!other) return std::nullopt;
-            *value = times ? *value * *other : *value / *other;
-        }
-        return value;
-    }
-    std::optional<double> sum() {
-        auto value = product();
-        while (value) {
-            const bool plus = take('+'), minus = !plus && take('-');
-            if (!plus && !minus) return value;
-            const auto other = product();
-            if (!other) return std::nullopt;
-            *value += plus ? *other : -*other;
-        }
-        return value;
-    }
-};
-
 }  // namespace
 
 std::optional<std::string> resolved(const XmlElement& element, const char* attribute, const Parameters& scope) {
@@ -95,10 +27,8 @@ std::optional<std::string> resolved(const XmlElement& element, const char* attri
     if (!text) return std::nullopt;
     if ((*text)[0] != '$') return std::string(*text);
     if (text->starts_with("${") && text->ends_with("}")) {
-        Expression expression{text->substr(2, text->size() - 3), scope};
-        const auto value = expression.sum();
-        expression.skip();
-        if (!value || !std::isfinite(*value) || expression.at != expression.text.size())
+        const auto value = expression_value(text->substr(2, text->size() - 3), scope);
+        if (!value)
             element.fail(std::string(attribute) + " " + vesper::quoted(*text) +
                          " is no expression of known parameters");
         char digits[40];
@@ -108,6 +38,11 @@ std::optional<std::string> resolved(const XmlElement& element, const char* attri
     const auto found = scope.find(text->substr(1));
     if (found == scope.end()) element.fail(std::string(attribute) + ": there is no parameter " + vesper::quoted(*text));
     return found->second;
+}
+
+bool flag_in(const XmlElement& element, const char* attribute, const Parameters& scope) {
+    const std::string text = resolved(element, attribute, scope).value_or("");
+    return text == "true" || text == "1";
 }
 
 double number_in(const XmlElement& element, const char* attribute, const Parameters& scope, double fallback) {

@@ -1,299 +1,270 @@
 // The storyboard of a scenario, played over a recorded run. SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 #include <utility>
 
-#include "base/error.h"
-#include "roads/storyboard_conditions.h"
+#include "roads/storyboard_actions.h"
 
 namespace vesper {
 namespace {
 
-constexpr size_t kMaxSteps = 2'000'000, kMaxElements = 20'000;
-constexpr double kMaxWork = 5e8;  // elements and questions of conditions, times steps
+constexpr size_t kMaxSteps = 2'000'000;
+using Is = ElementState::Is;
+
+/// An action of one actor that goes on.
+struct UnderWay {
+    Progress done;
+    std::shared_ptr<bool> over;  ///< another one took its place
+};
 
 struct ActionPart {
-    std::string name;
-    XmlElement element;
-    double end = 0;  ///< time it is done at, once started
+    size_t index;
+    std::vector<StoryAction> parts;
+    std::vector<UnderWay> under_way{};
+    bool running = false;
 };
 
 struct EventPart {
-    std::string name, priority;
-    Parameters scope;
-    Condition trigger;
-    std::vector<ActionPart> actions;
+    size_t index;
+    enum class Priority : uint8_t { Override, Skip, Parallel, None } priority;
+    Trigger trigger;
+    std::vector<ActionPart> actions{};
     int most = 1, executions = 0;
     bool running = false;
     bool done() const { return !running && executions >= most; }
 };
 
 struct ManeuverPart {
-    std::string name;
-    std::vector<EventPart> events;
+    size_t index;
+    std::vector<EventPart> events{};
     std::set<EventPart*> running{};  ///< of these events
     bool complete = false;
 };
 
 struct GroupPart {
-    std::string name;
-    std::vector<std::string> actors;
-    std::vector<ManeuverPart> maneuvers;
+    size_t index;
+    std::vector<RunEntity*> actors{};
+    bool select = false;  ///< entities that trigger an event act in it, too
+    std::vector<ManeuverPart> maneuvers{};
     bool complete = false;
 };
 
 struct ActPart {
-    std::string name;
-    Condition start, stop;
+    size_t index, story;
+    Trigger start, stop;
     bool stops = false, running = false, complete = false;
-    std::vector<GroupPart> groups;
+    std::vector<GroupPart> groups{};
 };
 
 struct Player {
     ScenarioFile& scenario;
-    EsminiRun& run;
     StoryTime story;
     std::vector<ActPart> acts{};
-    size_t elements = 0;
+    std::map<size_t, size_t> open{};  ///< acts not complete, by story
+    std::map<std::pair<RunEntity*, uint32_t>, std::shared_ptr<bool>> current{};  ///< action of an actor, by its domain
 
-    void count(const XmlElement& element) {
-        if (++elements > kMaxElements)
-            element.fail("the storyboard has more than " + std::to_string(kMaxElements) + " elements");
-    }
-
-    // What actions do.
-
-    void set_lamp(const XmlElement& element, const Parameters& scope, const std::vector<std::string>& actors,
-                  double time) {
-        const auto type = element.child("LightType"), state = element.child("LightState");
-        const auto vehicle = type ? type->child("VehicleLight") : std::nullopt;
-        if (!vehicle || !state) return story.note(element.place() + ": no vehicle light: left out");
-        const std::string name = resolved(*vehicle, "vehicleLightType", scope).value_or("");
-        static const std::map<std::string, std::vector<RunLamp>> kLamps{
-            {"lowBeam", {RunLamp::LowBeam}},
-            {"highBeam", {RunLamp::HighBeam}},
-            {"daytimeRunningLights", {RunLamp::DaytimeRunning}},
-            {"fogLights", {RunLamp::FogFront, RunLamp::FogRear}},
-            {"fogLightsFront", {RunLamp::FogFront}},
-            {"fogLightsRear", {RunLamp::FogRear}},
-            {"brakeLights", {RunLamp::Brake}},
-            {"reversingLights", {RunLamp::Reversing}},
-            {"indicatorLeft", {RunLamp::IndicatorLeft}},
-            {"indicatorRight", {RunLamp::IndicatorRight}},
-            {"warningLights", {RunLamp::IndicatorLeft, RunLamp::IndicatorRight}},
-            {"licensePlateIllumination", {RunLamp::LicencePlate}},
-            {"specialPurposeLights", {RunLamp::SpecialPurpose}}};
-        const auto lamps = kLamps.find(name);
-        if (lamps == kLamps.end()) return story.note(vehicle->place() + ": there is no light '" + name + "'");
-        LampEvent event{.time = time};
-        const std::string mode = resolved(*state, "mode", scope).value_or("on");
-        event.mode = mode == "off"        ? LampEvent::Mode::Off
-                     : mode == "flashing" ? LampEvent::Mode::Flashing
-                                          : LampEvent::Mode::On;
-        event.transition = std::clamp(number_in(element, "transitionTime", scope, 0), 0.0, 3600.0);
-        event.on_time = std::clamp(number_in(*state, "flashingOnDuration", scope, 0.5), 0.0, 3600.0);
-        event.off_time = std::clamp(number_in(*state, "flashingOffDuration", scope, 0.5), 0.0, 3600.0);
-        event.intensity = std::max(0.0, number_in(*state, "luminousIntensity", scope, 0));
-        if (const auto colour = state->child("Color"))
-            if (const auto rgb = colour->child("ColorRgb"))
-                event.colour = glm::dvec3{number_in(*rgb, "red", scope, 0), number_in(*rgb, "green", scope, 0),
-                                          number_in(*rgb, "blue", scope, 0)};
-        for (RunEntity& entity : run.entities) {
-            if (std::find(actors.begin(), actors.end(), entity.name) == actors.end()) continue;
-            for (const RunLamp lamp : lamps->second) {
-                entity.lamps[static_cast<size_t>(lamp)].push_back(event);
-                entity.stated[static_cast<size_t>(lamp)] = true;
-            }
-        }
-    }
-
-    void global(const XmlElement& element, const Parameters& scope, double time) {
-        for (const XmlElement& infrastructure : element.children("InfrastructureAction"))
-            for (const XmlElement& each :
-                 infrastructure.children_of("TrafficSignalAction", "TrafficSignalStateAction")) {
-                const std::string name = resolved(each, "name", scope).value_or(""),
-                                  state = resolved(each, "state", scope).value_or("");
-                run.signals.push_back({time, name, state, each.place()});
-                story.signals[name] = state;
-            }
-        for (const XmlElement& environment : element.children_of("EnvironmentAction", "Environment"))
-            if (const auto when = environment.child("TimeOfDay"))
-                run.time_of_day.push_back({time, "", resolved(*when, "dateTime", scope).value_or("")});
-    }
-
-    /// Does what the action does to lamps and signals, and says how long it takes.
-    double start(const XmlElement& action, const Parameters& scope, const std::vector<std::string>& actors,
-                 double time) {
-        for (const XmlElement& each : action.children("GlobalAction")) global(each, scope, time);
-        double longest = 0;
-        for (const XmlElement& part : action.children("PrivateAction")) {
-            for (const XmlElement& light : part.children_of("AppearanceAction", "LightStateAction"))
-                set_lamp(light, scope, actors, time);
-            longest = std::max(longest, duration_of(part, scope, actors, time));
-        }
-        return longest;
-    }
-
-    double duration_of(const XmlElement& part, const Parameters& scope, const std::vector<std::string>& actors,
-                       double time) {
-        for (const char* group : {"LongitudinalAction", "LateralAction"})
-            for (const XmlElement& holder : part.children(group))
-                for (const XmlElement& action : holder.children())
-                    for (const XmlElement& each : action.children()) {
-                        if (!each.name().ends_with("Dynamics") || !each.attribute("dynamicsDimension")) continue;
-                        return dynamics(each, action, scope, actors, time);
-                    }
-        return 0;
-    }
-
-    double dynamics(const XmlElement& element, const XmlElement& action, const Parameters& scope,
-                    const std::vector<std::string>& actors, double time) {
-        const std::string shape = resolved(element, "dynamicsShape", scope).value_or("");
-        if (shape == "step") return 0;
-        const double value = std::abs(number_in(element, "value", scope, 0));
-        const std::string dimension = resolved(element, "dynamicsDimension", scope).value_or("time");
-        const RunEntity* actor = actors.empty() ? nullptr : story.find(actors[0]);
-        const double speed = actor ? pose_at(*actor, time).speed : 0;
-        const auto targets = action.children_of("SpeedActionTarget", "AbsoluteTargetSpeed");
-        const double change = targets.empty() ? 0 : number_in(targets[0], "value", scope, 0) - speed;
-        if (dimension == "distance") return std::abs(speed) > 0.1 ? value / std::abs(speed) : 0;
-        if (dimension == "rate") return value > 0 ? std::abs(change) / value : 0;
-        // As esmini does: a vehicle takes as long as its strongest acceleration asks for.
-        const double most = !actor ? 0 : change > 0 ? actor->acceleration : actor->deceleration;
-        const double peak = shape == "sinusoidal" ? std::numbers::pi / 2 : shape == "cubic" ? 1.5 : 1;
-        return most > 0 ? std::max(value, peak * std::abs(change) / most) : value;
+    static std::string name_in(const XmlElement& element, const Parameters& scope) { return resolved(element, "name", scope).value_or(""); }
+    size_t add(ElementKind kind, const XmlElement& element, const Parameters& scope, size_t above) {
+        return story.elements.add(kind, element, name_in(element, scope), above);
     }
 
     // Reading.
 
-    EventPart event_of(const XmlElement& element, const Parameters& scope) {
-        count(element);
-        EventPart event{element.text_or("name", ""),
-                        element.text_or("priority", "override"),
-                        scope,
-                        trigger_of(element.child("StartTrigger"), scope, story),
-                        {}};
+    EventPart event_of(const XmlElement& element, const Parameters& scope, const GroupPart& group, size_t above) {
+        using Priority = EventPart::Priority;
+        static const std::map<std::string, Priority> kPriorities{
+            {"override", Priority::Override}, {"overwrite", Priority::Override}, {"skip", Priority::Skip}, {"parallel", Priority::Parallel}};
+        EventPart event{add(ElementKind::Event, element, scope, above), Priority::None, {}};
+        const std::string priority = resolved(element, "priority", scope).value_or("override");
+        const auto known = kPriorities.find(priority);
+        if (known != kPriorities.end()) event.priority = known->second;
+        else story.note(element.place() + ": priority '" + priority + "' is none of OpenSCENARIO's: it never begins");
+        const size_t before = story.questions;
+        event.trigger = trigger_of(element.child("StartTrigger"), scope, story);
+        event.trigger.select = group.select;
+        const size_t actors = group.actors.size() + (group.select ? story.questions - before : 0);
         event.most = static_cast<int>(std::clamp(number_in(element, "maximumExecutionCount", scope, 1), 1.0, 1e6));
         for (const XmlElement& each : element.children("Action")) {
-            count(each);
-            event.actions.push_back({each.text_or("name", ""), each});
+            ActionPart action{add(ElementKind::Action, each, scope, event.index), actions_of(each, scope, story)};
+            for (const StoryAction& part : action.parts) {
+                if (part.each && actors == 0) story.note(each.place() + ": there is no actor for it");
+                story.ask(part.each ? actors : 1);
+            }
+            event.actions.push_back(std::move(action));
         }
         return event;
     }
 
-    ManeuverPart maneuver_of(const XmlElement& element, const Parameters& around) {
-        count(element);
-        const Parameters scope = declared(element, around);
-        return maneuver_in(element, scope);
-    }
-    ManeuverPart maneuver_in(const XmlElement& element, const Parameters& scope) {
-        ManeuverPart maneuver{element.text_or("name", ""), {}};
-        for (const XmlElement& each : element.children("Event")) maneuver.events.push_back(event_of(each, scope));
-        return maneuver;
+    void maneuver_in(GroupPart& group, const XmlElement& element, const Parameters& scope) {
+        ManeuverPart maneuver{add(ElementKind::Maneuver, element, scope, group.index)};
+        for (const XmlElement& each : element.children("Event")) maneuver.events.push_back(event_of(each, scope, group, maneuver.index));
+        group.maneuvers.push_back(std::move(maneuver));
     }
 
-    GroupPart group_of(const XmlElement& element, const Parameters& scope) {
-        GroupPart group{element.text_or("name", ""), {}, {}};
-        for (const XmlElement& each : element.children_of("Actors", "EntityRef"))
-            if (const auto name = resolved(each, "entityRef", scope)) group.actors.push_back(*name);
-        for (const XmlElement& each : element.children("Maneuver")) group.maneuvers.push_back(maneuver_of(each, scope));
+    GroupPart group_of(const XmlElement& element, const Parameters& scope, size_t above) {
+        GroupPart group{add(ElementKind::ManeuverGroup, element, scope, above)};
+        if (const auto actors = element.child("Actors")) {
+            group.select = flag_in(*actors, "selectTriggeringEntities", scope);
+            for (const XmlElement& each : actors->children("EntityRef"))
+                for (RunEntity* entity : story.all_of(each, "entityRef", scope)) group.actors.push_back(entity);
+        }
+        std::sort(group.actors.begin(), group.actors.end());
+        group.actors.erase(std::unique(group.actors.begin(), group.actors.end()), group.actors.end());
+        story.ask(group.actors.size());
+        if (number_in(element, "maximumExecutionCount", scope, 1) > 1) story.note(element.place() + ": is gone through once");
+        for (const XmlElement& each : element.children("Maneuver")) maneuver_in(group, each, declared(each, scope));
         for (const XmlElement& each : element.children("CatalogReference")) {
             const auto entry = scenario.find(each, scope);
             if (entry)
-                group.maneuvers.push_back(maneuver_in(entry->element, entry->parameters));
+                maneuver_in(group, entry->element, entry->parameters);
             else
                 story.note(each.place() + ": no catalog has this maneuver");
         }
         return group;
     }
 
-    void read(const XmlElement& storyboard) {
+    void init(const XmlElement& actions) {
         const Parameters& scope = scenario.parameters();
-        for (const XmlElement& init : storyboard.children("Init"))
-            for (const XmlElement& actions : init.children("Actions")) {
-                for (const XmlElement& each : actions.children("GlobalAction")) global(each, scope, 0);
-                for (const XmlElement& each : actions.children("Private"))
-                    start(each, scope, {resolved(each, "entityRef", scope).value_or("")}, story.times.front());
+        const auto begin = [](const std::vector<StoryAction>& parts, const std::vector<RunEntity*>& actors) {
+            for (const StoryAction& part : parts) {
+                if (part.once) part.once(0);
+                for (RunEntity* actor : actors)
+                    if (part.each) part.each(*actor, 0);
             }
-        for (const XmlElement& element : storyboard.children("Story")) {
+        };
+        begin(actions_of(actions, scope, story), {});
+        for (const XmlElement& each : actions.children("Private")) begin(actions_of(each, scope, story), story.all_of(each, "entityRef", scope));
+    }
+
+    void read() {
+        const Parameters& scope = scenario.parameters();
+        for (const XmlElement& each : scenario.root().children_of("VariableDeclarations", "VariableDeclaration"))
+            story.variables.insert_or_assign(name_in(each, scope), resolved(each, "value", scope).value_or(""));
+        for (const XmlElement& network : scenario.root().children("RoadNetwork"))
+            for (const XmlElement& each : network.children_of("TrafficSignals", "TrafficSignalController"))
+                story.note(each.place() + ": controllers of traffic signals are not played: left out");
+        story.find_entities();
+        for (const XmlElement& holder : story.storyboard.children("Init"))
+            for (const XmlElement& actions : holder.children("Actions")) init(actions);
+        for (const XmlElement& element : story.storyboard.children("Story")) {
+            const size_t index = add(ElementKind::Story, element, scope, StoryElements::kNone);
             const Parameters inner = declared(element, scope);
             for (const XmlElement& each : element.children("Act")) {
-                ActPart act{each.text_or("name", ""), trigger_of(each.child("StartTrigger"), inner, story),
-                            trigger_of(each.child("StopTrigger"), inner, story)};
                 const auto stop = each.child("StopTrigger");
-                act.stops = stop && !stop->children("ConditionGroup").empty();
-                for (const XmlElement& group : each.children("ManeuverGroup"))
-                    act.groups.push_back(group_of(group, inner));
+                ActPart act{add(ElementKind::Act, each, inner, index), index, trigger_of(each.child("StartTrigger"), inner, story),
+                            trigger_of(stop, inner, story, false), stop.has_value()};
+                for (const XmlElement& group : each.children("ManeuverGroup")) act.groups.push_back(group_of(group, inner, act.index));
                 acts.push_back(std::move(act));
+                ++open[index];
             }
         }
+        story.find_references();
+        story.ask(0);
     }
 
     // Playing.
 
-    void mark_start(const std::string& key, int step) {
-        ElementState& state = story.elements[key];
-        state.started = step;
-        ++state.running;
-    }
-    void mark_end(const std::string& key, int step) {
-        ElementState& state = story.elements[key];
-        state.ended = step;
-        state.running = std::max(0, state.running - 1);
+    void end_action(ActionPart& action, int step) {
+        if (action.running) story.elements.end(action.index, step);
+        action.running = false;
+        action.under_way.clear();
     }
 
     void end_event(EventPart& event, int step) {
-        for (const ActionPart& action : event.actions)
-            if (action.end >= 0) mark_end("action/" + action.name, step);
+        for (ActionPart& action : event.actions) end_action(action, step);
         event.running = false;
-        mark_end("event/" + event.name, step);
+        story.elements.end(event.index, step, event.executions < event.most);
+        event.trigger.forget();
+    }
+
+    void begin_part(ActionPart& action, const StoryAction& part, RunEntity& actor, int step) {
+        Progress done = part.each(actor, step);
+        const auto over = std::make_shared<bool>(false);
+        for (uint32_t domain = 1; domain != 0; domain <<= 1) {
+            if (!(part.domains & domain)) continue;
+            std::shared_ptr<bool>& now = current[{&actor, domain}];
+            if (now) *now = true;
+            now = over;
+        }
+        if (done) action.under_way.push_back({std::move(done), over});
+    }
+
+    void begin_event(EventPart& event, ManeuverPart& maneuver, const GroupPart& group, int step) {
+        event.running = true;
+        maneuver.running.insert(&event);
+        ++event.executions;
+        story.elements.start(event.index, step);
+        std::vector<RunEntity*> actors = group.actors;
+        actors.insert(actors.end(), event.trigger.triggering.begin(), event.trigger.triggering.end());
+        std::sort(actors.begin(), actors.end());
+        actors.erase(std::unique(actors.begin(), actors.end()), actors.end());
+        for (ActionPart& action : event.actions) {
+            action.running = true;
+            story.elements.start(action.index, step);
+            for (const StoryAction& part : action.parts) {
+                if (part.once) part.once(step);
+                for (RunEntity* actor : actors)
+                    if (part.each) begin_part(action, part, *actor, step);
+            }
+        }
     }
 
     void step_event(EventPart& event, ManeuverPart& maneuver, const GroupPart& group, int step) {
-        const double time = story.times[static_cast<size_t>(step)];
-        const bool triggered = event.trigger(step);
-        if (!event.running && event.executions < event.most && triggered) {
-            if (event.priority == "override" || event.priority == "overwrite")
-                for (EventPart* other : std::exchange(maneuver.running, {})) end_event(*other, step);
-            if (event.priority == "skip" && !maneuver.running.empty()) return;
-            event.running = true;
-            maneuver.running.insert(&event);
-            ++event.executions;
-            mark_start("event/" + event.name, step);
-            for (ActionPart& action : event.actions) {
-                mark_start("action/" + action.name, step);
-                action.end = time + start(action.element, event.scope, group.actors, time);
+        using Priority = EventPart::Priority;
+        if (!event.running && event.executions < event.most && event.trigger.holds(step, story) && event.priority != Priority::None) {
+            if (event.priority == Priority::Skip && !maneuver.running.empty()) {
+                story.elements[event.index].skipped = step;
+                return;
             }
+            if (event.priority == Priority::Override)
+                for (EventPart* other : std::exchange(maneuver.running, {})) end_event(*other, step);
+            begin_event(event, maneuver, group, step);
         }
         if (!event.running) return;
         bool all = true;
         for (ActionPart& action : event.actions) {
-            if (action.end < 0) continue;
-            if (time >= action.end - 1e-6) {
-                mark_end("action/" + action.name, step);
-                action.end = -1;
-            } else {
-                all = false;
-            }
+            std::erase_if(action.under_way, [&](UnderWay& each) { return *each.over || each.done(step); });
+            if (action.under_way.empty()) end_action(action, step);
+            all = all && !action.running;
         }
         if (!all) return;
         maneuver.running.erase(&event);
-        event.running = false;
-        mark_end("event/" + event.name, step);
+        end_event(event, step);
+    }
+
+    void start_act(ActPart& act, int step) {
+        act.running = true;
+        story.elements.start(act.index, step);
+        for (GroupPart& group : act.groups) {
+            story.elements.start(group.index, step);
+            for (ManeuverPart& maneuver : group.maneuvers) {
+                story.elements.start(maneuver.index, step);
+                for (const EventPart& event : maneuver.events) story.elements[event.index].is = Is::Standby;
+            }
+        }
+    }
+
+    /// What it holds ends with it.
+    void stop_act(ActPart& act, int step) {
+        for (GroupPart& group : act.groups) {
+            for (ManeuverPart& maneuver : group.maneuvers) {
+                for (EventPart& event : maneuver.events) {
+                    if (event.done()) continue;
+                    event.executions = event.most;
+                    end_event(event, step);
+                }
+                if (!std::exchange(maneuver.complete, true)) story.elements.end(maneuver.index, step);
+            }
+            if (!std::exchange(group.complete, true)) story.elements.end(group.index, step);
+        }
     }
 
     void step_act(ActPart& act, int step) {
         if (act.complete) return;
+        if (act.running && act.stops && act.stop.holds(step, story)) stop_act(act, step);
         if (!act.running) {
-            if (!act.start(step)) return;
-            act.running = true;
-            mark_start("act/" + act.name, step);
-            for (GroupPart& group : act.groups) {
-                mark_start("maneuvergroup/" + group.name, step);
-                for (ManeuverPart& maneuver : group.maneuvers) mark_start("maneuver/" + maneuver.name, step);
-            }
+            if (!act.start.holds(step, story)) return;
+            start_act(act, step);
         }
         bool all = true;
         for (GroupPart& group : act.groups) {
@@ -301,18 +272,22 @@ struct Player {
             for (ManeuverPart& maneuver : group.maneuvers) {
                 if (maneuver.complete) continue;
                 for (EventPart& event : maneuver.events) step_event(event, maneuver, group, step);
-                maneuver.complete = std::all_of(maneuver.events.begin(), maneuver.events.end(),
-                                                [](const EventPart& e) { return e.done(); });
-                if (maneuver.complete) mark_end("maneuver/" + maneuver.name, step);
+                maneuver.complete = std::all_of(maneuver.events.begin(), maneuver.events.end(), [](const EventPart& e) { return e.done(); });
+                if (maneuver.complete) story.elements.end(maneuver.index, step);
                 group_done = group_done && maneuver.complete;
             }
-            if (group_done && !group.complete) group.complete = true, mark_end("maneuvergroup/" + group.name, step);
+            if (group_done && !group.complete) group.complete = true, story.elements.end(group.index, step);
             all = all && group.complete;
         }
-        if (all || (act.stops && act.stop(step))) act.complete = true, mark_end("act/" + act.name, step);
+        if (!all) return;
+        act.complete = true;
+        story.elements.end(act.index, step);
+        if (--open[act.story] == 0) story.elements.end(act.story, step);
     }
 
     void play() {
+        for (const auto& [index, acts_of_it] : open) story.elements.start(index, 0);
+        for (const ActPart& act : acts) story.elements[act.index].is = Is::Standby;
         for (size_t step = 0; step < story.times.size(); ++step)
             for (ActPart& act : acts) step_act(act, static_cast<int>(step));
     }
@@ -333,12 +308,9 @@ std::vector<double> steps_of(const EsminiRun& run) {
 void play_storyboard(ScenarioFile& scenario, const RoadNetwork* roads, EsminiRun& run) {
     const auto storyboard = scenario.root().child("Storyboard");
     if (!storyboard) return;
-    Player player{scenario, run, StoryTime{run, roads, steps_of(run)}};
+    Player player{scenario, StoryTime{run, roads, scenario, *storyboard, steps_of(run)}};
     if (player.story.times.size() > kMaxSteps) storyboard->fail("the run has more than " + std::to_string(kMaxSteps) + " steps");
-    player.read(*storyboard);
-    const double asked = static_cast<double>(player.elements + player.story.questions);
-    if (asked * static_cast<double>(player.story.times.size()) > kMaxWork)
-        storyboard->fail("too many elements and conditions for so long a run");
+    player.read();
     player.play();
     run.notes.insert(run.notes.end(), player.story.notes.begin(), player.story.notes.end());
 }

@@ -5,115 +5,113 @@
 #include <cmath>
 
 #include "base/lower.h"
-#include "roads/road_surface.h"
+#include "photometry/table.h"
+#include "roads/storyboard_places.h"
 
 namespace vesper {
 namespace {
 
-using Compare = std::function<bool(double)>;
+enum class Rule : uint8_t { Less, LessOrEqual, Equal, NotEqual, GreaterOrEqual, Greater };
+
+Rule rule_of(const XmlElement& element, const Parameters& scope) {
+    const std::string rule = resolved(element, "rule", scope).value_or("greaterOrEqual");
+    if (rule == "lessThan") return Rule::Less;
+    if (rule == "lessOrEqual") return Rule::LessOrEqual;
+    if (rule == "greaterThan") return Rule::Greater;
+    if (rule == "equalTo") return Rule::Equal;
+    if (rule == "notEqualTo") return Rule::NotEqual;
+    if (rule != "greaterOrEqual") element.fail("rule '" + rule + "' is none of OpenSCENARIO's");
+    return Rule::GreaterOrEqual;
+}
+
+/// `order`: below 0 where the first is less than the second.
+bool is_so(Rule rule, int order) {
+    if (rule == Rule::Less) return order < 0;
+    if (rule == Rule::LessOrEqual) return order <= 0;
+    if (rule == Rule::Equal) return order == 0;
+    if (rule == Rule::NotEqual) return order != 0;
+    return rule == Rule::Greater ? order > 0 : order >= 0;
+}
+
+/// Numbers are the same within what esmini neglects, and equal within what tables round.
+bool is_so(Rule rule, double a, double b) {
+    const double same = rule == Rule::Equal || rule == Rule::NotEqual ? 1e-4 : 1e-6;
+    return is_so(rule, std::abs(a - b) < same ? 0 : a < b ? -1 : 1);
+}
+
+bool is_so(Rule rule, const std::string& a, const std::string& b) {
+    const auto x = number_of(a, false), y = number_of(b, false);
+    return x && y ? is_so(rule, *x, *y) : is_so(rule, a.compare(b));
+}
 
 /// "lessThan 4" and its like.
-Compare compare_with(const XmlElement& element, const Parameters& scope) {
-    const double value = number_in(element, "value", scope, 0);
-    const std::string rule = resolved(element, "rule", scope).value_or("greaterOrEqual");
-    if (rule == "lessThan") return [=](double x) { return x < value; };
-    if (rule == "lessOrEqual") return [=](double x) { return x <= value; };
-    if (rule == "greaterThan") return [=](double x) { return x > value; };
-    if (rule == "equalTo") return [=](double x) { return std::abs(x - value) < 1e-4; };
-    if (rule == "notEqualTo") return [=](double x) { return std::abs(x - value) >= 1e-4; };
-    if (rule != "greaterOrEqual") element.fail("rule '" + rule + "' is none of OpenSCENARIO's");
-    return [=](double x) { return x >= value; };
+std::function<bool(double)> compare_with(const XmlElement& element, const Parameters& scope) {
+    return [value = number_in(element, "value", scope, 0), rule = rule_of(element, scope)](double x) { return is_so(rule, x, value); };
 }
 
-std::optional<glm::dvec3> position_of(const XmlElement& element, const Parameters& scope, const StoryTime& time) {
-    const auto holder = element.child("Position");
-    if (!holder) return std::nullopt;
-    if (const auto world = holder->child("WorldPosition"))
-        return glm::dvec3{number_in(*world, "x", scope, 0), number_in(*world, "y", scope, 0),
-                          number_in(*world, "z", scope, 0)};
-    const auto lane = holder->child("LanePosition"), on_road = holder->child("RoadPosition");
-    const auto& place = lane ? lane : on_road;
-    if (!place || !time.roads) return std::nullopt;
-    const auto id = resolved(*place, "roadId", scope);
-    for (const Road& road : time.roads->roads) {
-        if (!id || road.id != *id || road.sections.empty()) continue;
-        const double s = std::clamp(number_in(*place, "s", scope, 0), 0.0, road.length);
-        if (!lane) return surface_point(road, s, number_in(*place, "t", scope, 0)).position;
-        const LaneSection& section = road.sections[road.section_at(s)];
-        const int number = static_cast<int>(number_in(*place, "laneId", scope, 0));
-        if (!section.find(number)) return std::nullopt;
-        const RoadPoint point = lane_point(road, section, number, s, 0.5);
-        return point.position + point.left * number_in(*place, "offset", scope, 0);
-    }
-    return std::nullopt;
-}
-
-double flat_distance(glm::dvec3 a, glm::dvec3 b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
-/// Metres between two entities: their reference points, or what is free between their boxes.
-double gap(const RunEntity& a, const RunEntity& b, double time, bool free_space) {
-    const double distance = flat_distance(pose_at(a, time).position, pose_at(b, time).position);
-    return free_space ? std::max(0.0, distance - (a.length + b.length) / 2) : distance;
-}
+using Test = std::function<bool(int step)>;
+using EntityTest = std::function<bool(const RunEntity&, int step)>;
 
 struct ConditionReader {
     StoryTime& story;
     const Parameters& scope;
 
-    const RunEntity* entity(const XmlElement& element, const char* attribute = "entityRef") {
-        const auto name = resolved(element, attribute, scope);
-        return name ? story.find(*name) : nullptr;
-    }
-    double at(int step) const { return story.times[static_cast<size_t>(step)]; }
-
-    std::optional<Condition> by_value(const XmlElement& element) {
+    std::optional<Test> by_value(const XmlElement& element) {
+        StoryTime& s = story;
         if (element.name() == "SimulationTimeCondition")
-            return [compare = compare_with(element, scope), &story = story](int step) {
-                return compare(story.times[static_cast<size_t>(step)]);
-            };
+            return [compare = compare_with(element, scope), &s](int step) { return compare(s.at(step)); };
         if (element.name() == "StoryboardElementStateCondition") return element_state(element);
         if (element.name() == "TrafficSignalCondition") {
             const std::string name = resolved(element, "name", scope).value_or(""),
                               state = resolved(element, "state", scope).value_or("");
-            return [&story = story, name, state](int) {
-                const auto now = story.signals.find(name);
-                return now != story.signals.end() && now->second == state;
+            return [&s, name, state](int) {
+                const auto now = s.signals.find(name);
+                return now != s.signals.end() && now->second == state;
             };
         }
-        if (element.name() == "ParameterCondition") {
-            const auto found = scope.find(element.text_or("parameterRef", ""));
-            const bool same = found != scope.end() && found->second == resolved(element, "value", scope).value_or("");
-            return [same](int) { return same; };
-        }
-        return std::nullopt;
-    }
-
-    Condition element_state(const XmlElement& element) {
-        const std::string kind = lower(resolved(element, "storyboardElementType", scope).value_or("event"));
-        std::string name = resolved(element, "storyboardElementRef", scope).value_or("");
-        // References may be paths: the last part counts.
-        if (const size_t colon = name.rfind("::"); colon != name.npos) name = name.substr(colon + 2);
-        const std::string state = resolved(element, "state", scope).value_or("completeState"), key = kind + "/" + name;
-        return [&story = story, key, state](int step) {
-            const ElementState& now = story.elements[key];
-            if (state == "startTransition") return now.started >= step - 1 && now.started >= 0;
-            if (state == "endTransition" || state == "stopTransition") return now.ended >= step - 1 && now.ended >= 0;
-            if (state == "runningState") return now.running > 0;
-            if (state == "completeState") return now.ended >= 0 && now.running == 0;
-            if (state == "standbyState") return now.started < 0;
-            return false;
+        const bool variable = element.name() == "VariableCondition";
+        if (!variable && element.name() != "ParameterCondition") return std::nullopt;
+        std::string name = element.text_or(variable ? "variableRef" : "parameterRef", "");
+        if (name.starts_with('$')) name.erase(0, 1);
+        const auto found = scope.find(name);
+        if (variable ? !s.variables.contains(name) : found == scope.end()) return std::nullopt;
+        const std::string around = variable ? "" : found->second, value = resolved(element, "value", scope).value_or("");
+        return [&now = variable ? s.variables : s.parameters, name, around, value, rule = rule_of(element, scope)](int) {
+            const auto set = now.find(name);
+            return is_so(rule, set == now.end() ? around : set->second, value);
         };
     }
 
-    /// A condition on one triggering entity.
-    std::optional<std::function<bool(const RunEntity&, int)>> by_entity(const XmlElement& element) {
+    std::optional<Test> element_state(const XmlElement& element) {
+        using State = ElementState;
+        static const std::map<std::string, ElementKind> kKinds{
+            {"story", ElementKind::Story},       {"act", ElementKind::Act},     {"maneuvergroup", ElementKind::ManeuverGroup},
+            {"maneuver", ElementKind::Maneuver}, {"event", ElementKind::Event}, {"action", ElementKind::Action}};
+        static const std::map<std::string, bool (*)(const State&, int)> kStates{
+            {"startTransition", [](const State& now, int step) { return now.started >= 0 && now.started >= step - 1; }},
+            {"endTransition", [](const State& now, int step) { return now.ended >= 0 && now.ended >= step - 1; }},
+            {"stopTransition", [](const State& now, int step) { return now.ended >= 0 && now.ended >= step - 1; }},
+            {"skipTransition", [](const State& now, int step) { return now.skipped >= 0 && now.skipped >= step - 1; }},
+            {"standbyState", [](const State& now, int) { return now.is == State::Is::Standby; }},
+            {"runningState", [](const State& now, int) { return now.is == State::Is::Running; }},
+            {"completeState", [](const State& now, int) { return now.is == State::Is::Complete; }}};
+        const auto kind = kKinds.find(lower(resolved(element, "storyboardElementType", scope).value_or("event")));
+        const auto state = kStates.find(resolved(element, "state", scope).value_or("completeState"));
+        std::string name = resolved(element, "storyboardElementRef", scope).value_or("");
+        if (kind == kKinds.end() || state == kStates.end() || name.size() > StoryElements::kMaxPath) return std::nullopt;
+        const auto index = std::make_shared<size_t>(StoryElements::kNone);
+        story.references.push_back({kind->second, std::move(name), element.place(), index});
+        return [&elements = story.elements, index, is = state->second](int step) {
+            return *index != StoryElements::kNone && is(elements[*index], step);
+        };
+    }
+
+    std::optional<EntityTest> by_entity(const XmlElement& element) {
         const auto name = element.name();
-        const bool free_space = element.flag("freespace");
         StoryTime& s = story;
-        const auto now = [&s](int step) { return s.times[static_cast<size_t>(step)]; };
         if (name == "SpeedCondition")
-            return [compare = compare_with(element, scope), now](const RunEntity& e, int step) {
-                return compare(pose_at(e, now(step)).speed);
+            return [compare = compare_with(element, scope), &s](const RunEntity& e, int step) {
+                return compare(pose_at(e, s.at(step)).speed);
             };
         if (name == "TraveledDistanceCondition") {
             const double value = number_in(element, "value", scope, 0);
@@ -122,9 +120,9 @@ struct ConditionReader {
                 double sum = 0;
             };
             auto ways = std::make_shared<std::map<const RunEntity*, Way>>();
-            return [value, now, ways](const RunEntity& e, int step) {
+            return [value, &s, ways](const RunEntity& e, int step) {
                 Way& way = (*ways)[&e];
-                for (; way.at + 1 < e.poses.size() && e.poses[way.at + 1].time <= now(step); ++way.at)
+                for (; way.at + 1 < e.poses.size() && e.poses[way.at + 1].time <= s.at(step); ++way.at)
                     way.sum += glm::distance(e.poses[way.at].position, e.poses[way.at + 1].position);
                 return way.sum >= value;
             };
@@ -136,148 +134,147 @@ struct ConditionReader {
                 double moved = -HUGE_VAL;  ///< time it last moved
             };
             auto rests = std::make_shared<std::map<const RunEntity*, Rest>>();
-            return [duration, now, rests](const RunEntity& e, int step) {
+            return [duration, &s, rests](const RunEntity& e, int step) {
                 Rest& rest = (*rests)[&e];
-                for (; rest.at < e.poses.size() && e.poses[rest.at].time <= now(step); ++rest.at)
+                for (; rest.at < e.poses.size() && e.poses[rest.at].time <= s.at(step); ++rest.at)
                     if (std::abs(e.poses[rest.at].speed) > 0.01) rest.moved = e.poses[rest.at].time;
-                return rest.moved < now(step) - duration && now(step) - e.poses.front().time >= duration;
+                return rest.moved < s.at(step) - duration && s.at(step) - e.poses.front().time >= duration;
             };
         }
         if (name == "AccelerationCondition")
-            return [compare = compare_with(element, scope), now](const RunEntity& e, int step) {
-                const double before = now(step) - 0.1;
-                return compare((pose_at(e, now(step)).speed - pose_at(e, before).speed) / 0.1);
+            return [compare = compare_with(element, scope), &s](const RunEntity& e, int step) {
+                const double before = s.at(step) - 0.1;
+                return compare((pose_at(e, s.at(step)).speed - pose_at(e, before).speed) / 0.1);
             };
-        if (name == "TimeHeadwayCondition" || name == "RelativeDistanceCondition" || name == "RelativeSpeedCondition") {
-            const RunEntity* other = entity(element);
-            if (!other) return std::nullopt;
-            const auto compare = compare_with(element, scope);
-            if (name == "RelativeSpeedCondition")
-                return [=](const RunEntity& e, int step) {
-                    return compare(pose_at(e, now(step)).speed - pose_at(*other, now(step)).speed);
-                };
-            const bool headway = name == "TimeHeadwayCondition";
-            return [=](const RunEntity& e, int step) {
-                const double distance = gap(e, *other, now(step), free_space),
-                             speed = std::abs(pose_at(e, now(step)).speed);
-                return compare(!headway ? distance : speed > 1e-3 ? distance / speed : 1e9);
-            };
-        }
-        if (name == "TimeToCollisionCondition") {
-            const auto target = element.child("TimeToCollisionConditionTarget");
-            const auto reference = target ? target->child("EntityRef") : std::nullopt;
-            const RunEntity* other = reference ? entity(*reference) : nullptr;
-            if (!other) return std::nullopt;
-            return [compare = compare_with(element, scope), other, free_space, now](const RunEntity& e, int step) {
-                const double before = now(step) - 0.1,
-                             closing = (gap(e, *other, before, false) - gap(e, *other, now(step), false)) / 0.1;
-                return compare(closing > 1e-3 ? gap(e, *other, now(step), free_space) / closing : 1e9);
-            };
-        }
-        if (name == "ReachPositionCondition" || name == "DistanceCondition") {
+        if (name == "ReachPositionCondition") {
             const auto place = position_of(element, scope, story);
             if (!place) return std::nullopt;
-            const double tolerance = number_in(element, "tolerance", scope, 1);
-            const bool reach = name == "ReachPositionCondition";
-            const Compare compare =
-                reach ? Compare([tolerance](double d) { return d <= tolerance; }) : compare_with(element, scope);
-            return [=](const RunEntity& e, int step) {
-                return compare(flat_distance(pose_at(e, now(step)).position, *place));
+            return [measure = Measure{}, tolerance = number_in(element, "tolerance", scope, 1), to = Footprint::of(*place), &s](const RunEntity& e, int step) {
+                return std::abs(measure.distance(Footprint::of(e, s.at(step)), to)) <= tolerance;
             };
         }
-        return std::nullopt;
+        return towards(element);
     }
 
-    std::optional<Condition> entity_condition(const XmlElement& element) {
-        std::vector<const RunEntity*> who;
-        for (const XmlElement& each : element.children_of("TriggeringEntities", "EntityRef"))
-            if (const RunEntity* found = entity(each)) who.push_back(found);
-        const auto triggering = element.child("TriggeringEntities"), holder = element.child("EntityCondition");
-        if (who.empty() || !triggering || !holder || holder->children().empty()) return std::nullopt;
-        const auto test = by_entity(holder->children()[0]);
-        if (!test) return std::nullopt;
-        story.questions += who.size();
-        const bool all = triggering->text_or("triggeringEntitiesRule", "any") == "all";
-        return [=](int step) {
-            const auto holds = [&](const RunEntity* e) { return (*test)(*e, step); };
-            return all ? std::all_of(who.begin(), who.end(), holds) : std::any_of(who.begin(), who.end(), holds);
+    /// What conditions measure to: an entity, which may not be there, or a position.
+    using Target = std::function<std::optional<Footprint>(double time)>;
+    std::optional<Target> target_of(const XmlElement& element) {
+        const auto inside = element.child("TimeToCollisionConditionTarget");
+        const auto inner = inside ? inside->child("EntityRef") : std::nullopt;
+        const XmlElement& named = inner ? *inner : element;
+        if (named.attribute("entityRef")) {
+            const RunEntity* other = story.one_of(named, "entityRef", scope);
+            if (!other) return std::nullopt;
+            return [other](double time) { return is_there(*other, time) ? std::optional(Footprint::of(*other, time)) : std::nullopt; };
+        }
+        const auto place = position_of(inside ? *inside : element, scope, story);
+        if (!place) return std::nullopt;
+        return [to = Footprint::of(*place)](double) { return to; };
+    }
+
+    /// Conditions on a distance or a relative speed.
+    std::optional<EntityTest> towards(const XmlElement& element) {
+        const auto name = element.name();
+        const bool to_entity = name == "RelativeDistanceCondition" || name == "TimeHeadwayCondition" || name == "RelativeSpeedCondition";
+        if (!to_entity && name != "DistanceCondition" && name != "TimeToCollisionCondition") return std::nullopt;
+        const auto target = target_of(element);
+        if (!target) return std::nullopt;
+        const Measure measure = measure_of(element, scope, story);
+        const auto compare = compare_with(element, scope);
+        std::function<bool(const Footprint&, const Footprint&)> test;
+        constexpr double kNone = 1e-6;  // m, m/s
+        if (name == "RelativeSpeedCondition")
+            test = [=](const Footprint& e, const Footprint& other) { return compare(e.speed - other.speed); };
+        else if (name == "TimeHeadwayCondition")
+            test = [=](const Footprint& e, const Footprint& other) {
+                const double distance = measure.distance(e, other);
+                return distance >= 0 && e.speed >= kNone && compare(distance / e.speed);
+            };
+        else if (name == "TimeToCollisionCondition")
+            test = [=](const Footprint& e, const Footprint& other) {
+                // As esmini: how much faster it is along the other's way.
+                const double along = e.speed * glm::dot(e.ahead, other.ahead) * (other.speed < 0 ? -1 : 1);
+                const double closing = std::abs(other.speed) < kNone ? e.speed
+                                                                     : (e.speed < 0 ? -1 : 1) * (along < 0 ? -1 : 1) * (along - std::abs(other.speed));
+                const double distance = measure.distance(e, other);
+                return std::abs(distance) >= kNone && std::abs(closing) >= kNone && distance / closing >= 0 && compare(distance / closing);
+            };
+        else
+            test = [=](const Footprint& e, const Footprint& other) { return compare(std::abs(measure.distance(e, other))); };
+        return [test, to = *target, &s = story](const RunEntity& e, int step) {
+            const auto other = to(s.at(step));
+            return other && test(Footprint::of(e, s.at(step)), *other);
         };
     }
 
-    Condition plain(const XmlElement& element) {
-        std::optional<Condition> made;
+    std::optional<decltype(TimedCondition::test)> entity_condition(const XmlElement& element) {
+        const auto triggering = element.child("TriggeringEntities"), holder = element.child("EntityCondition");
+        if (!triggering || !holder || holder->children().empty()) return std::nullopt;
+        const bool all = resolved(*triggering, "triggeringEntitiesRule", scope).value_or("any") == "all";
+        std::vector<RunEntity*> who;
+        for (const XmlElement& each : triggering->children("EntityRef")) {
+            const auto found = story.all_of(each, "entityRef", scope);
+            if (found.empty() && all) return std::nullopt;
+            who.insert(who.end(), found.begin(), found.end());
+            story.ask(found.size());
+        }
+        const auto test = by_entity(holder->children()[0]);
+        if (who.empty() || !test) return std::nullopt;
+        // Entities that are not there are not asked.
+        return [who, all, test = *test, &s = story](int step, std::vector<RunEntity*>* held) {
+            bool any = false;
+            for (RunEntity* e : who) {
+                if (!is_there(*e, s.at(step))) continue;
+                const bool holds = test(*e, step);
+                if (holds && held) held->push_back(e);
+                if (all && !holds) return false;
+                any = any || holds;
+                if (any && !all && !held) return true;
+            }
+            return any;
+        };
+    }
+
+    decltype(TimedCondition::test) plain(const XmlElement& element) {
         std::string what;
         if (const auto value = element.child("ByValueCondition"); value && !value->children().empty()) {
             what = value->children()[0].name();
-            made = by_value(value->children()[0]);
+            if (const auto made = by_value(value->children()[0])) return [test = *made](int step, std::vector<RunEntity*>*) { return test(step); };
         } else if (const auto entities = element.child("ByEntityCondition")) {
             const auto inner = entities->child("EntityCondition");
             what = inner && !inner->children().empty() ? inner->children()[0].name() : "ByEntityCondition";
-            made = entity_condition(*entities);
+            if (const auto made = entity_condition(*entities)) return *made;
         }
-        if (made) return *made;
         story.note(element.place() + ": " +
                    (what.empty() ? "an empty condition" : "a " + what + " that cannot be judged") + ": it never holds");
-        return [](int) { return false; };
+        return [](int, std::vector<RunEntity*>*) { return false; };
     }
 
-    /// With its delay and edge: what it says was so `delay` ago.
-    Condition delayed(const XmlElement& element) {
-        ++story.questions;
-        const double delay = number_in(element, "delay", scope, 0);
-        const std::string edge = resolved(element, "conditionEdge", scope).value_or("none");
-        auto history = std::make_shared<std::vector<char>>();
-        auto seen = std::make_shared<size_t>(0);
-        return [test = plain(element), delay, edge, history, seen, &story = story](int step) {
-            const auto i = static_cast<size_t>(step);
-            while (history->size() < i) history->push_back(0);
-            history->push_back(test(step));
-            const auto value_at = [&](size_t k) {
-                const bool now = (*history)[k] != 0, before = k > 0 && (*history)[k - 1] != 0;
-                if (edge == "rising") return now && !before && k > 0;
-                if (edge == "falling") return !now && before;
-                if (edge == "risingOrFalling") return k > 0 && now != before;
-                return now;
-            };
-            if (delay <= 0) return value_at(i);
-            // Any step that has become old enough since the last time.
-            bool held = false;
-            for (; *seen <= i && story.times[*seen] <= story.times[i] - delay + 1e-6; ++*seen)
-                held = held || value_at(*seen);
-            return held;
-        };
+    TimedCondition timed(const XmlElement& element) {
+        using Edge = TimedCondition::Edge;
+        static const std::map<std::string, Edge> kEdges{{"none", Edge::None}, {"rising", Edge::Rising}, {"falling", Edge::Falling}, {"risingOrFalling", Edge::Both}};
+        story.ask(1);
+        TimedCondition made{plain(element), number_in(element, "delay", scope, 0)};
+        if (made.delay < 0) story.note(element.place() + ": a delay below 0 counts as none"), made.delay = 0;
+        const std::string name = resolved(element, "conditionEdge", scope).value_or("none");
+        const auto edge = kEdges.find(name);
+        if (edge == kEdges.end()) story.note(element.place() + ": conditionEdge '" + name + "' is none of OpenSCENARIO's: it counts as 'none'");
+        if (edge != kEdges.end()) made.edge = edge->second;
+        return made;
     }
 };
 
 }  // namespace
 
-const RunEntity* StoryTime::find(const std::string& name) const {
-    const auto found =
-        std::find_if(run.entities.begin(), run.entities.end(), [&](const RunEntity& e) { return e.name == name; });
-    return found == run.entities.end() ? nullptr : &*found;
-}
-
-void StoryTime::note(const std::string& what) {
-    if (notes.size() < 50 && std::find(notes.begin(), notes.end(), what) == notes.end()) notes.push_back(what);
-}
-
-Condition trigger_of(const std::optional<XmlElement>& trigger, const Parameters& scope, StoryTime& time) {
-    if (!trigger) return [](int) { return true; };
-    std::vector<std::vector<Condition>> groups;
-    ConditionReader reader{time, scope};
+Trigger trigger_of(const std::optional<XmlElement>& trigger, const Parameters& scope, StoryTime& story, bool without) {
+    Trigger made{.without = without};
+    if (!trigger) return made;
+    ConditionReader reader{story, scope};
     for (const XmlElement& group : trigger->children("ConditionGroup")) {
-        groups.emplace_back();
-        for (const XmlElement& each : group.children("Condition")) groups.back().push_back(reader.delayed(each));
+        made.groups.emplace_back();
+        for (const XmlElement& each : group.children("Condition")) made.groups.back().push_back(reader.timed(each));
     }
-    return [groups](int step) {
-        bool any = groups.empty();
-        for (const auto& group : groups) {
-            bool all = true;
-            for (const Condition& each : group) all = each(step) && all;  // every one is asked every step
-            any = any || all;
-        }
-        return any;
-    };
+    return made;
 }
 
 }  // namespace vesper

@@ -1,35 +1,77 @@
 // Conditions of a storyboard, judged by the recorded run. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
-#include "roads/esmini_parts.h"
+#include "roads/storyboard_elements.h"
 
 namespace vesper {
 
-/// How far an element of the storyboard is. Steps are those of the run; -1: not yet.
-struct ElementState {
-    int started = -1, ended = -1;
-    int running = 0;  ///< how many times it is under way
-};
+class LaneGraph;
 
-/// What conditions look at.
+/// What conditions and actions look at.
 struct StoryTime {
-    const EsminiRun& run;
+    EsminiRun& run;
     const RoadNetwork* roads;
-    std::vector<double> times;                       ///< of the steps
-    std::map<std::string, ElementState> elements{};  ///< "event/NAME", "action/NAME", "maneuver/NAME", ...
-    std::map<std::string, std::string> signals{};    ///< states of traffic lights now
+    ScenarioFile& scenario;
+    XmlElement storyboard;
+    std::vector<double> times;  ///< of the steps
+    StoryElements elements{};
+    std::map<std::string, std::string> signals{};  ///< states of traffic lights now
+    Parameters parameters{}, variables{};          ///< set by actions; variables as declared, too
+    std::map<std::string, std::vector<RunEntity*>, std::less<>> entities{};  ///< by name; of selections those they hold
+    std::shared_ptr<LaneGraph> lanes{};  ///< where actions need them
     std::vector<std::string> notes{};
-    size_t questions = 0;                            ///< that conditions ask every step, one for each triggering entity
+    size_t questions = 0;  ///< asked every step: conditions, once more for each entity; actors of actions
 
-    const RunEntity* find(const std::string& name) const;
+    /// Elements that conditions refer to; found when all are read.
+    struct Reference {
+        ElementKind kind;
+        std::string name, place;
+        std::shared_ptr<size_t> index;
+    };
+    std::vector<Reference> references{};
+
+    double at(int step) const { return times[static_cast<size_t>(step)]; }
+    /// Entities and selections by name; before anything is read.
+    void find_entities();
+    void find_references();
+    /// The entity that an attribute names, or those of the selection; where there are none, that is noted.
+    std::vector<RunEntity*> all_of(const XmlElement& element, const char* attribute, const Parameters& scope);
+    RunEntity* one_of(const XmlElement& element, const char* attribute, const Parameters& scope);
+    /// So much more is asked every step; throws Error where that is too much.
+    void ask(size_t more);
     void note(const std::string& what);
 };
 
-/// Whether something is so at a step.
-using Condition = std::function<bool(int step)>;
+/// One condition with its delay and edge, judged as esmini does.
+struct TimedCondition {
+    enum class Edge : uint8_t { None, Rising, Falling, Both };
+    std::function<bool(int step, std::vector<RunEntity*>* triggering)> test;
+    double delay = 0;  ///< s
+    Edge edge = Edge::None;
+    bool asked = false, before = false;            ///< since the beginning; the answer before
+    std::optional<bool> said{};                    ///< last, the edge considered
+    bool settled = false;                          ///< `delay` ago
+    std::vector<int> changes{};                    ///< steps at which it changed what it says
+    size_t next = 0;                               ///< of these, not `delay` old
+    std::vector<RunEntity*> triggering{};          ///< of which it held last
 
-/// A trigger: any of its groups, of which all conditions hold, with their delays and edges. Always true where there is
-/// none. Asked once for every step, in order.
-Condition trigger_of(const std::optional<XmlElement>& trigger, const Parameters& scope, StoryTime& time);
+    bool holds(int step, const StoryTime& story, bool select);
+};
+
+/// A trigger: any of its groups, of which all conditions hold.
+struct Trigger {
+    std::vector<std::vector<TimedCondition>> groups{};
+    bool without = true;                   ///< the answer where it has no groups
+    bool select = false;                   ///< the entities that trigger are asked for
+    std::vector<RunEntity*> triggering{};  ///< where it held
+
+    /// At ascending steps.
+    bool holds(int step, const StoryTime& story);
+    /// Before it is waited for once more.
+    void forget();
+};
+
+/// A trigger that is not there always holds.
+Trigger trigger_of(const std::optional<XmlElement>& trigger, const Parameters& scope, StoryTime& story, bool without = true);
 
 }  // namespace vesper

@@ -35,6 +35,7 @@ private:
     std::unique_ptr<XmlFile> file_;
     Parameters parameters_;
     std::vector<std::unique_ptr<XmlFile>> catalogs_;
+    std::map<std::pair<std::string_view, std::string_view>, XmlElement> entries_;  ///< by catalog and name; "": any
     bool looked_ = false;
     void look_for_catalogs();
 };

@@ -87,29 +87,31 @@ void ScenarioFile::look_for_catalogs() {
     std::sort(files.begin(), files.end());
     files.erase(std::unique(files.begin(), files.end()), files.end());
     if (files.size() > kMaxCatalogs) locations->fail("name more than " + std::to_string(kMaxCatalogs) + " catalogs");
-    for (const auto& file : files) catalogs_.push_back(read_xml(file));
+    for (const auto& file : files) {
+        catalogs_.push_back(read_xml(file));
+        for (const XmlElement& catalog : catalogs_.back()->root().children("Catalog")) {
+            const std::string_view name = catalog.attribute("name").value_or("");
+            for (const XmlElement& each : catalog.children()) {
+                const std::string_view entry = each.attribute("name").value_or("");
+                for (const std::string_view of : {name, std::string_view()})
+                    for (const std::string_view called : {entry, std::string_view()}) entries_.try_emplace({of, called}, each);
+            }
+        }
+    }
 }
 
 std::optional<ScenarioFile::Entry> ScenarioFile::find(const XmlElement& reference, const Parameters& scope) {
     if (!looked_) look_for_catalogs();
-    const auto catalog_name = resolved(reference, "catalogName", scope),
-               entry_name = resolved(reference, "entryName", scope);
-    for (const auto& file : catalogs_)
-        for (const XmlElement& catalog : file->root().children("Catalog")) {
-            if (catalog_name && catalog.text_or("name", "") != *catalog_name) continue;
-            for (const XmlElement& each : catalog.children()) {
-                if (!entry_name || each.text_or("name", "") != *entry_name) continue;
-                Parameters parameters = declared(each, parameters_);
-                for (const XmlElement& assignment :
-                     reference.children_of("ParameterAssignments", "ParameterAssignment")) {
-                    const std::string name = assignment.text_or("parameterRef", "");
-                    if (const auto value = resolved(assignment, "value", scope))
-                        parameters.insert_or_assign(name.starts_with('$') ? name.substr(1) : name, *value);
-                }
-                return Entry{each, std::move(parameters)};
-            }
-        }
-    return std::nullopt;
+    const std::string catalog = resolved(reference, "catalogName", scope).value_or(""), entry = resolved(reference, "entryName", scope).value_or("");
+    const auto found = entries_.find({catalog, entry});
+    if (found == entries_.end()) return std::nullopt;
+    Parameters parameters = declared(found->second, parameters_);
+    for (const XmlElement& assignment : reference.children_of("ParameterAssignments", "ParameterAssignment")) {
+        const std::string name = assignment.text_or("parameterRef", "");
+        if (const auto value = resolved(assignment, "value", scope))
+            parameters.insert_or_assign(name.starts_with('$') ? name.substr(1) : name, *value);
+    }
+    return Entry{found->second, std::move(parameters)};
 }
 
 }  // namespace vesper

@@ -83,12 +83,13 @@ struct Player {
         event.trigger = trigger_of(element.child("StartTrigger"), scope, story);
         event.trigger.select = group.select;
         const size_t actors = group.actors.size() + (group.select ? story.questions - before : 0);
+        story.ask(actors);
         event.most = static_cast<int>(std::clamp(number_in(element, "maximumExecutionCount", scope, 1), 1.0, 1e6));
         for (const XmlElement& each : element.children("Action")) {
             ActionPart action{add(ElementKind::Action, each, scope, event.index), actions_of(each, scope, story)};
             for (const StoryAction& part : action.parts) {
                 if (part.each && actors == 0) story.note(each.place() + ": there is no actor for it");
-                story.ask(part.each ? actors : 1);
+                story.ask(part.each ? actors * part.cost : 1);
             }
             event.actions.push_back(std::move(action));
         }
@@ -106,11 +107,9 @@ struct Player {
         if (const auto actors = element.child("Actors")) {
             group.select = flag_in(*actors, "selectTriggeringEntities", scope);
             for (const XmlElement& each : actors->children("EntityRef"))
-                for (RunEntity* entity : story.all_of(each, "entityRef", scope)) group.actors.push_back(entity);
+                for (RunEntity* entity : story.all_of(each, "entityRef", scope)) group.actors.push_back(entity), story.ask(1);
         }
-        std::sort(group.actors.begin(), group.actors.end());
-        group.actors.erase(std::unique(group.actors.begin(), group.actors.end()), group.actors.end());
-        story.ask(group.actors.size());
+        each_once(group.actors);
         if (number_in(element, "maximumExecutionCount", scope, 1) > 1) story.note(element.place() + ": is gone through once");
         for (const XmlElement& each : element.children("Maneuver")) maneuver_in(group, each, declared(each, scope));
         for (const XmlElement& each : element.children("CatalogReference")) {
@@ -125,8 +124,9 @@ struct Player {
 
     void init(const XmlElement& actions) {
         const Parameters& scope = scenario.parameters();
-        const auto begin = [](const std::vector<StoryAction>& parts, const std::vector<RunEntity*>& actors) {
+        const auto begin = [&](const std::vector<StoryAction>& parts, const std::vector<RunEntity*>& actors) {
             for (const StoryAction& part : parts) {
+                story.ask(actors.size());
                 if (part.once) part.once(0);
                 for (RunEntity* actor : actors)
                     if (part.each) part.each(*actor, 0);
@@ -143,7 +143,7 @@ struct Player {
         for (const XmlElement& network : scenario.root().children("RoadNetwork"))
             for (const XmlElement& each : network.children_of("TrafficSignals", "TrafficSignalController"))
                 story.note(each.place() + ": controllers of traffic signals are not played: left out");
-        story.find_entities();
+        story.find_places();
         for (const XmlElement& holder : story.storyboard.children("Init"))
             for (const XmlElement& actions : holder.children("Actions")) init(actions);
         for (const XmlElement& element : story.storyboard.children("Story")) {
@@ -196,8 +196,7 @@ struct Player {
         story.elements.start(event.index, step);
         std::vector<RunEntity*> actors = group.actors;
         actors.insert(actors.end(), event.trigger.triggering.begin(), event.trigger.triggering.end());
-        std::sort(actors.begin(), actors.end());
-        actors.erase(std::unique(actors.begin(), actors.end()), actors.end());
+        each_once(actors);
         for (ActionPart& action : event.actions) {
             action.running = true;
             story.elements.start(action.index, step);

@@ -14,6 +14,7 @@ struct StoryAction {
     std::function<void(int step)> once{};                        ///< what it does for the run
     std::function<Progress(RunEntity& actor, int step)> each{};  ///< what it does for an actor
     uint32_t domains = 0;  ///< an action of an actor ends those of it that run and have one of these bits: lamps and
+    size_t cost = 1;       ///< questions that its beginning is worth, for each actor
     static constexpr uint32_t kLongitudinal = 1u << 30, kLateral = 1u << 31;  ///< motions
 };
 

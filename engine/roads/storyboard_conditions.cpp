@@ -149,15 +149,15 @@ struct ConditionReader {
         if (name == "ReachPositionCondition") {
             const auto place = position_of(element, scope, story);
             if (!place) return std::nullopt;
-            return [measure = Measure{}, tolerance = number_in(element, "tolerance", scope, 1), to = Footprint::of(*place), &s](const RunEntity& e, int step) {
-                return std::abs(measure.distance(Footprint::of(e, s.at(step)), to)) <= tolerance;
+            return [measure = Measure{}, tolerance = number_in(element, "tolerance", scope, 1), to = StoryBox::of(*place), &s](const RunEntity& e, int step) {
+                return std::abs(measure.distance(StoryBox::of(e, s.at(step)), to)) <= tolerance;
             };
         }
         return towards(element);
     }
 
     /// What conditions measure to: an entity, which may not be there, or a position.
-    using Target = std::function<std::optional<Footprint>(double time)>;
+    using Target = std::function<std::optional<StoryBox>(double time)>;
     std::optional<Target> target_of(const XmlElement& element) {
         const auto inside = element.child("TimeToCollisionConditionTarget");
         const auto inner = inside ? inside->child("EntityRef") : std::nullopt;
@@ -165,11 +165,11 @@ struct ConditionReader {
         if (named.attribute("entityRef")) {
             const RunEntity* other = story.one_of(named, "entityRef", scope);
             if (!other) return std::nullopt;
-            return [other](double time) { return is_there(*other, time) ? std::optional(Footprint::of(*other, time)) : std::nullopt; };
+            return [other](double time) { return is_there(*other, time) ? std::optional(StoryBox::of(*other, time)) : std::nullopt; };
         }
         const auto place = position_of(inside ? *inside : element, scope, story);
         if (!place) return std::nullopt;
-        return [to = Footprint::of(*place)](double) { return to; };
+        return [to = StoryBox::of(*place)](double) { return to; };
     }
 
     /// Conditions on a distance or a relative speed.
@@ -181,17 +181,17 @@ struct ConditionReader {
         if (!target) return std::nullopt;
         const Measure measure = measure_of(element, scope, story);
         const auto compare = compare_with(element, scope);
-        std::function<bool(const Footprint&, const Footprint&)> test;
+        std::function<bool(const StoryBox&, const StoryBox&)> test;
         constexpr double kNone = 1e-6;  // m, m/s
         if (name == "RelativeSpeedCondition")
-            test = [=](const Footprint& e, const Footprint& other) { return compare(e.speed - other.speed); };
+            test = [=](const StoryBox& e, const StoryBox& other) { return compare(e.speed - other.speed); };
         else if (name == "TimeHeadwayCondition")
-            test = [=](const Footprint& e, const Footprint& other) {
+            test = [=](const StoryBox& e, const StoryBox& other) {
                 const double distance = measure.distance(e, other);
                 return distance >= 0 && e.speed >= kNone && compare(distance / e.speed);
             };
         else if (name == "TimeToCollisionCondition")
-            test = [=](const Footprint& e, const Footprint& other) {
+            test = [=](const StoryBox& e, const StoryBox& other) {
                 // As esmini: how much faster it is along the other's way.
                 const double along = e.speed * glm::dot(e.ahead, other.ahead) * (other.speed < 0 ? -1 : 1);
                 const double closing = std::abs(other.speed) < kNone ? e.speed
@@ -200,10 +200,10 @@ struct ConditionReader {
                 return std::abs(distance) >= kNone && std::abs(closing) >= kNone && distance / closing >= 0 && compare(distance / closing);
             };
         else
-            test = [=](const Footprint& e, const Footprint& other) { return compare(std::abs(measure.distance(e, other))); };
+            test = [=](const StoryBox& e, const StoryBox& other) { return compare(std::abs(measure.distance(e, other))); };
         return [test, to = *target, &s = story](const RunEntity& e, int step) {
             const auto other = to(s.at(step));
-            return other && test(Footprint::of(e, s.at(step)), *other);
+            return other && test(StoryBox::of(e, s.at(step)), *other);
         };
     }
 

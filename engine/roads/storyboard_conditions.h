@@ -18,6 +18,7 @@ struct StoryTime {
     std::map<std::string, std::string> signals{};  ///< states of traffic lights now
     Parameters parameters{}, variables{};          ///< set by actions; variables as declared, too
     std::map<std::string, std::vector<RunEntity*>, std::less<>> entities{};  ///< by name; of selections those they hold
+    std::map<std::string_view, const Road*> road_by_id{};
     std::shared_ptr<LaneGraph> lanes{};  ///< where actions need them
     std::vector<std::string> notes{};
     size_t questions = 0;  ///< asked every step: conditions, once more for each entity; actors of actions
@@ -31,8 +32,8 @@ struct StoryTime {
     std::vector<Reference> references{};
 
     double at(int step) const { return times[static_cast<size_t>(step)]; }
-    /// Entities and selections by name; before anything is read.
-    void find_entities();
+    /// Roads, entities and selections by name; before anything is read.
+    void find_places();
     void find_references();
     /// The entity that an attribute names, or those of the selection; where there are none, that is noted.
     std::vector<RunEntity*> all_of(const XmlElement& element, const char* attribute, const Parameters& scope);
@@ -41,6 +42,9 @@ struct StoryTime {
     void ask(size_t more);
     void note(const std::string& what);
 };
+
+/// Leaves out what stands there more than once.
+void each_once(std::vector<RunEntity*>& entities);
 
 /// One condition with its delay and edge, judged as esmini does.
 struct TimedCondition {

@@ -148,8 +148,8 @@ struct MotionReader : MotionTimes {
         const double close = lateral ? 0.01 : 0.1;  // m, esmini's
         return [=, &s = story](RunEntity& actor, int) -> Progress {
             return [=, &s, &actor](int step) {
-                const Footprint to = Footprint::of(*other, s.at(step));
-                const double apart = std::abs(measure.distance(Footprint::of(actor, s.at(step)), to));
+                const StoryBox to = StoryBox::of(*other, s.at(step));
+                const double apart = std::abs(measure.distance(StoryBox::of(actor, s.at(step)), to));
                 return std::abs(apart - (gap ? wanted * std::abs(to.speed) : wanted)) < close;
             };
         };
@@ -208,7 +208,6 @@ struct MotionReader : MotionTimes {
     bool look_for_lanes() const {
         if (!story.roads) return false;
         if (!story.lanes) story.lanes = std::make_shared<LaneGraph>(*story.roads);
-        story.ask(kLaneQuestions);
         return true;
     }
 
@@ -278,8 +277,8 @@ StoryAction motion_of(const XmlElement& action, const Parameters& scope, StoryTi
     if (name == "SpeedProfileAction") return {{}, reader.profile(action), kAlong};
     if (name == "LongitudinalDistanceAction") return {{}, reader.distance(action, false), kAlong};
     if (name == "SynchronizeAction") return {{}, reader.synchronize(action), kAlong};
-    if (name == "LaneChangeAction") return {{}, reader.lane_change(action), kAcross};
-    if (name == "LaneOffsetAction") return {{}, reader.lane_offset(action), kAcross};
+    if (name == "LaneChangeAction") return {{}, reader.lane_change(action), kAcross, kLaneQuestions};
+    if (name == "LaneOffsetAction") return {{}, reader.lane_offset(action), kAcross, kLaneQuestions};
     if (name == "LateralDistanceAction") return {{}, reader.distance(action, true), kAcross};
     if (name == "FollowTrajectoryAction") return {{}, reader.trajectory(action), kAlong | kAcross};
     story.note(action.place() + ": is no action that is known: left out");

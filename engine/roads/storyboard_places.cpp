@@ -10,8 +10,8 @@ namespace vesper {
 namespace {
 
 /// m between two boxes along a direction, 0 where they overlap; negative where `to` lies against it.
-double gap_along(glm::dvec2 direction, const Footprint& from, const Footprint& to) {
-    const auto reach = [&](const Footprint& box) {
+double gap_along(glm::dvec2 direction, const StoryBox& from, const StoryBox& to) {
+    const auto reach = [&](const StoryBox& box) {
         return box.half.x * std::abs(glm::dot(box.ahead, direction)) + box.half.y * std::abs(glm::dot(box.left(), direction));
     };
     const double apart = glm::dot(to.centre - from.centre, direction);
@@ -19,7 +19,7 @@ double gap_along(glm::dvec2 direction, const Footprint& from, const Footprint& t
 }
 
 /// m from the corners of one box to another.
-double from_corners(const Footprint& corners, const Footprint& box) {
+double from_corners(const StoryBox& corners, const StoryBox& box) {
     double least = HUGE_VAL;
     for (const double x : {-1.0, 1.0})
         for (const double y : {-1.0, 1.0}) {
@@ -31,7 +31,7 @@ double from_corners(const Footprint& corners, const Footprint& box) {
     return least;
 }
 
-double free_distance(const Footprint& a, const Footprint& b) {
+double free_distance(const StoryBox& a, const StoryBox& b) {
     for (const glm::dvec2 axis : {a.ahead, a.left(), b.ahead, b.left()})
         if (gap_along(axis, a, b) != 0) return std::min(from_corners(a, b), from_corners(b, a));
     return 0;
@@ -39,9 +39,9 @@ double free_distance(const Footprint& a, const Footprint& b) {
 
 }  // namespace
 
-Footprint Footprint::of(const RunEntity& entity, double time) {
+StoryBox StoryBox::of(const RunEntity& entity, double time) {
     const RunPose pose = pose_at(entity, time);
-    Footprint made;
+    StoryBox made;
     made.reference = glm::dvec2(pose.position);
     made.ahead = {std::cos(pose.heading), std::sin(pose.heading)};
     made.centre = made.reference + made.ahead * entity.centre.x + made.left() * entity.centre.y;
@@ -50,13 +50,13 @@ Footprint Footprint::of(const RunEntity& entity, double time) {
     return made;
 }
 
-Footprint Footprint::of(glm::dvec3 point) {
-    Footprint made;
+StoryBox StoryBox::of(glm::dvec3 point) {
+    StoryBox made;
     made.reference = made.centre = glm::dvec2(point);
     return made;
 }
 
-double Measure::distance(const Footprint& from, const Footprint& to) const {
+double Measure::distance(const StoryBox& from, const StoryBox& to) const {
     const auto part = [&](glm::dvec2 direction) {
         return free_space ? gap_along(direction, from, to) : glm::dot(to.reference - from.reference, direction);
     };
@@ -95,19 +95,17 @@ std::optional<glm::dvec3> position_of(const XmlElement& element, const Parameter
                           number_in(*world, "z", scope, 0)};
     const auto lane = holder.child("LanePosition"), on_road = holder.child("RoadPosition");
     const auto& place = lane ? lane : on_road;
-    if (!place || !story.roads) return std::nullopt;
-    const auto id = resolved(*place, "roadId", scope);
-    for (const Road& road : story.roads->roads) {
-        if (!id || road.id != *id || road.sections.empty()) continue;
-        const double s = std::clamp(number_in(*place, "s", scope, 0), 0.0, road.length);
-        if (!lane) return surface_point(road, s, number_in(*place, "t", scope, 0)).position;
-        const LaneSection& section = road.sections[road.section_at(s)];
-        const int number = static_cast<int>(number_in(*place, "laneId", scope, 0));
-        if (!section.find(number)) return std::nullopt;
-        const RoadPoint point = lane_point(road, section, number, s, 0.5);
-        return point.position + point.left * number_in(*place, "offset", scope, 0);
-    }
-    return std::nullopt;
+    if (!place) return std::nullopt;
+    const auto found = story.road_by_id.find(resolved(*place, "roadId", scope).value_or(""));
+    if (found == story.road_by_id.end() || found->second->sections.empty()) return std::nullopt;
+    const Road& road = *found->second;
+    const double s = std::clamp(number_in(*place, "s", scope, 0), 0.0, road.length);
+    if (!lane) return surface_point(road, s, number_in(*place, "t", scope, 0)).position;
+    const LaneSection& section = road.sections[road.section_at(s)];
+    const int number = static_cast<int>(number_in(*place, "laneId", scope, 0));
+    if (!section.find(number)) return std::nullopt;
+    const RoadPoint point = lane_point(road, section, number, s, 0.5);
+    return point.position + point.left * number_in(*place, "offset", scope, 0);
 }
 
 }  // namespace vesper

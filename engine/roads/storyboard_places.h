@@ -7,14 +7,14 @@
 namespace vesper {
 
 /// What something takes up seen from above: of entities their box, of positions a point.
-struct Footprint {
+struct StoryBox {
     glm::dvec2 reference{0}, centre{0}, half{0};  ///< m
     glm::dvec2 ahead{1, 0};                       ///< unit
     double speed = 0;                             ///< m/s
 
     glm::dvec2 left() const { return {-ahead.y, ahead.x}; }
-    static Footprint of(const RunEntity& entity, double time);
-    static Footprint of(glm::dvec3 point);
+    static StoryBox of(const RunEntity& entity, double time);
+    static StoryBox of(glm::dvec3 point);
 };
 
 /// How a distance is measured, as esmini does: straight, or along the heading of the entity asked about, or across it.
@@ -24,7 +24,7 @@ struct Measure {
     bool free_space = false;  ///< between the boxes, not between the reference points
 
     /// m; negative where what is measured to lies behind, or to the right.
-    double distance(const Footprint& from, const Footprint& to) const;
+    double distance(const StoryBox& from, const StoryBox& to) const;
 };
 
 /// Of relativeDistanceType (unless it is `fixed`), coordinateSystem and freespace. What cannot be measured in is noted.

@@ -11,7 +11,7 @@ constexpr size_t kMaxQuestions = 10'000'000, kMaxMembers = 1'000'000;
 constexpr size_t kMaxNotes = 50;
 
 /// What ByType of a selection calls it.
-const char* type_of(RunEntity::Kind kind) {
+std::string_view type_of(RunEntity::Kind kind) {
     using Kind = RunEntity::Kind;
     if (kind == Kind::Object) return "miscellaneous";
     return kind == Kind::Pedestrian || kind == Kind::Animal ? "pedestrian" : "vehicle";
@@ -19,26 +19,30 @@ const char* type_of(RunEntity::Kind kind) {
 
 }  // namespace
 
-void StoryTime::find_entities() {
-    for (RunEntity& entity : run.entities) entities[entity.name].push_back(&entity);
+void StoryTime::find_places() {
+    if (roads)
+        for (const Road& road : roads->roads) road_by_id.try_emplace(road.id, &road);
+    std::map<std::string, std::vector<RunEntity*>, std::less<>> by_type;
+    for (RunEntity& entity : run.entities) {
+        entities[entity.name].push_back(&entity);
+        by_type[std::string(type_of(entity.kind))].push_back(&entity);
+    }
     const Parameters& scope = scenario.parameters();
     size_t members = 0;
     for (const XmlElement& each : scenario.root().children_of("Entities", "EntitySelection")) {
         std::vector<RunEntity*> selected;
+        const auto take = [&](const std::vector<RunEntity*>& more) {
+            if ((members += more.size()) > kMaxMembers) each.fail("selections have more than " + std::to_string(kMaxMembers) + " members");
+            selected.insert(selected.end(), more.begin(), more.end());
+        };
         for (const XmlElement& held : each.children("Members")) {
-            for (const XmlElement& member : held.children("EntityRef"))
-                for (RunEntity* entity : all_of(member, "entityRef", scope)) selected.push_back(entity);
+            for (const XmlElement& member : held.children("EntityRef")) take(all_of(member, "entityRef", scope));
             for (const XmlElement& member : held.children("ByType")) {
-                const std::string type = resolved(member, "objectType", scope).value_or("");
-                for (RunEntity& entity : run.entities)
-                    if (type == type_of(entity.kind)) selected.push_back(&entity);
+                const auto found = by_type.find(resolved(member, "objectType", scope).value_or(""));
+                if (found != by_type.end()) take(found->second);
             }
-            if (members + selected.size() > kMaxMembers)
-                held.fail("selections have more than " + std::to_string(kMaxMembers) + " members");
         }
-        std::sort(selected.begin(), selected.end());
-        selected.erase(std::unique(selected.begin(), selected.end()), selected.end());
-        members += selected.size();
+        each_once(selected);
         entities.try_emplace(resolved(each, "name", scope).value_or(""), std::move(selected));
     }
 }
@@ -77,6 +81,11 @@ void StoryTime::note(const std::string& what) {
     if (notes.size() < kMaxNotes && std::find(notes.begin(), notes.end(), what) == notes.end()) notes.push_back(what);
 }
 
+void each_once(std::vector<RunEntity*>& entities) {
+    std::sort(entities.begin(), entities.end());
+    entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
+}
+
 bool TimedCondition::holds(int step, const StoryTime& story, bool select) {
     triggering.clear();
     const bool now = test(step, select ? &triggering : nullptr);
@@ -110,8 +119,7 @@ bool Trigger::holds(int step, const StoryTime& story) {
     if (any)
         for (std::vector<TimedCondition>& group : groups)
             for (TimedCondition& each : group) each.asked = false;
-    std::sort(triggering.begin(), triggering.end());
-    triggering.erase(std::unique(triggering.begin(), triggering.end()), triggering.end());
+    each_once(triggering);
     return any;
 }
 

@@ -73,16 +73,16 @@ glm::quat rotation_of(const JsonValue& holder, float x, float y, float z, float 
 
 void read_transform(Node& node, const JsonValue& source) {
     if (const auto matrix = source.find("matrix")) {
-        const auto m = matrix->numbers<16>();
+        const auto m = matrix->numbers<16, double>();
         if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) matrix->fail("must have 0 0 0 1 as its last row");
-        glm::mat4 made(1);
+        glm::dmat4 made(1);
         for (int c = 0; c < 4; ++c)
             for (int r = 0; r < 4; ++r) made[c][r] = m[static_cast<size_t>(4 * c + r)];
         node.matrix = made;
         return;
     }
     if (const auto translation = source.find("translation")) {
-        const auto t = translation->numbers<3>();
+        const auto t = translation->numbers<3, double>();
         node.translation = {t[0], t[1], t[2]};
     }
     if (const auto rotation = source.find("rotation")) {

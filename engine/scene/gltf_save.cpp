@@ -20,9 +20,9 @@ namespace {
 using nlohmann::json;
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 
-constexpr int kFloat = 5126, kUnsigned = 5125, kByte = 5121;
+constexpr int kFloat = 5126, kUnsigned = 5125, kShort = 5123;
 
-json json_of(glm::vec3 v) { return {v.x, v.y, v.z}; }
+json json_of(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 
 /// The document under way, and its one buffer.
 struct Writer {
@@ -175,7 +175,7 @@ void write_nodes(Writer& writer, const std::vector<json>& lights) {
             for (int c = 0; c < 4; ++c)
                 for (int r = 0; r < 4; ++r) made["matrix"].push_back((*node.matrix)[c][r]);
         } else {
-            if (node.translation != glm::vec3(0)) made["translation"] = json_of(node.translation);
+            if (node.translation != glm::dvec3(0)) made["translation"] = json_of(node.translation);
             if (node.rotation != glm::quat(1, 0, 0, 0))
                 made["rotation"] = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
             if (node.scale != glm::vec3(1)) made["scale"] = json_of(node.scale);

@@ -56,11 +56,11 @@ public:
     /// Numbers, finite also as float.
     double number(double low = -FLT_MAX, double high = FLT_MAX) const;
     double number_or(const char* key, double fallback, double low = -FLT_MAX, double high = FLT_MAX) const;
-    template <size_t N>
-    std::array<float, N> numbers(double low = -FLT_MAX, double high = FLT_MAX) const {
-        std::array<float, N> values{};
+    template <size_t N, class Number = float>
+    std::array<Number, N> numbers(double low = -FLT_MAX, double high = FLT_MAX) const {
+        std::array<Number, N> values{};
         size_t i = 0;
-        for (const JsonValue& element : elements(N)) values[i++] = static_cast<float>(element.number(low, high));
+        for (const JsonValue& element : elements(N)) values[i++] = static_cast<Number>(element.number(low, high));
         return values;
     }
     /// A whole number in [0, high]; also written as 3.0.

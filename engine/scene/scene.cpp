@@ -65,19 +65,20 @@ void pose(Node& node, Channel::Path path, glm::vec4 value) {
     }
 }
 
-glm::mat4 local_transform(const Node& node) {
-    if (node.matrix) return *node.matrix;
-    const glm::mat3 rotation = glm::mat3_cast(node.rotation);
-    return {glm::vec4(rotation[0] * node.scale.x, 0), glm::vec4(rotation[1] * node.scale.y, 0),
-            glm::vec4(rotation[2] * node.scale.z, 0), glm::vec4(node.translation, 1)};
-}
-
 }  // namespace
+
+glm::dmat4 local_transform(const Node& node) {
+    if (node.matrix) return *node.matrix;
+    const glm::dmat3 rotation = glm::mat3_cast(glm::dquat(node.rotation));
+    const glm::dvec3 scale(node.scale);
+    return {glm::dvec4(rotation[0] * scale.x, 0), glm::dvec4(rotation[1] * scale.y, 0), glm::dvec4(rotation[2] * scale.z, 0),
+            glm::dvec4(node.translation, 1)};
+}
 
 std::vector<glm::mat4> world_transforms(const Scene& scene, double seconds) { return placed_transforms(scene, seconds, {}); }
 
 std::vector<glm::mat4> placed_transforms(const Scene& scene, double seconds, const std::map<uint32_t, glm::mat4>& places) {
-    std::vector<glm::mat4> world(scene.nodes.size());
+    std::vector<glm::dmat4> world(scene.nodes.size());
     for (size_t i = 0; i < scene.nodes.size(); ++i) world[i] = local_transform(scene.nodes[i]);
 
     // Several channels may move one node: it is posed from its values at rest, then its matrix is made again.
@@ -95,11 +96,11 @@ std::vector<glm::mat4> placed_transforms(const Scene& scene, double seconds, con
 
     for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
         if (const auto put = places.find(i); put != places.end())
-            world[i] = put->second;
+            world[i] = glm::dmat4(put->second);
         else if (scene.nodes[i].parent != kNone)
             world[i] = world[scene.nodes[i].parent] * world[i];
     }
-    return world;
+    return {world.begin(), world.end()};
 }
 
 double animation_length(const Scene& scene) {

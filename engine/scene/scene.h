@@ -125,10 +125,10 @@ struct Camera {
 struct Node {
     std::string name;
     uint32_t parent = kNone;  ///< always smaller than the node's own index
-    glm::vec3 translation{0};
+    glm::dvec3 translation{0};  ///< m; in double, since databases lie far from their origin and are brought back by nodes above
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1};
-    std::optional<glm::mat4> matrix;  ///< replaces the three above where the file gave one
+    std::optional<glm::dmat4> matrix;  ///< replaces the three above where the file gave one
     uint32_t mesh = kNone, light = kNone, camera = kNone;
 };
 
@@ -168,7 +168,7 @@ struct Scene {
 };
 
 /// Where every node stands at a time: node frame to world, one matrix per node. Channels hold their first and last
-/// values outside their keys. `seconds` >= 0.
+/// values outside their keys. `seconds` >= 0. Multiplied in double.
 std::vector<glm::mat4> world_transforms(const Scene& scene, double seconds);
 
 /// Duration of the longest channel, s; 0 without animation.

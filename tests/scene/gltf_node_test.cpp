@@ -49,6 +49,17 @@ TEST(GltfNode, KeepsNegativeScaleAndMatrices) {
     EXPECT_EQ(world[1][3], glm::vec4(4, 5, 6, 1));
 }
 
+// A database at UTM coordinates that a node above brings back: floats would be 0.2 m off.
+TEST(GltfNode, FarFromTheOriginAndBackIsExact) {
+    GltfFile file;
+    file.root["nodes"] = {{{"translation", {-5'000'000, 0, 412'000.25}}, {"children", {1}}}, {{"translation", {5'000'000.3, 1, -412'000}}},
+                          {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5'000'000.1, 0, 0, 1}}, {"children", {3}}}, {{"translation", {5'000'000, 0, 0}}}};
+    const auto world = world_transforms(file.read().scene, 0);
+    EXPECT_NEAR(world[1][3].x, 0.3, 1e-6);
+    EXPECT_NEAR(world[1][3].z, 0.25, 1e-6);
+    EXPECT_NEAR(world[3][3].x, -0.1, 1e-6);
+}
+
 TEST(GltfNode, NamesCameras) {
     GltfFile file;
     const json lens = {{"yfov", 0.7}, {"znear", 0.05}};

@@ -160,7 +160,7 @@ void ResidentScene::make_pipelines(const Device& device) {
         attribute(0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)),
         attribute(1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)),
         attribute(2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, uv)),
-        attribute(3, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(Vertex, colour)),
+        attribute(3, 0, VK_FORMAT_R16G16B16A16_UNORM, offsetof(Vertex, colour)),
         attribute(4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_x)),
         attribute(5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_y)),
         attribute(6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_z))};

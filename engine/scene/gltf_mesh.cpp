@@ -91,7 +91,7 @@ void take_colours(GltfReader& reader, Primitive& primitive, const Floats& colour
             const float value = colours[i][c];
             all_inside = all_inside && value >= 0 && value <= 1;
             const float limited = std::isnan(value) ? 0.0f : std::clamp(value, 0.0f, 1.0f);
-            primitive.vertices[i].colour[c] = static_cast<uint8_t>(std::lround(limited * 255));
+            primitive.vertices[i].colour[c] = static_cast<uint16_t>(std::lround(limited * 65535));
         }
     }
     if (!all_inside) reader.notes.add("a primitive with vertex colours outside [0, 1]: those are limited to it");

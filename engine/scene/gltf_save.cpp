@@ -75,14 +75,14 @@ void write_materials(Writer& writer) {
 json primitive_of(Writer& writer, const Primitive& primitive) {
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec2> uv;
-    std::vector<std::array<uint8_t, 4>> colours;
+    std::vector<std::array<uint16_t, 4>> colours;
     Bounds bounds;
     bool coloured = false, mapped = false;
     for (const Vertex& vertex : primitive.vertices) {
         positions.push_back(vertex.position), normals.push_back(vertex.normal), uv.push_back(vertex.uv),
             colours.push_back(vertex.colour);
         bounds.add(vertex.position);
-        coloured = coloured || vertex.colour != std::array<uint8_t, 4>{255, 255, 255, 255};
+        coloured = coloured || vertex.colour != Vertex{}.colour;
         mapped = mapped || vertex.uv != glm::vec2(0);
     }
     json attributes;
@@ -92,7 +92,7 @@ json primitive_of(Writer& writer, const Primitive& primitive) {
     attributes["NORMAL"] = writer.accessor(normals, kFloat, "VEC3");
     if (mapped) attributes["TEXCOORD_0"] = writer.accessor(uv, kFloat, "VEC2");
     if (coloured) {
-        attributes["COLOR_0"] = writer.accessor(colours, kByte, "VEC4");
+        attributes["COLOR_0"] = writer.accessor(colours, kShort, "VEC4");
         writer.root["accessors"].back()["normalized"] = true;
     }
     return {{"attributes", attributes},

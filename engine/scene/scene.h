@@ -79,7 +79,7 @@ struct Vertex {
     glm::vec3 position{0};      ///< m, in the mesh's frame
     glm::vec3 normal{0, 1, 0};  ///< unit length
     glm::vec2 uv{0};
-    std::array<uint8_t, 4> colour{255, 255, 255, 255};  ///< linear, multiplies base_colour
+    std::array<uint16_t, 4> colour{65535, 65535, 65535, 65535};  ///< linear, 65535 is 1; multiplies base_colour
 };
 
 /// Triangles of one material.

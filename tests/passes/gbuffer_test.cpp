@@ -130,7 +130,7 @@ Scene soup(uint32_t seed) {
         for (uint32_t i = 0; i < 9; ++i) {
             vertices[i].position = point(2), vertices[i].normal = glm::normalize(point(1) + glm::vec3(0, 0, 2)),
             indices[i] = i;
-            for (int c = 0; c < 3; ++c) vertices[i].colour[size_t(c)] = uint8_t(128 + 120 * unit(random));
+            for (int c = 0; c < 3; ++c) vertices[i].colour[size_t(c)] = uint16_t(32768 + 32000 * unit(random));
         }
         Node node;
         node.translation = {5 * unit(random), 3 * unit(random), -7 + 3 * unit(random)};

@@ -29,7 +29,7 @@ Scene example() {
             Vertex vertex;
             vertex.position = {float(i), float(m), float(i * i)};
             vertex.normal = {0, 1, 0};
-            if (m == 1) vertex.uv = {0.25f * float(i), 1}, vertex.colour = {255, 128, 0, 255};
+            if (m == 1) vertex.uv = {0.25f * float(i), 1}, vertex.colour = {65535, 1000, 0, 65535};
             primitive.vertices.push_back(vertex);
             primitive.bounds.add(vertex.position);
         }

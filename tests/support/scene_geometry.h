@@ -80,7 +80,7 @@ inline reference::Geometry geometry_of(const Scene& scene, const std::vector<glm
                     t.position[k] = glm::dvec3(m * glm::dvec4(v.position, 1));
                     t.normal[k] = normals * glm::dvec3(v.normal);  // interpolated as in the mesh's frame, then turned
                     t.uv[k] = glm::dvec2(v.uv);
-                    t.colour[k] = glm::dvec4(v.colour[0], v.colour[1], v.colour[2], v.colour[3]) / 255.0;
+                    t.colour[k] = glm::dvec4(v.colour[0], v.colour[1], v.colour[2], v.colour[3]) / 65535.0;
                 }
                 g.triangles.push_back(t);
             }

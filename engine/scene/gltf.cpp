@@ -31,8 +31,9 @@ void check_unused(GltfReader& reader) {
     for (uint32_t i = 0; i < document.list("bufferViews").size(); ++i)
         if (document.has_bytes(document.list("bufferViews")[i].at("buffer").index(buffers, "buffers")))
             document.view(i);
-    for (uint32_t i = 0; i < reader.mesh_of.size(); ++i)
-        if (reader.mesh_of[i] == kNone) check_mesh(reader, document.list("meshes")[i]);
+    for (uint32_t i = 0; i < document.list("meshes").size(); ++i)
+        if (const auto read = reader.meshes.lower_bound({i, 0, {}}); read == reader.meshes.end() || std::get<0>(read->first) != i)
+            check_mesh(reader, document.list("meshes")[i]);
 }
 
 void note_extensions(GltfReader& reader) {

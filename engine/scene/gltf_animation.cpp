@@ -55,8 +55,9 @@ void read_channel(GltfReader& reader, const JsonValue& animation, const JsonValu
     const auto node = target.find("node");
     const auto path = path_of(reader, target);
     if (!node || !path) return;
-    const uint32_t moved = reader.node_of[node->index(reader.node_of.size(), "nodes")];
+    const uint32_t index = node->index(reader.node_of.size(), "nodes"), moved = reader.node_of[index];
     if (moved == kNone) return;  // not in this scene
+    if (reader.skinned.contains(index) && reader.scene.nodes[moved].mesh != kNone) return;  // its joints say where it is
     if (reader.scene.nodes[moved].matrix) {
         reader.notes.add("the animation of a node that has a matrix is left out");
         return;

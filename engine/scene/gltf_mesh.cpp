@@ -15,7 +15,7 @@ uint32_t default_material(GltfReader& reader) {
     if (reader.default_material == kNone) {
         Material grey;
         grey.name = "default";
-        grey.base_colour = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
+        grey.base_colour = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);  // glTF's own, white metal, would be black at night
         reader.scene.materials.push_back(grey);
         reader.uv_mappings.emplace_back();
         reader.default_material = static_cast<uint32_t>(reader.scene.materials.size() - 1);
@@ -47,7 +47,7 @@ std::vector<uint32_t> triangles(GltfReader& reader, const std::vector<uint32_t>&
 }
 
 /// Normals from the file; those of no direction are made from the triangles around.
-void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normals, const JsonValue& reference) {
+void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normals, const JsonValue& reference, bool as_read) {
     std::vector<char> missing(primitive.vertices.size(), 0);
     bool any = false, scaled = false;
     for (size_t i = 0; i < primitive.vertices.size(); ++i) {
@@ -60,7 +60,7 @@ void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normal
         any = any || !usable;
         scaled = scaled || !(std::abs(length - 1) <= kUnitTolerance);
     }
-    if (scaled && reader.document.element("accessors", reference).find("bufferView")) reader.scaled_normals.insert(reference.index(UINT32_MAX, "accessors"));
+    if (as_read && scaled && reader.document.element("accessors", reference).find("bufferView")) reader.scaled_normals.insert(reference.index(UINT32_MAX, "accessors"));
     if (!any) return;
     reader.notes.add("a primitive with normals of no direction: those are made from its triangles");
     for (size_t i = 0; i < primitive.indices.size(); i += 3) {
@@ -70,6 +70,13 @@ void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normal
     }
     for (size_t i = 0; i < primitive.vertices.size(); ++i)
         if (missing[i]) primitive.vertices[i].normal = unit_or_up(primitive.vertices[i].normal);
+}
+
+/// Morphed normals need not be of length 1.
+bool moves_normals(const JsonValue& primitive, const Pose& pose) {
+    if (pose.weights.empty()) return false;
+    const std::vector<JsonValue> targets = primitive.elements_of("targets");
+    return std::any_of(targets.begin(), targets.end(), [](const JsonValue& target) { return target.find("NORMAL").has_value(); });
 }
 
 void take_uv(GltfReader& reader, Primitive& primitive, const Floats& coordinates) {
@@ -111,17 +118,6 @@ void drop_unused(Primitive& primitive) {
     primitive.vertices = std::move(used);
 }
 
-/// An attribute beside POSITION; it must have as many elements.
-std::optional<Floats> read_attribute(GltfReader& reader, const JsonValue& attributes, const std::string& name,
-                                     size_t count, std::initializer_list<std::string_view> types) {
-    const auto reference = attributes.find(name.c_str());
-    if (!reference) return std::nullopt;
-    Floats floats = read_floats(reader.document, *reference, types, reader.limits.vertices);
-    if (floats.count != count)
-        reference->fail(name + " has " + std::to_string(floats.count) + " elements, POSITION " + std::to_string(count));
-    return floats;
-}
-
 /// Where the data is compressed, accessors may be empty shells: to be told from those that mean zeros.
 void refuse_compressed(GltfReader& reader, const JsonValue& primitive, const JsonValue& position) {
     const auto extensions = primitive.find("extensions");
@@ -130,12 +126,10 @@ void refuse_compressed(GltfReader& reader, const JsonValue& primitive, const Jso
         primitive.fail("is compressed with KHR_draco_mesh_compression, which is not supported");
 }
 
-std::vector<Vertex> read_positions(GltfReader& reader, const JsonValue& reference) {
-    const Floats positions = read_floats(reader.document, reference, {"VEC3"}, reader.limits.vertices);
-    // The same accessor may be named by any number of primitives.
-    reader.decoded += positions.count;
-    if (reader.decoded / 8 > reader.limits.vertices)
-        reference.fail("the primitives together read their vertices too often");
+std::vector<Vertex> read_positions(GltfReader& reader, const JsonValue& primitive, const JsonValue& reference, const std::vector<float>& weights) {
+    Floats positions = read_floats(reader.document, reference, {"VEC3"}, reader.limits.vertices);
+    take_decoded(reader, reference, positions.count);
+    add_targets(reader, primitive, "POSITION", weights, positions);
     std::vector<Vertex> vertices(positions.count);
     for (size_t i = 0; i < vertices.size(); ++i) {
         const auto p = positions[i];
@@ -162,7 +156,7 @@ void spend(const JsonValue& primitive, uint64_t& used, uint64_t more, uint64_t l
 }
 
 /// Nothing for what is not made of triangles.
-std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& source) {
+std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& source, const Pose& pose) {
     const auto mode = static_cast<Mode>(source.integer_or("mode", 4, 6));
     const JsonValue attributes = source.at("attributes");
     const auto position = attributes.find("POSITION");
@@ -176,8 +170,8 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& sou
     if (const auto material = source.find("material"))
         made.material = material->index(reader.document.list("materials").size(), "materials");
     else
-        made.material = default_material(reader);
-    made.vertices = read_positions(reader, *position);
+        made.material = default_material(reader), reader.notes.add("a primitive without material is shown matt grey, of reflectance 0.5");
+    made.vertices = read_positions(reader, source, *position, pose.weights);
     const size_t count = made.vertices.size();
     made.indices = triangles(reader, read_corners(reader, source, count), mode);
     spend(source, reader.indices, made.indices.size(), reader.limits.indices, "indices");
@@ -189,9 +183,13 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& sou
         check_needs_no_uv(reader, made.material, attributes, uv_set);
     if (const auto colours = read_attribute(reader, attributes, "COLOR_0", count, {"VEC3", "VEC4"}))
         take_colours(reader, made, *colours);
-    const auto normals = read_attribute(reader, attributes, "NORMAL", count, {"VEC3"});
+    auto normals = read_attribute(reader, attributes, "NORMAL", count, {"VEC3"});
     if (normals) {
-        take_normals(reader, made, *normals, attributes.at("NORMAL"));
+        add_targets(reader, source, "NORMAL", pose.weights, *normals);
+        take_normals(reader, made, *normals, attributes.at("NORMAL"), !moves_normals(source, pose));
+    }
+    if (pose.skin) bend(reader, attributes, *pose.skin, made);
+    if (normals) {
         drop_unused(made);
         spend(source, reader.vertices, made.vertices.size(), reader.limits.vertices, "vertices");
     } else {
@@ -205,24 +203,42 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& sou
     return made;
 }
 
-Mesh make_mesh(GltfReader& reader, const JsonValue& source) {
+Mesh make_mesh(GltfReader& reader, const JsonValue& source, Pose pose) {
     Mesh mesh;
     mesh.name = source.text_or("name", "");
+    if (pose.weights.empty()) pose.weights = morph_weights(source);
+    take_decoded(reader, source, pose.weights.size());
     for (const JsonValue& primitive : source.at("primitives").elements())
-        if (auto made = read_primitive(reader, primitive)) mesh.primitives.push_back(std::move(*made));
+        if (auto made = read_primitive(reader, primitive, pose)) mesh.primitives.push_back(std::move(*made));
     return mesh;
 }
 
 }  // namespace
 
-void check_mesh(GltfReader& reader, const JsonValue& mesh) { make_mesh(reader, mesh); }
+void check_mesh(GltfReader& reader, const JsonValue& mesh) { make_mesh(reader, mesh, {}); }
 
-uint32_t read_mesh(GltfReader& reader, const JsonValue& reference) {
+std::optional<Floats> read_attribute(GltfReader& reader, const JsonValue& attributes, const std::string& name, size_t count,
+                                     std::initializer_list<std::string_view> types) {
+    const auto reference = attributes.find(name.c_str());
+    if (!reference) return std::nullopt;
+    Floats floats = read_floats(reader.document, *reference, types, reader.limits.vertices);
+    if (floats.count != count)
+        reference->fail(name + " has " + std::to_string(floats.count) + " elements, POSITION " + std::to_string(count));
+    return floats;
+}
+
+void take_decoded(GltfReader& reader, const JsonValue& at, uint64_t count) {
+    // The same accessor may be named by any number of primitives.
+    reader.decoded += count;
+    if (reader.decoded / 8 > reader.limits.vertices) at.fail("the primitives together read their vertices too often");
+}
+
+uint32_t read_mesh(GltfReader& reader, const JsonValue& reference, const Pose& pose) {
     const JsonValue source = reader.document.element("meshes", reference);
-    uint32_t& place = reader.mesh_of[reference.index(UINT32_MAX, "meshes")];
-    if (place != kNone) return place;
-    reader.scene.meshes.push_back(make_mesh(reader, source));
-    return place = static_cast<uint32_t>(reader.scene.meshes.size() - 1);
+    const auto [place, is_new] = reader.meshes.try_emplace({reference.index(UINT32_MAX, "meshes"), pose.skin_index, pose.weights}, kNone);
+    if (!is_new) return place->second;
+    reader.scene.meshes.push_back(make_mesh(reader, source, pose));
+    return place->second = static_cast<uint32_t>(reader.scene.meshes.size() - 1);
 }
 
 }  // namespace vesper

@@ -123,13 +123,6 @@ uint32_t read_camera(GltfReader& reader, const JsonValue& reference, const std::
     return static_cast<uint32_t>(reader.scene.cameras.size() - 1);
 }
 
-uint32_t add_node(GltfReader& reader, const JsonValue& source, Node node) {
-    if (reader.scene.nodes.size() >= reader.limits.nodes)
-        source.fail("more nodes than the limit of " + std::to_string(reader.limits.nodes));
-    reader.scene.nodes.push_back(std::move(node));
-    return static_cast<uint32_t>(reader.scene.nodes.size() - 1);
-}
-
 /// EXT_mesh_gpu_instancing: a child with the mesh for each instance.
 void read_instances(GltfReader& reader, const JsonValue& instancing, uint32_t parent) {
     const JsonValue attributes = instancing.at("attributes");
@@ -170,13 +163,18 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
     node.name = source.text_or("name", "");
     node.parent = parent;
     read_transform(node, source);
-    if (const auto mesh = source.find("mesh")) node.mesh = read_mesh(reader, *mesh);
+    const auto extensions = source.find("extensions");
+    const auto instancing = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
+    const auto mesh = source.find("mesh");
+    const bool has_skin = mesh && source.find("skin"), skinned = has_skin && !instancing && hangs_on_joints(reader, *mesh);
+    if (has_skin) reader.notes.add(skinned ? "a node with a skin is shown at rest" : "a node with a skin, but instances or a mesh without joints, is shown as it is modelled");
+    if (skinned)
+        reader.skinned.insert(index);
+    else if (mesh)
+        node.mesh = read_mesh(reader, *mesh, {morph_weights(source)});
     if (const auto camera = source.find("camera"))
         node.camera = read_camera(reader, *camera, node.name.empty() ? "node " + std::to_string(index) : node.name,
                                   camera_shared);
-    if (source.find("skin")) reader.notes.add("a node with a skin is shown at rest");
-
-    const auto extensions = source.find("extensions");
     Node second;  // a node has one light: a measured one beside another becomes a child's
     if (extensions) {
         if (const auto light = extensions->find("KHR_lights_punctual"))
@@ -185,6 +183,8 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
             (node.light == kNone ? node : second).light = read_measured_light(reader, *light);
     }
     const bool has_mesh = node.mesh != kNone;
+    // Where nothing else hangs on it, the node with the mesh in place, which follows, takes its place and name.
+    if (skinned && node.camera == kNone && node.light == kNone && second.light == kNone && !source.find("children")) return;
     const uint32_t made = add_node(reader, source, std::move(node));
     reader.node_of[index] = made;
     if (second.light != kNone) {
@@ -192,9 +192,7 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
         second.parent = made;
         add_node(reader, source, std::move(second));
     }
-    if (extensions && has_mesh)
-        if (const auto instancing = extensions->find("EXT_mesh_gpu_instancing"))
-            read_instances(reader, *instancing, made);
+    if (instancing && has_mesh) read_instances(reader, *instancing, made);
 }
 
 /// Meshes are kept once, but drawn and added up once for each node.
@@ -211,11 +209,23 @@ void check_drawn(const GltfReader& reader) {
 
 }  // namespace
 
+Node read_placed(const JsonValue& source) {
+    Node node;
+    read_transform(node, source);
+    return node;
+}
+
+uint32_t add_node(GltfReader& reader, const JsonValue& source, Node node) {
+    if (reader.scene.nodes.size() >= reader.limits.nodes)
+        source.fail("more nodes than the limit of " + std::to_string(reader.limits.nodes));
+    reader.scene.nodes.push_back(std::move(node));
+    return static_cast<uint32_t>(reader.scene.nodes.size() - 1);
+}
+
 void read_nodes(GltfReader& reader) {
     const auto nodes = reader.document.list("nodes");
     if (nodes.size() > reader.limits.nodes)
         reader.document.root().at("nodes").fail("more nodes than the limit of " + std::to_string(reader.limits.nodes));
-    reader.mesh_of.assign(reader.document.list("meshes").size(), kNone);
     reader.node_of.assign(nodes.size(), kNone);
     std::vector<std::vector<uint32_t>> children;
     const std::vector<uint32_t> parents = read_parents(nodes, children);
@@ -229,12 +239,13 @@ void read_nodes(GltfReader& reader) {
     while (!waiting.empty()) {  // no recursion: a tree may be as deep as it has nodes
         const uint32_t index = waiting.back();
         waiting.pop_back();
-        if (reader.node_of[index] != kNone) continue;
+        if (reader.node_of[index] != kNone || reader.skinned.contains(index)) continue;
         const auto camera = nodes[index].find("camera");
         read_node(reader, nodes[index], index, parents[index] == kNone ? kNone : reader.node_of[parents[index]],
                   camera && cameras[camera->index(cameras.size(), "cameras")] > 1);
         waiting.insert(waiting.end(), children[index].rbegin(), children[index].rend());
     }
+    read_skinned(reader, parents);
 
     const auto lit = std::count_if(reader.scene.nodes.begin(), reader.scene.nodes.end(),
                                    [](const Node& n) { return n.light != kNone; });

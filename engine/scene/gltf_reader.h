@@ -41,6 +41,19 @@ constexpr double kUnitTolerance = 0.0069;
 /// In `image_of`: not looked at. kNone there: a format we do not read.
 constexpr uint32_t kUnread = kNone - 1;
 
+/// Joints at rest, with their inverse bind matrices: vertices as modelled to the frame of a node.
+struct Skin {
+    uint32_t frame = kNone;  ///< node of the file; kNone: the world
+    std::vector<glm::dmat4> joints;
+};
+
+/// What a node does to its mesh. `weights` of morph targets; empty: the mesh's own.
+struct Pose {
+    std::vector<float> weights{};
+    uint32_t skin_index = kNone;
+    const Skin* skin = nullptr;
+};
+
 /// State of one reading. The index of a thing in the file is `*_of[...]` in the scene, or kNone.
 struct GltfReader {
     GltfDocument& document;
@@ -48,7 +61,11 @@ struct GltfReader {
     Scene scene{};
     Notes notes{};
     std::vector<UvMapping> uv_mappings{};  ///< one per scene material
-    std::vector<uint32_t> mesh_of{}, node_of{}, image_of{};
+    std::vector<uint32_t> node_of{}, image_of{};
+    /// Scene mesh for a mesh of the file, the skin that puts it in place or kNone, and the node's weights.
+    std::map<std::tuple<uint32_t, uint32_t, std::vector<float>>, uint32_t> meshes{};
+    std::map<uint32_t, bool> jointed{};  ///< see hangs_on_joints
+    std::set<uint32_t> skinned{};        ///< nodes of the file whose mesh a skin puts in place
     std::map<uint32_t, std::string> image_types{};  ///< of the pictures read: what their bytes are
     std::set<uint32_t> scaled_normals{};            ///< accessors whose normals are not of length 1
     bool photometric = false;  ///< there is an extras block
@@ -68,7 +85,24 @@ UvMapping read_uv_mapping(const JsonValue& info);
 void read_sampler(GltfReader& reader, const JsonValue& index, TextureUse& use);
 void read_materials(GltfReader& reader);
 /// The mesh a node refers to, read when first needed.
-uint32_t read_mesh(GltfReader& reader, const JsonValue& reference);
+uint32_t read_mesh(GltfReader& reader, const JsonValue& reference, const Pose& pose = {});
+/// An attribute beside POSITION, of `count` elements as that has.
+std::optional<Floats> read_attribute(GltfReader& reader, const JsonValue& attributes, const std::string& name, size_t count,
+                                     std::initializer_list<std::string_view> types);
+/// Counts elements read; throws where all of them are over eight times the limit of vertices.
+void take_decoded(GltfReader& reader, const JsonValue& at, uint64_t count);
+
+/// Whether every primitive of a mesh says on which joints its vertices hang.
+bool hangs_on_joints(GltfReader& reader, const JsonValue& mesh);
+/// Draws the meshes of `skinned`, each on a node of its own. Nodes have been read.
+void read_skinned(GltfReader& reader, const std::vector<uint32_t>& parents);
+/// Weights of morph targets that a node or a mesh states.
+std::vector<float> morph_weights(const JsonValue& holder);
+/// Adds the morph targets of an attribute to it.
+void add_targets(GltfReader& reader, const JsonValue& primitive, const char* attribute, const std::vector<float>& weights, Floats& values);
+/// Puts vertices where their joints are.
+void bend(GltfReader& reader, const JsonValue& attributes, const Skin& skin, Primitive& primitive);
+
 /// Reads a mesh that nothing refers to and forgets it.
 void check_mesh(GltfReader& reader, const JsonValue& mesh);
 void read_lights(GltfReader& reader);
@@ -77,6 +111,9 @@ void read_distributions(GltfReader& reader);
 /// The scene's light for a use of one by a node.
 uint32_t read_measured_light(GltfReader& reader, const JsonValue& use);
 void read_nodes(GltfReader& reader);
+/// The transform of a node of the file, on a node of nothing else.
+Node read_placed(const JsonValue& source);
+uint32_t add_node(GltfReader& reader, const JsonValue& source, Node node);
 void read_animations(GltfReader& reader);
 /// The extras block of a converted file (docs/photometry.md).
 void read_photometry_block(GltfReader& reader);

@@ -42,9 +42,9 @@ std::vector<InDiffuse> in_diffuse(const Scene& scene) {
 }
 
 // A road with a table as the G-buffer holds it (shared/shade.h): the table says how much it reflects, the texture only
-// where there is more and where less.
-Material as_road(const Scene& scene, InDiffuse road, Material m) {
-    const double mean = mean_reflectance(scene, m, scene.transfer);
+// and colours of vertices only where there is more and where less than in the mean of the surfaces that show it.
+Material as_road(const Scene& scene, InDiffuse road, const MaterialUse& use, Material m) {
+    const double mean = mean_reflectance(scene, m, use);
     const glm::vec3 colour = mean > 0 ? glm::vec3(glm::dvec3(m.base_colour) / mean) : glm::vec3(1);
     m.base_colour = glm::vec4(colour * road.reflectance, m.base_colour.a);
     m.metallic = shared::kRoadKind - float(m.reflection_table);
@@ -128,10 +128,14 @@ void ResidentScene::place(const Scene& scene) {
 
 void ResidentScene::make_surfaces(const Device&, const Scene& scene) {
     const std::vector<InDiffuse> roads = in_diffuse(scene);
-    for (const Material& stated : scene.materials) {
-        Material m = stated.reflection_table != kNone ? as_road(scene, roads.at(stated.reflection_table), stated)
+    const std::vector<MaterialUse> uses = roads.empty() ? std::vector<MaterialUse>{} : material_uses(scene);
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& stated = scene.materials[i];
+        Material m = stated.reflection_table != kNone ? as_road(scene, roads.at(stated.reflection_table), uses[i], stated)
                      : stated.retroreflector != kNone ? as_sheet(stated)
                                                       : stated;
+        // Opacity passes through half floats, which may be half a step (2^-11 of the value) less than the code said.
+        m.alpha_cutoff *= 1 - 0x1p-11f;
         uint32_t variant = 0;
         if (m.base_colour_texture.image != kNone) variant |= kBaseTexture;
         if (m.metallic_roughness_texture.image != kNone) variant |= kMetallicRoughnessTexture;

@@ -16,12 +16,14 @@ constexpr double kFaintestLamp = 0.1, kBrightestLamp = 1e6;  // cd: a glow-worm,
 }  // namespace
 
 void check_reflectances(const Scene& scene, ConversionReport& report) {
-    for (const Material& material : scene.materials) {
+    const std::vector<MaterialUse> uses = material_uses(scene);
+    for (size_t i = 0; i < uses.size(); ++i) {
+        const Material& material = scene.materials[i];
         // Metal has no diffuse reflectance; what shines hides what it reflects.
         if (material.metallic > 0.5f || material.emission != glm::vec3(0)) continue;
         if (material.alpha == Material::Alpha::Mask && material.base_colour.a < material.alpha_cutoff)
             continue;  // glass
-        const double mean = mean_reflectance(scene, material, scene.transfer);
+        const double mean = mean_reflectance(scene, material, uses[i]);
         if (mean > kHighestReflectance)
             report.warnings.push_back("material " + in_quotes(material.name) + ": a mean reflectance of " +
                                       decimal(mean) + " is more than real surfaces have");

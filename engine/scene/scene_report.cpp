@@ -217,11 +217,12 @@ SceneReport report_scene(const Scene& scene) {
     report.extent = measure.extent();
     report.triangles = measure.triangles;
     double reflected = 0;
+    const std::vector<MaterialUse> uses = material_uses(scene);
     for (size_t i = 0; i < scene.materials.size(); ++i) {
         const double area = measure.area(i);
         if (!(area > 0)) continue;
         const Material& m = scene.materials[i];
-        MaterialReport made{.name = m.name, .reflectance = mean_reflectance(scene, m, scene.transfer)};
+        MaterialReport made{.name = m.name, .reflectance = mean_reflectance(scene, m, uses[i])};
         made.roughness = static_cast<double>(m.roughness);
         made.metallic = static_cast<double>(m.metallic);
         made.textured = m.base_colour_texture.image != kNone;

@@ -24,7 +24,7 @@ struct LampReport {
 
 struct MaterialReport {
     std::string name;
-    double reflectance = 0;           ///< mean of base colour
+    double reflectance = 0;           ///< mean of base colour, times vertex colours
     double roughness = 1, metallic = 0;  ///< factors; a texture multiplies them
     bool textured = false;
     double emission = 0;              ///< greatest luminance, cd/m^2

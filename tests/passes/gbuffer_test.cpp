@@ -336,6 +336,59 @@ TEST(Gbuffer, PicturesOfLightInHalfFloats) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// COLOR_0 of 0.001 and 0.003, which 8 bits would make 0 and 0.004.
+TEST(Gbuffer, DarkVertexColoursStayWhatTheyAre) {
+    PassRig rig;
+    Scene scene = wall(plain({1, 1, 1}), {});
+    for (Vertex& v : scene.meshes[0].primitives[0].vertices) v.colour = {66, 197, 1000, 65535};
+    for (const glm::vec4& seen : draw(rig, scene, view_of({8, 8})).reflectance)
+        for (const auto& [c, want] : {std::pair(0, 66.0), {1, 197.0}, {2, 1000.0}}) EXPECT_NEAR(seen[c] * 65535 / want, 1, 0.002);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// The table says how much a road reflects: colours of its vertices, and where in an atlas it lies, only how that varies.
+TEST(Gbuffer, RoadsReflectWhatTheirTableSaysWhateverTheirColourIs) {
+    PassRig rig;
+    Material road = plain({0.5f, 0.5f, 0.5f});
+    road.reflection_table = 0;
+    const auto mean = [&](Scene scene) {
+        scene.reflection_tables = {find_reflection_table("R3")};
+        double sum = 0;
+        for (const glm::vec4& seen : draw(rig, scene, view_of({16, 16})).reflectance) sum += seen.g / 256;
+        return sum;
+    };
+    const double plain_road = mean(wall(road, {}));
+    EXPECT_GT(plain_road, 0.1);
+    Scene coloured = wall(road, {});
+    for (Vertex& v : coloured.meshes[0].primitives[0].vertices) v.colour = {16384, 16384, 16384, 65535};
+    EXPECT_NEAR(mean(coloured) / plain_road, 1, 1e-3);
+    Scene varied = coloured;  // its left half darker than the right one
+    for (Vertex& v : varied.meshes[0].primitives[0].vertices)
+        if (v.uv.x < 0.5f) v.colour = {6554, 6554, 6554, 65535};
+    EXPECT_NEAR(mean(varied) / plain_road, 1, 2e-3);
+    road.base_colour_texture = {0, Wrap::Repeat, Wrap::Repeat, true};
+    const Image atlas{"atlas", 4, 1, {255, 255, 255, 255, 255, 255, 255, 255, 40, 40, 40, 255, 10, 10, 10, 255}};
+    for (const auto& [low, high] : {std::pair(0.1f, 0.1f), {0.6f, 0.7f}, {0.9f, 0.9f}, {0.5f, 1.0f}, {0.0f, 1.0f}}) {
+        Scene tile = wall(road, {atlas});
+        for (Vertex& v : tile.meshes[0].primitives[0].vertices) v.uv = {v.uv.x < 0.5f ? low : high, 0.5f};
+        EXPECT_NEAR(mean(tile) / plain_road, 1, 2e-3) << low << " to " << high;
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// 3.9.4: what is not less than the cutoff is opaque, also where a half float is less than the code it came from.
+TEST(Gbuffer, OpacityThatEqualsTheCutoffIsOpaque) {
+    PassRig rig;
+    for (const int code : {1, 26, 51, 77, 128, 204, 254, 255})
+        for (const int alpha : {code - 1, code}) {
+            Material m = plain({1, 1, 1});
+            m.alpha = Material::Alpha::Mask, m.alpha_cutoff = float(code / 255.0), m.base_colour_texture.image = 0;
+            const Layers got = draw(rig, wall(m, {Image{"", 1, 1, {255, 255, 255, uint8_t(alpha)}}}), view_of({2, 2}));
+            EXPECT_EQ(got.surface[0].z > 0, alpha == code) << alpha << " of " << code;
+        }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 TEST(Gbuffer, MaskedFoliageHasHoles) {
     PassRig rig;
     Material leaf = plain({0.2f, 0.7f, 0.1f}, true);

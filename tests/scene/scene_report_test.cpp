@@ -20,7 +20,7 @@ struct Street {
     void add_square(uint32_t material, float width, float depth, float height) {
         Primitive p{.material = material};
         for (const glm::vec2 at : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
-            p.vertices.push_back({.position = {at.x * width / 2, height, at.y * depth / 2}});
+            p.vertices.push_back({.position = {at.x * width / 2, height, at.y * depth / 2}, .uv = at / 2.0f + 0.5f});
             p.bounds.add(p.vertices.back().position);
         }
         p.indices = {0, 2, 1, 0, 3, 2};
@@ -109,6 +109,39 @@ TEST(SceneReport, ReflectanceOfATextureIsThroughItsTransfer) {
     EXPECT_NEAR(report_scene(street.scene).materials.at(0).reflectance, 0.25 * std::pow(128 / 255.0, 2.2), 1e-6);
     street.scene.transfer = {Transfer::Kind::Srgb};
     EXPECT_NEAR(report_scene(street.scene).materials.at(0).reflectance, 0.25 * 0.21586, 1e-4);
+}
+
+// Of vertex colours the mean by area, of a texture what is used.
+TEST(SceneReport, ReflectanceIsThatOfTheSurfaceShown) {
+    Street street;
+    std::vector<Vertex>& vertices = street.scene.meshes[0].primitives[0].vertices;
+    for (Vertex& vertex : vertices) vertex.colour = {16384, 16384, 16384, 65535};
+    EXPECT_NEAR(report_scene(street.scene).mean_reflectance, 0.05, 1e-5);
+    street.add_square(0, 100, 60, -1);  // three times as large, and white
+    EXPECT_NEAR(report_scene(street.scene).materials.at(0).reflectance, 0.2 * (0.25 + 3) / 4, 1e-5);
+    street.scene.nodes.back().scale = glm::vec3(0.5f);
+    EXPECT_NEAR(report_scene(street.scene).materials.at(0).reflectance, 0.2 * (0.25 + 0.75) / 1.75, 1e-5);
+
+    Street atlas;
+    atlas.scene.images.push_back({.name = "atlas", .width = 4, .height = 1, .rgba = {255, 255, 255, 255, 255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255}});
+    Material& m = atlas.scene.materials[0];
+    m.base_colour = glm::vec4(1), m.base_colour_texture.image = 0;
+    const auto mean = [&](float low, float high) {
+        auto& corners = atlas.scene.meshes[0].primitives[0].vertices;
+        for (size_t i = 0; i < 4; ++i) corners[i].uv = {i % 2 ? high : low, 0.5f};
+        return report_scene(atlas.scene).materials.at(0).reflectance;
+    };
+    EXPECT_NEAR(mean(0.1f, 0.1f), 1, 1e-6);       // a point
+    EXPECT_NEAR(mean(0.55f, 0.9f), 0, 1e-6);
+    EXPECT_NEAR(mean(0.375f, 0.75f), 1 / 3.0, 1e-6);  // parts of texels
+    EXPECT_NEAR(mean(-0.5f, 0.5f), 0.5, 1e-6);    // the whole axis
+    EXPECT_NEAR(mean(1.75f, 2.125f), 1 / 3.0, 1e-6);  // around the end: half a texel of white, one of black
+    m.base_colour_texture.wrap_u = Wrap::Mirror;
+    EXPECT_NEAR(mean(1.25f, 1.5f), 0, 1e-6);      // an odd tile, the other way round
+    EXPECT_NEAR(mean(-0.25f, -0.125f), 1, 1e-6);
+    m.base_colour_texture.wrap_u = Wrap::Clamp;
+    EXPECT_NEAR(mean(1.25f, 1.5f), 0, 1e-6);
+    EXPECT_NEAR(mean(-7.5f, -7.25f), 1, 1e-6);
 }
 
 TEST(SceneReport, WhatIsEmittedIsThroughItsTexture) {

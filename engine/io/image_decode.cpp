@@ -210,6 +210,8 @@ std::string media_type(std::span<const uint8_t> bytes) {
     return "";
 }
 
+bool is_16_bit_png(std::span<const uint8_t> bytes) { return bytes.size() > 24 && bytes[24] == 16 && media_type(bytes) == "image/png"; }
+
 namespace {
 
 /// Does the job. Throws Error.

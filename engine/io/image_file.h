@@ -23,6 +23,9 @@ void check_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max
 /// The media type of a PNG or JPEG ("image/png"), or of another picture format we know but do not read; "" otherwise.
 std::string media_type(std::span<const uint8_t> bytes);
 
+/// Whether a picture is a PNG of 16 bits a channel.
+bool is_16_bit_png(std::span<const uint8_t> bytes);
+
 /// Writes 8-bit RGBA (alpha ignored) as an RGB PNG. The file is replaced only when complete. Throws Error.
 void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba);
 

@@ -6,6 +6,7 @@
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "scene/gltf_reader.h"
+#include "scene/reflectance.h"
 
 namespace vesper {
 namespace {
@@ -26,6 +27,7 @@ uint32_t read_image(GltfReader& reader, const JsonValue& reference) {
     } catch (const Error& error) {
         entry.fail(error.what());
     }
+    if (is_16_bit_png(bytes)) reader.notes.add("a picture of 16 bits is read at 8: below 0.01 its values are coarse");
     reader.texels += static_cast<uint64_t>(image.width) * image.height;
     const auto uri = entry.find("uri");
     image.name =
@@ -136,16 +138,31 @@ void read_metallic_roughness(GltfReader& reader, Properties& p) {
         p.made.metallic_roughness_texture = read_texture(reader, *texture, p.roughness_uv);
 }
 
-/// KHR_materials_pbrSpecularGlossiness: the diffuse part is what we keep.
+/// KHR_materials_pbrSpecularGlossiness: the diffuse part is what we keep, less what is reflected before it: c_diff = diffuse (1 - max(specular)).
 void read_specular_glossiness(GltfReader& reader, const JsonValue& model, Properties& p) {
     p.made.base_colour = glm::vec4(1);
     p.made.base_colour_texture = p.made.metallic_roughness_texture = {};
     p.base_uv = p.roughness_uv = {};
     p.made.metallic = 0;
-    p.made.roughness = 1 - unit_number(reader, model, "glossinessFactor", 1);
+    double glossiness = unit_number(reader, model, "glossinessFactor", 1);
+    glm::dvec3 specular(1);
+    if (const auto factor = model.find("specularFactor")) {
+        const auto rgb = unit_numbers<3>(reader, *factor);
+        specular = {rgb[0], rgb[1], rgb[2]};
+    }
+    if (const auto texture = model.find("specularGlossinessTexture")) {
+        UvMapping unused;
+        const TextureUse use = read_texture(reader, *texture, unused);
+        const glm::dvec4 mean = use.image == kNone ? glm::dvec4(0) : mean_texel(reader.scene.images[use.image], {}, use);
+        specular *= glm::dvec3(mean), glossiness *= mean.a;
+        reader.notes.add("a specularGlossinessTexture counts as its mean: how it varies is left out");
+    }
+    p.made.roughness = static_cast<float>(1 - glossiness);
     if (const auto factor = model.find("diffuseFactor")) p.made.base_colour = vec4_of(unit_numbers<4>(reader, *factor));
     if (const auto texture = model.find("diffuseTexture"))
         p.made.base_colour_texture = read_texture(reader, *texture, p.base_uv);
+    const auto rest = static_cast<float>(1 - std::max({specular.r, specular.g, specular.b}));
+    p.made.base_colour *= glm::vec4(rest, rest, rest, 1);
     reader.notes.add("a material with KHR_materials_pbrSpecularGlossiness is read as its diffuse part and glossiness");
 }
 
@@ -213,6 +230,7 @@ void read_material(GltfReader& reader, const JsonValue& material) {
     read_emission(reader, p);
     read_alpha(reader, p);
     if (material.find("normalTexture")) reader.notes.add("a normal texture is not read");
+    if (material.find("occlusionTexture")) reader.notes.add("an occlusion texture is not read");
     reader.uv_mappings.push_back(common_uv(reader, p));
     reader.scene.materials.push_back(std::move(made));
 }

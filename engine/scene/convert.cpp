@@ -153,7 +153,7 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     read_all(result);
     check_reflectances(result.scene, report);
     for (const std::string& note : result.notes.lines()) report.warnings.push_back(note);
-    replace_file(output, encode_gltf(document, output.extension() == ".glb"));
+    replace_file(output, encode_gltf(document, output.extension() == ".glb", report.warnings));
     return report;
 }
 

@@ -1,6 +1,8 @@
 // Writing a glTF document as one file (specification 2.0, chapter 4 for .glb). SPDX-License-Identifier: MIT
 #include "scene/gltf_write.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "io/image_file.h"
 #include "scene/uri.h"
@@ -13,18 +15,40 @@ using nlohmann::json;
 /// What lies outside the document, or in data URIs, in memory.
 struct Parts {
     std::vector<std::optional<std::span<const uint8_t>>> buffers;  ///< nothing: a placeholder, which stays one
-    std::vector<std::vector<uint8_t>> images;                      ///< empty where the picture lies in a buffer view
+    std::vector<std::vector<uint8_t>> images;                      ///< empty where the picture lies in a buffer view, or nowhere
 };
 
-Parts collect(GltfDocument& document) {
+Parts collect(GltfDocument& document, std::vector<std::string>& warnings) {
     Parts parts;
     for (uint32_t i = 0; i < document.list("buffers").size(); ++i)
         parts.buffers.push_back(document.has_bytes(i) ? std::optional(document.buffer(i)) : std::nullopt);
     const auto images = document.list("images");
     parts.images.resize(images.size());
     for (uint32_t i = 0; i < images.size(); ++i)
-        if (images[i].find("uri")) parts.images[i] = document.image(i);
+        if (images[i].find("uri")) try {
+                parts.images[i] = document.image(i);
+            } catch (const OutOfHostMemory&) {
+                throw;
+            } catch (const Error& error) {  // nothing that is read shows it: the document was read before
+                warnings.push_back(std::string(error.what()) + "; nothing shown needs it, and the output names it as before");
+            }
     return parts;
+}
+
+/// What views and buffers say of compressed bytes beside them would be wrong where buffers are put together; nobody needs it, since the
+/// document could be read.
+void drop_compression(json& root) {
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+        for (const char* list : {"bufferViews", "buffers"}) {
+            if (!root.contains(list)) continue;
+            for (json& one : root[list])
+                if (const auto extensions = one.find("extensions"); extensions != one.end() && extensions->erase(name) > 0 && extensions->empty()) one.erase("extensions");
+        }
+        if (const auto used = root.find("extensionsUsed"); used != root.end()) {
+            used->erase(std::remove(used->begin(), used->end(), json(name)), used->end());
+            if (used->empty()) root.erase("extensionsUsed");
+        }
+    }
 }
 
 /// Light profiles that lie in files beside the document come into it as data URIs.
@@ -71,7 +95,7 @@ std::vector<uint8_t> encode_text(json& root, const Parts& parts) {
             root["buffers"][i]["uri"] = encode_data_uri("application/octet-stream", *parts.buffers[i]);
     for (size_t i = 0; i < parts.images.size(); ++i) {
         json& image = root["images"][i];
-        if (!image.contains("uri")) continue;
+        if (parts.images[i].empty()) continue;
         image["uri"] = encode_data_uri(type_of(image, parts.images[i]), parts.images[i]);
     }
     const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
@@ -97,7 +121,7 @@ std::vector<uint8_t> encode_binary(json& root, const Parts& parts, const std::st
         }
     for (size_t i = 0; i < parts.images.size(); ++i) {
         json& image = root["images"][i];
-        if (!image.contains("uri")) continue;
+        if (parts.images[i].empty()) continue;
         image["mimeType"] = type_of(image, parts.images[i]);
         image["bufferView"] = root["bufferViews"].size();
         image.erase("uri");
@@ -129,10 +153,11 @@ std::vector<uint8_t> encode_binary(json& root, const Parts& parts, const std::st
 
 }  // namespace
 
-std::vector<uint8_t> encode_gltf(GltfDocument& document, bool binary) {
+std::vector<uint8_t> encode_gltf(GltfDocument& document, bool binary, std::vector<std::string>& warnings) {
     embed_profiles(document);
-    const Parts parts = collect(document);
+    const Parts parts = collect(document, warnings);
     json& root = document.edit();
+    drop_compression(root);
     return binary ? encode_binary(root, parts, document.name()) : encode_text(root, parts);
 }
 

@@ -1,6 +1,7 @@
 // Writing a glTF document as one file. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "scene/gltf_document.h"
@@ -8,8 +9,9 @@
 namespace vesper {
 
 /// The document as a self-contained file: every buffer and picture inside it, in data URIs (.gltf) or in one binary
-/// chunk (.glb). The bytes of the pictures are those of the files. Changes the document's JSON. Throws Error.
-std::vector<uint8_t> encode_gltf(GltfDocument& document, bool binary);
+/// chunk (.glb). The bytes of the pictures are those of the files; one that cannot be had keeps its URI, for which there is a line in `warnings`.
+/// Changes the document's JSON. Throws Error.
+std::vector<uint8_t> encode_gltf(GltfDocument& document, bool binary, std::vector<std::string>& warnings);
 
 /// The same of JSON made here, whose only bytes are those of one buffer; its "buffers" are added. Changes the JSON.
 std::vector<uint8_t> encode_gltf(nlohmann::json& root, std::span<const uint8_t> buffer, const std::string& name, bool binary);

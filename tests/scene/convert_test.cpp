@@ -63,6 +63,34 @@ protected:
     }
 };
 
+// Bytes that are there uncompressed are all that is written: what says where the compressed ones lie would point elsewhere.
+TEST_F(ConvertTest, LeavesOutCompressionThatNobodyNeeds) {
+    for (json& view : street_.root["bufferViews"]) view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 1}, {"byteOffset", 0}, {"byteLength", 8}, {"byteStride", 12}, {"count", 1}, {"mode", "ATTRIBUTES"}};
+    street_.root["bufferViews"][0]["extensions"]["KEPT"] = 1;
+    street_.root["extensionsUsed"].push_back("EXT_meshopt_compression");
+    for (const char* output : {"out.gltf", "out.glb"}) {
+        convert_with(json::object(), output);
+        const std::string text = read_text(folder_ / output);
+        EXPECT_FALSE(contains(text, "EXT_meshopt_compression")) << output;
+        EXPECT_TRUE(contains(text, "\"extensions\":{\"KEPT\":1}")) << output;
+        EXPECT_FALSE(converted(output).meshes.empty());
+    }
+}
+
+TEST_F(ConvertTest, PicturesThatNothingShowsNeedNotBeThere) {
+    street_.root["images"].push_back({{"uri", "missing_normal.png"}});
+    street_.root["textures"].push_back({{"source", 1}});
+    street_.root["materials"][1]["normalTexture"] = {{"index", 1}};
+    for (const char* output : {"out.gltf", "out.glb"}) {
+        const ConversionReport report = convert_with(json::object(), output);
+        EXPECT_TRUE(mentions(report.warnings, "/images/1/uri")) << output;
+        EXPECT_TRUE(contains(read_text(folder_ / output), "\"uri\":\"missing_normal.png\"")) << output;
+        EXPECT_EQ(converted(output).images.size(), 1u);
+    }
+    street_.root["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 1}};
+    EXPECT_TRUE(contains(complaint_with(json::object()), "missing_normal.png"));
+}
+
 TEST_F(ConvertTest, PutsLampsOnNodes) {
     const ConversionReport report = convert_with({{"lamps", lamps()}});
     const Scene scene = converted();

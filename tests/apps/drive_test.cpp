@@ -323,7 +323,8 @@ TEST_F(DriveProgram, RefusesIdleOptions) {
 // No output replaces what is read, also where only another file names it; nor does what there is of a log replace a good one.
 TEST_F(DriveProgram, SparesWhatItReadsAndWhatIsGood) {
     GltfFile scene;
-    scene.show({{"attributes", {{"POSITION", scene.vec3(kTriangle)}}}});
+    scene.show({{"attributes", {{"POSITION", scene.vec3(kTriangle)}}}, {"material", 0}});
+    scene.root["materials"] = nlohmann::json::array({nlohmann::json::object()});
     scene.root["nodes"].push_back({{"name", "lamp"}});
     scene.text();
     scene.root["buffers"][0]["uri"] = "s.bin";

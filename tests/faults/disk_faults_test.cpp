@@ -29,7 +29,7 @@ struct Writing {
 class DiskFaults : public ProgramTest {
 protected:
     std::vector<Writing> writings() {
-        folder.write("empty.gltf", R"({"asset":{"version":"2.0"}})");
+        folder.write("empty.gltf", R"({"asset":{"version":"2.0"},"extras":{"vesper":{"version":1}}})");
         EXPECT_EQ(run("render empty.gltf --size 16x8 --frames 2 -o f%d.exr"), 0) << said;
         const std::string road = "road " + (kData / "road/worked-example.json").string();
         std::vector<Writing> all{{road + " --csv points.csv --json road.json", {"points.csv", "road.json"}},

@@ -175,7 +175,9 @@ SourceSet placed_sources(const Scene& scene) {
 SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View& view, std::optional<float> white) {
     SourceList list;
     std::vector<Touched> touched;
-    for (const auto& [light, node] : set.lamps) {
+    for (const PlacedLight& placed : set.lamps) {
+        const Light& light = placed.light;
+        const uint32_t node = placed.node;
         const std::optional<Aim> aim = aim_of(light, frame.dimming_of(node), set.distributions, view.world_to_view * frame.world[node], view);
         if (!aim) continue;
         const auto dazzles = [&](double inside) {

@@ -22,6 +22,10 @@ constexpr std::pair<std::string_view, ObjectKind> kWords[] = {
     {"street light", ObjectKind::StreetLamp},
     {"lamppost", ObjectKind::StreetLamp},
     {"lamp post", ObjectKind::StreetLamp},
+    {"lamppole", ObjectKind::StreetLamp},
+    {"lamp pole", ObjectKind::StreetLamp},
+    {"lightpole", ObjectKind::StreetLamp},
+    {"light pole", ObjectKind::StreetLamp},
     {"guidepost", ObjectKind::GuidePost},
     {"guide post", ObjectKind::GuidePost},
     {"bush", ObjectKind::Bush},
@@ -50,14 +54,15 @@ constexpr std::pair<std::string_view, ObjectKind> kWords[] = {
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80; }
 bool is_capital(char c) { return c >= 'A' && c <= 'Z'; }
 
-/// "StreetLamp_03" as "street lamp ".
+/// "LEDStreetLamp_03" as "led street lamp ".
 std::string words_of(std::string_view text) {
     std::string words;
     const auto end_word = [&] {
         if (!words.empty() && words.back() != ' ') words += ' ';
     };
     for (size_t i = 0; i < text.size(); ++i) {
-        if (!is_letter(text[i]) || (is_capital(text[i]) && i > 0 && !is_capital(text[i - 1]))) end_word();
+        const bool after_capital = i > 0 && is_capital(text[i - 1]), before_small = i + 1 < text.size() && text[i + 1] >= 'a' && text[i + 1] <= 'z';
+        if (!is_letter(text[i]) || (is_capital(text[i]) && (!after_capital || before_small))) end_word();
         if (is_letter(text[i])) words += text[i];
     }
     end_word();

@@ -66,7 +66,6 @@ void read_road(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     read_lanes(reader, element, road);
     read_traffic(reader, element, road);
     read_objects(reader, element, road);
-    read_signals(reader, element, road);
 }
 
 /// The world begins near the roads where the file's frame does not.
@@ -109,6 +108,8 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
         if (total > limits.total_length)
             roads[i].fail("roads of more than " + std::to_string(limits.total_length / 1000) + " km");
     }
+    // Signals may stand on any of them.
+    for (size_t i = 0; i < roads.size(); ++i) read_signals(reader, roads[i], network.roads[i]);
     for (size_t i = 0; i < roads.size(); ++i) read_links(reader, roads[i], network.roads[i]);
     for (size_t i = 0; i < junctions.size(); ++i) read_junction(reader, junctions[i], network.junctions[i]);
     check_network(reader, file);

@@ -1,6 +1,7 @@
 // Objects and signals of OpenDRIVE roads. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/atomic_file.h"
 #include "roads/opendrive_reader.h"
@@ -102,27 +103,27 @@ void check_on_road(OpenDriveReader& reader, const XmlElement& element, const Roa
                                  std::to_string(road.length) + " m long: put where it would go on straight");
 }
 
-/// Where a signal stands, if that is not where it counts: the road, and the signal's place along it.
-Road& place_of(OpenDriveReader& reader, const XmlElement& element, Road& road, RoadSignal& signal) {
+/// Where a signal stands, if that is not where it counts: the road, and what gives the signal's place along it.
+std::pair<Road*, XmlElement> place_of(OpenDriveReader& reader, const XmlElement& element, Road& road, RoadSignal& signal) {
     if (const auto each = element.child("positionInertial"))
         reader.note(*each, "is not read: the signal is put at its s and t");
     const auto each = element.child("positionRoad");
-    if (!each) return road;
+    if (!each) return {&road, element};
     const auto found = reader.roads.find(each->text_or("roadId", ""));
     if (found == reader.roads.end()) {
         reader.note(*each, "there is no road '" + each->text_or("roadId", "") + "': the signal is put at its s and t");
-        return road;
+        return {&road, element};
     }
     Road& other = reader.network.roads[found->second];
     if (!each->attribute("s") || !each->attribute("t")) {
         reader.note(*each, "has no s and t: the signal is put at its own");
-        return road;
+        return {&road, element};
     }
     signal.s = each->number("s"), signal.t = each->number("t");
     signal.z_offset = each->number_or("zOffset", 0, -kMaxSize, kMaxSize);
     signal.heading = each->number_or("hOffset", 0), signal.pitch = each->number_or("pitch", 0),
     signal.roll = each->number_or("roll", 0);
-    return other;
+    return {&other, *each};
 }
 
 /// Speed limit signs state theirs in value and unit; countries without a unit mean km/h, some write it into the
@@ -174,7 +175,6 @@ void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road
     for (const XmlElement& each : element.children_of("signals", "signal")) {
         reader.count(each);
         if (!has_place(reader, each)) continue;
-        check_on_road(reader, each, road);
         RoadSignal signal;
         signal.id = each.text_or("id", ""), signal.name = one_line(each.text_or("name", ""), 80);
         signal.type = each.text_or("type", "-1"), signal.subtype = each.text_or("subtype", "-1");
@@ -187,8 +187,9 @@ void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road
         signal.roll = each.number_or("roll", 0);
         signal.orientation = orientation_of(each);
         signal.width = size_of(each, "width"), signal.height = size_of(each, "height");
-        Road& stands_on = place_of(reader, each, road, signal);
-        stands_on.signals.push_back(std::move(signal));
+        const auto [stands_on, where] = place_of(reader, each, road, signal);
+        check_on_road(reader, where, *stands_on);
+        stands_on->signals.push_back(std::move(signal));
     }
 }
 

@@ -66,6 +66,7 @@ struct ActionReader {
             LampEvent now = event;
             now.time = s.at(step);
             for (const RunLamp lamp : set) {
+                s.keep();
                 actor.lamps[static_cast<size_t>(lamp)].push_back(now);
                 actor.stated[static_cast<size_t>(lamp)] = true;
             }
@@ -89,6 +90,7 @@ struct ActionReader {
                 const std::string name = resolved(each, "name", scope).value_or(""),
                                   state = resolved(each, "state", scope).value_or("");
                 once([name, state, place = each.place(), &s = story](int step) {
+                    s.keep();
                     s.run.signals.push_back({s.at(step), name, state, place});
                     s.signals[name] = state;
                 });
@@ -105,7 +107,10 @@ struct ActionReader {
             if (each.name() == "ParameterDeclarations" || each.name() == "Properties") continue;
             leave_out(each, "the sky and the weather are those of the scene");
             if (each.name() == "TimeOfDay")
-                once([when = resolved(each, "dateTime", inner).value_or(""), &s = story](int step) { s.run.time_of_day.push_back({s.at(step), "", when}); });
+                once([when = resolved(each, "dateTime", inner).value_or(""), &s = story](int step) {
+                    s.keep();
+                    s.run.time_of_day.push_back({s.at(step), "", when});
+                });
         }
     }
 

@@ -21,6 +21,7 @@ struct StoryTime {
     std::map<std::string_view, const Road*> road_by_id{};
     std::shared_ptr<LaneGraph> lanes{};  ///< where actions need them
     std::vector<std::string> notes{};
+    size_t kept = 0;       ///< changes of the run
     size_t questions = 0;  ///< asked every step: conditions, once more for each entity; actors of actions
 
     /// Elements that conditions refer to; found when all are read.
@@ -40,6 +41,8 @@ struct StoryTime {
     RunEntity* one_of(const XmlElement& element, const char* attribute, const Parameters& scope);
     /// So much more is asked every step; throws Error where that is too much.
     void ask(size_t more);
+    /// One more change of a lamp, of a traffic light or of the time of day is kept; throws Error where there are too many.
+    void keep();
     void note(const std::string& what);
 };
 

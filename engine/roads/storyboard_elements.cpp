@@ -2,6 +2,8 @@
 #include "roads/storyboard_elements.h"
 
 namespace vesper {
+
+static constexpr int kMostNames = 16;  // of a reference; a story has six below one another
 namespace {
 
 constexpr size_t kMaxElements = 20'000;
@@ -20,7 +22,8 @@ size_t StoryElements::add(ElementKind kind, const XmlElement& element, const std
 std::pair<size_t, size_t> StoryElements::find(ElementKind kind, std::string_view reference) {
     for (; entered_ < entries_.size(); ++entered_) {
         const Entry& entry = entries_[entered_];
-        for (std::string_view end = entry.path;;) {
+        std::string_view end = entry.path;
+        for (int names = 0; names < kMostNames; ++names) {
             Found& found = by_end_[{entry.kind, end}];
             if (found.count++ == 0) found.first = entered_;
             const size_t colon = end.find("::");

@@ -6,6 +6,7 @@
 namespace vesper {
 namespace {
 
+constexpr size_t kMaxChanges = 2'000'000;
 constexpr double kMaxWork = 5e8;  // elements and questions, times steps
 constexpr size_t kMaxQuestions = 10'000'000, kMaxMembers = 1'000'000;
 constexpr size_t kMaxNotes = 50;
@@ -75,6 +76,10 @@ void StoryTime::ask(size_t more) {
     questions += more;
     const double asked = static_cast<double>(elements.size() + questions) * static_cast<double>(times.size());
     if (asked > kMaxWork || questions > kMaxQuestions) storyboard.fail("too many elements and conditions for so long a run");
+}
+
+void StoryTime::keep() {
+    if (++kept > kMaxChanges) storyboard.fail("changes lamps and signals more than " + std::to_string(kMaxChanges) + " times");
 }
 
 void StoryTime::note(const std::string& what) {

@@ -203,7 +203,13 @@ void World::move_cars(double seconds) {
         double s = 0;
         for (size_t k = 0; k < cars_.size(); ++k)
             if (k != i && cars_[k].lane == car.lane && cars_[k].s < kQueue) s = std::min(s, cars_[k].s - kQueue);
+        // Behind the driver, too, and all who are no cars of the traffic; no faster than it can brake.
+        for (const Occupant& o : occupants_)
+            if (o.who < 0 && o.lane == car.lane && o.s < kQueue) s = std::min(s, o.s - kQueue);
         car.s = s, car.change = 1;
+        const Neighbour next = ahead(car.lane, s, d.cars[i].length / 2, int(i));
+        if (std::isfinite(next.gap))
+            car.speed = std::min(car.speed, std::sqrt(next.speed * next.speed + 2 * d.autopilot.following.deceleration * std::max(0.0, next.gap - d.autopilot.following.distance)));
     }
 }
 

@@ -55,7 +55,7 @@ std::pair<glm::dvec3, glm::dvec3> bounds_of(const Scene& scene, const std::strin
 }
 
 TEST(RoadObjects, AreKnownByWholeWords) {
-    for (const char* name : {"StreetLight", "street light 3", "streetlamp", "Street_Lamp_07", "lampPost", "street lamps"})
+    for (const char* name : {"StreetLight", "street light 3", "streetlamp", "Street_Lamp_07", "lampPost", "street lamps", "LEDStreetLamp", "lamppole", "LightPole02"})
         EXPECT_EQ(kind("pole", "", name), ObjectKind::StreetLamp) << name;
     EXPECT_EQ(kind("streetLamp", "", "tree"), ObjectKind::StreetLamp) << "its type says";
     for (const char* name : {"Main Street kiosk", "Bushaltestelle", "Bus stop", "Dispatch", "Market hall"})
@@ -146,6 +146,14 @@ TEST(RoadSignals, StandWhereTheirPositionSays) {
 }
 
 TEST(RoadSignals, BeyondTheEndOfTheirRoadAreSaid) {
+    // The place that counts is looked at, and that alone.
+    const auto moved = [](const std::string& s, const std::string& id, const std::string& there) {
+        return with("<signals><signal s=\"" + s + "\" t=\"5\" id=\"7\"><positionRoad roadId=\"" + id + "\" s=\"" + there + "\" t=\"6\"/></signal></signals>");
+    };
+    for (const char* id : {"1", "2"}) {
+        EXPECT_TRUE(has_note(moved("50", id, "1e8"), "positionRoad: s = 100000000.000000 is not on road '" + std::string(id) + "'"));
+        EXPECT_TRUE(moved("1e8", id, "50").notes.empty());
+    }
     const RoadNetwork network = with("<objects><object id=\"1\" type=\"pole\" s=\"95\" t=\"6\"/></objects><signals><signal s=\"-4\" t=\"5\" id=\"7\"/></signals>");
     EXPECT_TRUE(has_note(network, "object: s = 95.000000 is not on road '1', which is 90.0"));
     EXPECT_TRUE(has_note(network, "signal: s = -4.0"));

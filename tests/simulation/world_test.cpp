@@ -154,6 +154,26 @@ TEST(World, ACarStopsBehindTheDriverWithBrakeLamps) {
     EXPECT_NEAR(gap - 4.4, CarFollowing{}.distance, 1.2);
 }
 
+// The lane ends, and the car comes in anew where the driver stands.
+TEST(World, ACarThatComesInAnewSparesTheDriver) {
+    for (const double driver : {3.0, 30.0}) {
+        auto d = one_lane(straight(400));
+        d->driver_lane = 0, d->driver_s = driver;
+        d->autopilot.following.speed = 25;
+        d->cars.push_back({.node = "car", .s = 380, .speed = 25});
+        World world(d, 1);
+        double least = 1e9;
+        for (int i = 0; i < 60 * 40; ++i) {
+            world.step({.brake = 1}, kStep);
+            ASSERT_EQ(world.touched(), 0) << driver << " m, step " << i;
+            if (i > 60 * 5) least = std::min(least, double(world.actors()[1].position.z - world.actors()[0].position.z));
+        }
+        EXPECT_GT(least, 4.4 + 0.5) << driver;
+        EXPECT_LT(least, 60) << driver;
+        EXPECT_LT(world.actors()[1].speed, 0.2) << driver;
+    }
+}
+
 TEST(World, TheAutopilotKeepsToItsLane) {
     auto d = one_lane(circle(30));
     d->driver_lane = 0;

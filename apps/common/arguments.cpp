@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 
 #include "base/error.h"
 #include "io/atomic_file.h"
@@ -32,17 +33,27 @@ void Files::writes(const std::string& option, const std::string& file) {
     if (!written_.insert(name).second) throw Error(place + "would be written twice");
 }
 
+// As a shell takes it.
+static std::string in_shell(const std::string& value) {
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/%@";
+    if (!value.empty() && value.find_first_not_of(kPlain) == value.npos) return value;
+    std::string quoted = "'";
+    for (const char c : value) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    return quoted + "'";
+}
+
 std::string options_of(const CLI::App& command, const std::set<std::string>& but) {
     std::string text;
     for (const CLI::Option* option : command.get_options()) {
         if (!option->nonpositional() || option->count() == 0 || but.contains(option->get_name())) continue;
+        const std::string name = (text.empty() ? "" : " ") + option->get_name();
         if (option->get_items_expected_max() == 0) {
-            text += (text.empty() ? "" : " ") + option->get_name();
+            text += name + (option->results().back() == "true" ? "" : "=" + option->results().back());
             continue;
         }
         for (const std::string& value : option->results()) {
             const bool first = &value == &option->results().front() || option->get_delimiter() == 0;
-            text += first ? (text.empty() ? "" : " ") + option->get_name() + " " + value : std::string(1, option->get_delimiter()) + value;
+            text += (first ? name + " " : std::string(1, option->get_delimiter())) + in_shell(value);
         }
     }
     return one_line(text, 4000);

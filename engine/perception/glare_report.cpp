@@ -17,7 +17,7 @@ using glm::dvec2, glm::dvec3;
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kBackground = 10;  // deg about the line of sight
 constexpr double kLooked = 0.1;     // deg: nearer is not beside the line of sight
-constexpr double kLeast = 1e-4;    // cd/m^2: what is darker counts as this in log averages
+constexpr double kLeast = 1e-4;    // cd/m^2: what is darker is left out of the log average
 
 // E cos(theta) f(theta), summed.
 struct Veils {
@@ -56,12 +56,17 @@ private:
     dvec2 pixel_;
 };
 
-// exp(mean ln L), cd/m^2.
-double log_average(const ImageAngles& image, const Pixels& pixels) {
-    double sum = 0;
+// What is bright is so beside exp(mean ln L) of the pixels that have light, cd/m^2: a sky of 0 says nothing. Where lamps are all that has light, the
+// mean of all pixels is less.
+double ordinary_luminance(const ImageAngles& image, const Pixels& pixels) {
+    double logarithms = 0, lit = 0, sum = 0;
     for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) sum += std::log(std::max(pixels.luminance(x, y), kLeast));
-    return std::exp(sum / (double(image.width) * image.height));
+        for (int x = 0; x < image.width; ++x) {
+            const double value = pixels.luminance(x, y);
+            sum += value;
+            if (value > kLeast) logarithms += std::log(value), ++lit;
+        }
+    return lit > 0 ? std::min(std::exp(logarithms / lit), sum / (double(image.width) * image.height)) : kLeast;
 }
 
 struct Mean {
@@ -97,7 +102,7 @@ void report_target(const ImageAngles& image, const Pixels& pixels, const std::ve
 GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, std::span<const DazzlingLight> outside, const GlareQuestion& question) {
     const Pixels pixels(image, rgba);
     const dvec3 sight = glm::normalize(dvec3(image.at(question.gaze * dvec2(image.width, image.height)), -1));
-    const double source_luminance = question.source_luminance ? *question.source_luminance : kSourceContrast * log_average(image, pixels);
+    const double source_luminance = question.source_luminance ? *question.source_luminance : kSourceContrast * ordinary_luminance(image, pixels);
     const double wide = std::cos(kBackground / kDegrees);
     std::vector<DazzlingLight> lights(outside.begin(), outside.end());
     Mean background;

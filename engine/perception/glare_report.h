@@ -24,7 +24,8 @@ constexpr double kSourceContrast = 100;
 struct GlareQuestion {
     ScatteringEye eye;
     glm::dvec2 gaze{0.5};          ///< the line of sight, parts of the picture from its top left
-    /// cd/m^2: a pixel brighter than this is part of a source of glare. Default: kSourceContrast times the log average of the picture.
+    /// cd/m^2: a pixel brighter than this is part of a source of glare. Default: kSourceContrast times the log average of the pixels above 1e-4 cd/m^2, or
+    /// the mean of all pixels where that is less.
     std::optional<double> source_luminance = {};
     std::optional<double> average_luminance;  ///< cd/m^2, of the road, for TI; default: GlareReport::background
     std::optional<MarkedTarget> target;

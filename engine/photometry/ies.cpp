@@ -94,14 +94,17 @@ std::optional<std::string_view> tilt_of(std::string_view line) {
     return trimmed(line.substr(1));
 }
 
-/// The year of a version line: "IESNA91", "IESNA:LM-63-2002", "IES:LM-63-2019"; the last where it names none. Nothing: a label.
+/// The year of a version line: "IESNA91", "IESNA:LM-63-2002", "IES:LM-63-2019", "IESNA LM63 95"; the last where it names another or none.
+/// Nothing: a label.
 std::optional<int> year_of(std::string_view line) {
-    const std::string text = upper(std::string(line));
-    const size_t last = text.find_last_of("0123456789"), standard = text.find("LM-63");
-    if (!text.starts_with("IES")) return std::nullopt;
-    if (standard == text.npos && !(text.starts_with("IESNA") && text.size() > 5 && std::isdigit(static_cast<unsigned char>(text[5])))) return std::nullopt;
-    const size_t before = text.find_last_not_of("0123456789", last);
-    const std::string year = text.substr(before + 1, last - before);
+    std::string text;
+    for (const char c : upper(std::string(line)))
+        if (std::isalnum(static_cast<unsigned char>(c))) text += c;
+    const size_t standard = text.find("LM63");
+    if (!text.starts_with("IES") || (standard == text.npos && !text.starts_with("IESNA"))) return std::nullopt;
+    const std::string rest = text.substr(standard == text.npos ? 5 : standard + 4);
+    if (standard == text.npos && (rest.empty() || !std::isdigit(static_cast<unsigned char>(rest.front())))) return std::nullopt;
+    const std::string year = rest.substr(0, rest.find_first_not_of("0123456789"));
     constexpr std::pair<const char*, int> kYears[]{{"86", 1986}, {"1986", 1986}, {"91", 1991}, {"1991", 1991}, {"95", 1995}, {"1995", 1995}, {"02", 2002}, {"2002", 2002}};
     for (const auto& [name, number] : kYears)
         if (year == name) return number;

@@ -45,7 +45,7 @@ std::string readable(std::string_view text);
 std::string quoted(std::string_view text);
 /// The words of a heading in lower case, whatever stands between them: "V [°]" is one, "I_cd" are two.
 std::vector<std::string> words_of(std::string_view heading);
-/// Whether a corner cell names tan gamma ("tan_gamma", "t", "beta\\tan(gamma)"): the file is an r-table.
+/// Whether a corner cell names tan gamma ("tan_gamma", "tg", "beta\\tan(gamma)"): the file is an r-table.
 bool names_tan_gamma(std::string_view cell);
 /// A finite number; the whole text must be one. One too small for a double is 0. A decimal comma will do where `comma` is set.
 std::optional<double> number_of(std::string_view text, bool comma = true);

@@ -98,7 +98,7 @@ std::vector<std::string> words_of(std::string_view heading) {
 
 bool names_tan_gamma(std::string_view cell) {
     for (const std::string& word : words_of(cell))
-        if (word == "t" || word.starts_with("tan") || word.starts_with("tg")) return true;
+        if (word.starts_with("tan") || word.starts_with("tg")) return true;
     return false;
 }
 

@@ -58,6 +58,8 @@ std::optional<Aim> aim_of(const Light& light, float dimming, const std::vector<D
     return Aim{centre, right, up, back, to_eye, distance, candela};
 }
 
+constexpr double kLantern = 0.4;  // m
+
 struct Seen {
     Outline outline;
     double luminance;  // cd/m^2
@@ -92,10 +94,12 @@ double part_inside(const Seen& seen, const Aim& aim, const View& view) {
     return part > 0.99 ? 1 : part;  // outlines are good to so much
 }
 
-// 1 where the picture shows the middle of a lamp, else 0.
+// Part of a lamp without opening that the picture shows, as if what is modelled of it were kLantern wide: it comes in without a step.
 double middle_inside(const Aim& aim, const View& view) {
     const dvec2 at = dvec2(aim.centre) / -aim.centre.z, low = glm::min(view.tangent_low, view.tangent_high), high = glm::max(view.tangent_low, view.tangent_high);
-    return at.x >= low.x && at.x <= high.x && at.y >= low.y && at.y <= high.y ? 1 : 0;
+    const dvec2 within = glm::min(at - low, high - at) * -aim.centre.z / kLantern + 0.5;  // of its width
+    const dvec2 part = glm::clamp(within, 0.0, 1.0);
+    return part.x * part.y;
 }
 
 // Where a convex polygon crosses a horizontal line: empty (low > high) outside it.

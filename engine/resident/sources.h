@@ -33,8 +33,8 @@ struct GlareSource {
     double distance;             ///< m
     double candela;              ///< towards the eye
     glm::dvec3 illuminance;      ///< RGB lx, on a plane at the eye that faces the lamp
-    /// Part of its light that the picture has, 0 .. 1. Of a lamp without opening, 1 where its middle is in the picture: there it dazzles by the
-    /// surfaces that are modelled of it, if any; beside the picture it does as a point.
+    /// Part of its light that the picture has, 0 .. 1. Of a lamp without opening, of the 0.4 m about its middle: in the picture it dazzles by
+    /// the surfaces that are modelled of it, if any; beside the picture it does as a point.
     double inside;
 };
 

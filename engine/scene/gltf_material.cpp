@@ -153,7 +153,12 @@ void read_specular_glossiness(GltfReader& reader, const JsonValue& model, Proper
     if (const auto texture = model.find("specularGlossinessTexture")) {
         UvMapping unused;
         const TextureUse use = read_texture(reader, *texture, unused);
-        const glm::dvec4 mean = use.image == kNone ? glm::dvec4(0) : mean_texel(reader.scene.images[use.image], {}, use);
+        glm::dvec4 mean(0);
+        if (use.image != kNone) {
+            const auto [known, fresh] = reader.specular_means.try_emplace(use.image);
+            if (fresh) known->second = mean_texel(reader.scene.images[use.image], {}, use);
+            mean = known->second;
+        }
         specular *= glm::dvec3(mean), glossiness *= mean.a;
         reader.notes.add("a specularGlossinessTexture counts as its mean: how it varies is left out");
     }

@@ -70,6 +70,7 @@ struct GltfReader {
     std::set<uint32_t> scaled_normals{};            ///< accessors whose normals are not of length 1
     bool photometric = false;  ///< there is an extras block
     uint32_t default_material = kNone;
+    std::map<uint32_t, glm::dvec4> specular_means{};  ///< of pictures that specularGlossinessTextures name
     std::set<uint32_t> unknown_lights{};  ///< of a type that glTF does not have: no node shows them
     uint32_t punctual_lights = 0;  ///< those of KHR_lights_punctual, the first of the scene's
     /// Scene light of a distribution, with its multiplier and colour.

@@ -42,7 +42,7 @@ void drop_compression(json& root) {
         for (const char* list : {"bufferViews", "buffers"}) {
             if (!root.contains(list)) continue;
             for (json& one : root[list])
-                if (const auto extensions = one.find("extensions"); extensions != one.end() && extensions->erase(name) > 0 && extensions->empty()) one.erase("extensions");
+                if (const auto extensions = one.find("extensions"); extensions != one.end() && extensions->is_object() && extensions->erase(name) > 0 && extensions->empty()) one.erase("extensions");
         }
         if (const auto used = root.find("extensionsUsed"); used != root.end()) {
             used->erase(std::remove(used->begin(), used->end(), json(name)), used->end());

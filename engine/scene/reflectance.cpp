@@ -27,6 +27,16 @@ struct Stretch {
 };
 
 Stretch covered(double low, double high, uint32_t size, Wrap wrap) {
+    if (wrap == Wrap::Clamp && low <= high) {  // the outermost texels go on for ever
+        const double from = std::clamp(low, -1e6, 1e6) * size, to = std::clamp(high, -1e6, 1e6) * size, last = size - 1.0;
+        Stretch stretch{0, std::vector<double>(size, 0.0)};
+        if (from == to) stretch.shares[static_cast<size_t>(std::clamp(std::floor(from), 0.0, last))] = 1;
+        for (size_t i = 0; i < size && from < to; ++i) {
+            const double left = i == 0 ? -HUGE_VAL : static_cast<double>(i), right = i + 1 == size ? HUGE_VAL : static_cast<double>(i) + 1;
+            stretch.shares[i] = std::max(0.0, std::min(right, to) - std::max(left, from));
+        }
+        return stretch;
+    }
     if (!(low <= high && high - low < 1)) return {0, std::vector<double>(size, 1.0)};
     const double start = std::floor(low), from = (low - start) * size, to = (high - start) * size;
     Stretch stretch{static_cast<int64_t>(from), {}};
@@ -34,13 +44,12 @@ Stretch covered(double low, double high, uint32_t size, Wrap wrap) {
         const double at = static_cast<double>(i);
         stretch.shares.push_back(to > from ? std::min(at + 1, to) - std::max(at, from) : 1);
     }
-    // Mirrored textures tell even tiles from odd ones, clamped ones those before from those beyond.
-    stretch.first += static_cast<int64_t>(wrap == Wrap::Clamp ? std::clamp(start, -2.0, 2.0) : std::fmod(start, 2)) * size;
+    stretch.first += static_cast<int64_t>(std::fmod(start, 2)) * size;  // mirrored textures tell even tiles from odd ones
     return stretch;
 }
 
 size_t wrapped(int64_t i, int64_t size, Wrap wrap) {
-    if (wrap == Wrap::Clamp) return static_cast<size_t>(std::clamp<int64_t>(i, 0, size - 1));
+    if (wrap == Wrap::Clamp) return static_cast<size_t>(i);
     const int64_t period = wrap == Wrap::Mirror ? 2 * size : size, m = (i % period + period) % period;
     return static_cast<size_t>(m < size ? m : 2 * size - 1 - m);
 }

@@ -65,6 +65,17 @@ TEST(GlareReport, SourcesStandOutFromThePicture) {
     EXPECT_LT(report_glare(picture.image, picture.rgba, {}, {}).veil, 0.7 * report_glare(picture.image, picture.rgba, {}, {.source_luminance = 48}).veil);
 }
 
+// Half of the picture is a sky of nothing: the road is no source, the lamp above it is.
+TEST(GlareReport, ABlackSkyMakesNoSourcesOfTheRoad) {
+    Picture picture(1);
+    for (int y = 0; y < picture.image.height / 2; ++y)
+        for (int x = 0; x < picture.image.width; ++x) picture.set(x, y, 0);
+    EXPECT_EQ(report_glare(picture.image, picture.rgba, {}, {}).illuminance, 0);
+    EXPECT_NEAR(report_glare(picture.image, picture.rgba, {}, {}).background, 0.5, 0.05);
+    picture.set(250, 60, 2e5f);
+    EXPECT_GT(report_glare(picture.image, picture.rgba, {}, {}).veil, 0);
+}
+
 TEST(GlareReport, OnABlackRoadTheIncrementHasNoEnd) {
     Picture picture(0);
     EXPECT_EQ(report_glare(picture.image, picture.rgba, {}, {}).increment, 0);

@@ -134,11 +134,12 @@ TEST(ReflectionTable, ReadsWhatSpreadsheetsWrite) {
     EXPECT_EQ(table.beta, (std::vector<double>{0, 180}));
     EXPECT_EQ(table.at(1, 1), 0);
     for (const char* q0 : {"# Q0: 0.09", "#q0=0.09", "# q0\t0.09", "# Q0 = 0.09"}) EXPECT_EQ(parse(std::string(q0) + "\nt,0,180\n0,3,3\n2,1,1\n").stated_q0, 0.09) << q0;
+    EXPECT_EQ(parse("# Q0: nominal value of the class\nt,0,180\n0,3,3\n2,1,1\n").stated_q0, 0);
     EXPECT_FALSE(table.wet);
     EXPECT_TRUE(parse("# Wet\nbeta\\tan(gamma),0,180\n0,3,3\n2,1,1\n").wet);
     EXPECT_TRUE(find_reflection_table("W3").wet);
-    for (const char* start : {"tan_gamma,0,180\n", "\xef\xbb\xbf# x\r\"tan gamma\",0\r", "\n#\n T ,0,180"}) EXPECT_TRUE(is_reflection_table(bytes_of(start))) << start;
-    for (const char* start : {"", "# tan_gamma\n", "gamma,0,90\ntan_gamma\n", "A,0,1\n"}) EXPECT_FALSE(is_reflection_table(bytes_of(start))) << start;
+    for (const char* start : {"tan_gamma,0,180\n", "\xef\xbb\xbf# x\r\"tan gamma\",0\r", "\n#\n TG ,0,180"}) EXPECT_TRUE(is_reflection_table(bytes_of(start))) << start;
+    for (const char* start : {"", "# tan_gamma\n", "gamma,0,90\ntan_gamma\n", "A,0,1\n", "T,0,180\n"}) EXPECT_FALSE(is_reflection_table(bytes_of(start))) << start;
     const TempFolder folder;
     folder.write("mine.csv", "t,0,180\n0,3,3\n1,2,1");
     EXPECT_EQ(find_reflection_table("mine.csv", folder.path()).name, "mine");

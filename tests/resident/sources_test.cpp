@@ -157,6 +157,18 @@ TEST(Source, WhatCannotBeSeenIsLeftOut) {
     EXPECT_EQ(placed_sources(scene).lamps.size(), 2u) << "a sun has no place";
 }
 
+// It comes in without a step: half of it at the edge, a quarter in a corner.
+TEST(Source, LampsWithoutOpeningComeInGradually) {
+    const double edge = double(kView.tangent_high.x), top = double(kView.tangent_high.y);
+    for (const auto& [x, y, inside] : {std::tuple{-0.3, 0.0, 1.0}, {0.0, 0.0, 0.5}, {-0.1, 0.0, 0.75}, {0.3, 0.0, 0.0}, {0.0, 10 * top, 0.25}}) {
+        Lamps lamps;
+        lamps.add(lamp_with_opening(90, 0, 0, false, Light::Kind::Point), aimed({float(10 * edge + x), float(y), -10}, {0, 0, 1}));
+        const SourceList list = lamps.seen(kView);
+        ASSERT_EQ(list.dazzling.size(), 1u);
+        EXPECT_NEAR(list.dazzling[0].inside, inside, 1e-5) << x << " " << y;
+    }
+}
+
 // Without opening: nothing is drawn, but beside the picture it dazzles with I / d^2, as it does with one.
 TEST(Source, LampsWithoutOpeningDazzleAsPoints) {
     for (const Light::Kind kind : {Light::Kind::Point, Light::Kind::CosinePower}) {

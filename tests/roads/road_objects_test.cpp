@@ -9,17 +9,8 @@
 #include "roads/road_texts.h"
 #include "roads/scene_parts.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
-
-using test::area_of;
-using test::geometry;
-using test::lamps_of;
-using test::network_of;
-using test::road;
-using test::Triangle;
-using test::triangles_of;
-using test::two_way_section;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -161,4 +152,4 @@ TEST(RoadSignals, BeyondTheEndOfTheirRoadAreSaid) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

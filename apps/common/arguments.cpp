@@ -33,8 +33,7 @@ void Files::writes(const std::string& option, const std::string& file) {
     if (!written_.insert(name).second) throw Error(place + "would be written twice");
 }
 
-// As a shell takes it.
-static std::string in_shell(const std::string& value) {
+std::string in_shell(const std::string& value) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/%@";
     if (!value.empty() && value.find_first_not_of(kPlain) == value.npos) return value;
     std::string quoted = "'";

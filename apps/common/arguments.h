@@ -22,6 +22,8 @@ private:
 /// A number in a range; not-a-number is in none.
 CLI::Validator between(double low, double high);
 
+/// A value as a shell takes it for one word.
+std::string in_shell(const std::string& value);
 /// The options given, but for those named, as they would be given again: what a picture was made with.
 std::string options_of(const CLI::App& command, const std::set<std::string>& but);
 

@@ -129,7 +129,7 @@ private:
     }
     Header header(const Session& session, const ToneMapped& frame, uint32_t lights) const {
         std::string options;  // settings other than the defaults
-        for (const auto& [name, value] : session.settings().values()) options += (options.empty() ? "--" : " --") + name + " " + value;
+        for (const auto& [name, value] : session.settings().values()) options += (options.empty() ? "" : " ") + in_shell("--" + name) + " " + in_shell(value);
         Header made{{"vesper:version", VESPER_VERSION},
                     {"vesper:scene", session.scenery().scene().name},
                     {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},

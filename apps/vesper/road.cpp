@@ -47,7 +47,7 @@ void run(const RoadArguments& arguments) {
     const RoadFile file = read_road(arguments.layout, arguments.overrides);
     const RoadResult result = in_file(arguments.layout, [&] { return calculate_road(file.layout); });
     const LightingClass* wanted = find_lighting_class(arguments.wanted.empty() ? file.wanted_class : arguments.wanted);
-    std::fputs(text_of(file.layout, result, wanted ? wanted : file.layout.surface.wet ? nullptr : reached_class(result)).c_str(), stdout);
+    std::fputs(text_of(file.layout, result, wanted ? wanted : reached_class(result)).c_str(), stdout);
     if (arguments.grid) std::fputs(grid_text_of(result).c_str(), stdout);
     RenderedRoad rendered;
     if (!arguments.pictures.empty()) {

@@ -49,9 +49,9 @@ struct Figure {
     double LightingClass::*limit;
 };
 
-std::vector<Figure> figures_of(const RoadLayout& road, const RoadResult& r) {
+std::vector<Figure> figures_of(const RoadResult& r) {
     // Of a wet road, classes limit the overall uniformity alone.
-    if (road.surface.wet)
+    if (r.wet)
         return {{"Lav", "average_luminance_cd_m2", "cd/m2", 3, r.average_luminance, nullptr},
                 {"Uow", "overall_uniformity", "", 3, r.overall_uniformity, &LightingClass::overall_wet},
                 {"Ul", "lengthwise_uniformity", "", 3, r.lengthwise_uniformity, nullptr},
@@ -83,7 +83,7 @@ nlohmann::ordered_json json_of(const RoadReading& reading) {
 std::string text_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted) {
     std::string text = head_of(road, result) + "\n";
     text += wanted ? format("                  value   %s asks\n", wanted->name) : "                  value\n";
-    for (const Figure& f : figures_of(road, result)) {
+    for (const Figure& f : figures_of(result)) {
         text += format("  %-4s %-6s %10.*f", f.name, f.unit, f.decimals, f.value);
         if (wanted && f.limit)
             text += format("   %s %-5g %s", f.limit == &LightingClass::increment ? "<=" : ">=", wanted->*f.limit,
@@ -100,7 +100,7 @@ std::string text_of(const RoadLayout& road, const RoadResult& result, const Ligh
             format("  %4d  %11.2f  %10.3f  %6.3f  %6.3f  %6.2f  %9.4f  %16.1f\n", o.lane, o.eye.y, o.average_luminance,
                    o.overall_uniformity, o.lengthwise_uniformity, o.threshold_increment, o.veil, o.glare_eye.x);
     const LightingClass* reached = reached_class(result);
-    if (road.surface.wet)
+    if (result.wet)
         text += "\nA wet surface: the other limits of the classes (EN 13201-2:2015) are those of the road when it is dry\n";
     else
         text += format("\nLighting class reached (EN 13201-2:2015, dry): %s\n", reached ? reached->name : "none");
@@ -145,16 +145,15 @@ std::string csv_of(const RoadLayout& road, const RoadResult& result, const Rende
 }
 
 std::string json_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted, const RenderedRoad* rendered) {
-    const bool wet = road.surface.wet;
-    nlohmann::ordered_json json = {{"name", road.name}, {"surface", road.surface.name}, {"q0", q0_of(road.surface)}, {"wet", wet}};
-    for (const Figure& figure : figures_of(road, result)) json[figure.key] = figure.value;
+    nlohmann::ordered_json json = {{"name", road.name}, {"surface", road.surface.name}, {"q0", q0_of(road.surface)}, {"wet", result.wet}};
+    for (const Figure& figure : figures_of(result)) json[figure.key] = figure.value;
     json["edge_illuminance_ratio_right"] = result.edge_ratio_right;
     json["edge_illuminance_ratio_left"] = result.edge_ratio_left;
     json["average_illuminance_lx"] = result.average_illuminance;
     json["minimum_illuminance_lx"] = result.minimum_illuminance;
-    const LightingClass* reached = wet ? nullptr : reached_class(result);
+    const LightingClass* reached = reached_class(result);
     json["class_reached"] = reached ? nlohmann::ordered_json(reached->name) : nlohmann::ordered_json();
-    if (wanted) json["class_wanted"] = {{"name", wanted->name}, {"fulfilled", wet ? result.overall_uniformity >= wanted->overall_wet : fulfils(result, *wanted)}};
+    if (wanted) json["class_wanted"] = {{"name", wanted->name}, {"fulfilled", fulfils(result, *wanted)}};
     for (const RoadObserver& o : result.observers)
         json["observers"].push_back({{"lane", o.lane},
                                      {"eye_m", {o.eye.x, o.eye.y, o.eye.z}},

@@ -139,6 +139,7 @@ double threshold_increment(double veil, double average_luminance) {
 RoadResult calculate_road(const RoadLayout& road) {
     check_road(road);
     RoadResult result;
+    result.wet = road.surface.wet;
     result.field = road_field(road);
     result.observers = road_observers(road);
     const double height = road_height(road);
@@ -180,12 +181,14 @@ const LightingClass* find_lighting_class(const std::string& name) {
 }
 
 bool fulfils(const RoadResult& result, const LightingClass& wanted) {
+    if (result.wet) return result.overall_uniformity >= wanted.overall_wet;
     return result.average_luminance >= wanted.luminance && result.overall_uniformity >= wanted.overall &&
            result.lengthwise_uniformity >= wanted.lengthwise && result.threshold_increment <= wanted.increment &&
            result.edge_ratio >= wanted.edge;
 }
 
 const LightingClass* reached_class(const RoadResult& result) {
+    if (result.wet) return nullptr;
     for (const LightingClass& c : lighting_classes())
         if (fulfils(result, c)) return &c;
     return nullptr;

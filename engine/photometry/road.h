@@ -129,6 +129,7 @@ struct RoadResult {
     double average_illuminance = 0, minimum_illuminance = 0;  ///< lx
     /// E of the strip of a lane's width outside the right and left edge over that of the strip inside; the lesser.
     double edge_ratio_right = 0, edge_ratio_left = 0, edge_ratio = 0;
+    bool wet = false;  ///< as the surface is
 };
 
 /// Throws Error when the layout is no road's, or none of its light is seen.
@@ -143,8 +144,9 @@ struct LightingClass {
 std::span<const LightingClass> lighting_classes();
 /// Of that name, or nothing.
 const LightingClass* find_lighting_class(const std::string& name);
+/// Whether all limits hold; of a wet road that of `overall_wet`, the only one it has.
 bool fulfils(const RoadResult&, const LightingClass&);
-/// The most demanding class whose limits all hold, or nothing.
+/// The most demanding class whose limits all hold; nothing where there is none, and for wet roads.
 const LightingClass* reached_class(const RoadResult&);
 
 }  // namespace vesper

@@ -43,13 +43,17 @@ class Outputs(Sized):
 
 
 class ToneMapper:
-    """Maps pictures one after the other; the eye adapts from each to the next."""
+    """Maps pictures, each for itself or one after the other with an eye that adapts from each to the next."""
 
     def __init__(self, library="libvesper-c.so"):
         self.calls = c.CDLL(library)
         self.device, self.mapper = c.c_void_p(), c.c_void_p()
-        self.check(self.calls.vesper_device_open, None, c.byref(self.device))
-        self.check(self.calls.vesper_tone_mapper_create, self.device, c.byref(self.mapper))
+        try:
+            self.check(self.calls.vesper_device_open, None, c.byref(self.device))
+            self.check(self.calls.vesper_tone_mapper_create, self.device, c.byref(self.mapper))
+        except RuntimeError:
+            self.close()
+            raise
 
     def check(self, call, *arguments):
         error = Error()
@@ -59,9 +63,17 @@ class ToneMapper:
     def close(self):
         self.calls.vesper_tone_mapper_destroy(self.mapper)
         self.calls.vesper_device_close(self.device)
+        self.device, self.mapper = c.c_void_p(), c.c_void_p()
 
-    def map(self, luminance, operator="irawan", seconds=0.0, vertical_fov=0.7, **settings):
-        """`luminance`: height x width x 3, float32, cd/m^2. Returns height x width x 4 codes."""
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def map(self, luminance, operator="irawan", seconds=None, vertical_fov=0.7, **settings):
+        """`luminance`: height x width x 3, cd/m^2. `seconds` since the picture before, which the eye still sees; None: it has seen none.
+        Returns height x width x 4 codes."""
         values = np.ascontiguousarray(luminance, np.float32)
         height, width, channels = values.shape
         codes = np.empty((height, width, 4), np.uint8)
@@ -69,21 +81,24 @@ class ToneMapper:
         self.calls.vesper_tone_settings_defaults(c.byref(tone), c.c_size_t(c.sizeof(tone)))
         tone.tone_operator = OPERATORS.index(operator)
         for name, value in settings.items():
+            if not hasattr(tone, name):
+                raise TypeError("there is no setting " + name)
             setattr(tone, name, value)
+        if seconds is None:
+            self.check(self.calls.vesper_tone_mapper_reset, self.mapper)
         picture = Picture(width=width, height=height, channels=channels, values=values.ctypes.data_as(c.POINTER(c.c_float)), scale=1.0,
                           vertical_fov=vertical_fov)
         outputs = Outputs(codes=codes.ctypes.data_as(c.POINTER(c.c_uint8)))
-        self.check(self.calls.vesper_tone_map, self.mapper, c.byref(tone), c.byref(picture), c.c_float(seconds), c.byref(outputs))
+        self.check(self.calls.vesper_tone_map, self.mapper, c.byref(tone), c.byref(picture), c.c_float(seconds or 0), c.byref(outputs))
         return codes
 
 
 if __name__ == "__main__":
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    mapper = ToneMapper(*sys.argv[1:-1])
     ramp = np.geomspace(1e-3, 1e4, 512, dtype=np.float32)
-    codes = mapper.map(np.broadcast_to(ramp[None, :, None], (128, 512, 3)))
-    mapper.close()
+    with ToneMapper(*sys.argv[1:-1]) as mapper:
+        codes = mapper.map(np.broadcast_to(ramp[None, :, None], (128, 512, 3)))
     with open(sys.argv[-1], "wb") as file:
         file.write(b"P6\n512 128\n255\n" + codes[:, :, :3].tobytes())
     print("codes", codes[0, 0, 0], "to", codes[0, -1, 0])

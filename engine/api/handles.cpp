@@ -30,12 +30,24 @@ void give(const std::vector<T>& values, T* to) {
     if (to) std::copy(values.begin(), values.end(), to);
 }
 
-/// Goes before what an eye remembers: what kind of bytes these are.
-constexpr uint32_t kEyeBytes = 0x31455956;  // "VYE1"
+/// Goes before what an eye remembers: what kind of bytes these are, and a sum over them.
+constexpr uint32_t kEyeBytes = 0x32455956;  // "VYE2"
 struct KeptEye {
-    uint32_t kind = kEyeBytes, bytes = sizeof(shared::EyeState);
+    uint32_t kind = kEyeBytes, bytes = sizeof(shared::EyeState), sum = 0;
     shared::EyeState eye;
 };
+
+/// FNV-1a (Fowler, Noll and Vo), 32 bits, of the version and the eye: files damaged on the way give pictures, but wrong ones.
+uint32_t sum_of(const shared::EyeState& eye) {
+    constexpr uint32_t kVersion[]{VESPER_VERSION_MAJOR, VESPER_VERSION_MINOR, VESPER_VERSION_PATCH};
+    uint32_t sum = 2166136261u;
+    const auto add = [&](const void* bytes, size_t size) {
+        for (size_t i = 0; i < size; ++i) sum = (sum ^ static_cast<const uint8_t*>(bytes)[i]) * 16777619u;
+    };
+    add(kVersion, sizeof kVersion);
+    add(&eye, sizeof eye);
+    return sum;
+}
 
 // What an image of colours can be in, by Vulkan 1.3 and in a host that presents.
 constexpr std::array kLayouts{VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_PREINITIALIZED, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -141,7 +153,7 @@ VesperFrameReport report_of_handed_over(const ToneMapped& frame) {
 
 void give_eye(const shared::EyeState& eye, void* bytes) {
     KeptEye kept;
-    kept.eye = eye;
+    kept.eye = eye, kept.sum = sum_of(eye);
     std::memcpy(bytes, &kept, sizeof kept);
 }
 
@@ -149,7 +161,7 @@ shared::EyeState eye_of(const void* bytes, size_t size) {
     KeptEye kept;
     require(size == sizeof kept, "what an eye of another version remembers");
     std::memcpy(&kept, bytes, sizeof kept);
-    require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye, "what an eye of another version remembers");
+    require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye && kept.sum == sum_of(kept.eye), "what an eye of another version remembers, or damaged bytes");
     shared::EyeState young = kept.eye;
     young.seconds = 0;  // which may be more than the others
     float values[sizeof young / sizeof(float)];

@@ -33,7 +33,8 @@ struct VesperToneMapper {
 struct VesperScene {
     vesper::Scene scene;
     uint64_t version = 0;                           // of what a renderer takes to the device
-    std::map<std::string, uint32_t> distributions;  // of the scene, by their files
+    std::map<std::pair<std::string, std::vector<uint8_t>>, uint32_t> distributions;  // of the scene, by their files and what was in those
+    std::vector<bool> gone;                         // by node; shorter than those, or of as many
 };
 
 struct VesperRenderer {
@@ -125,10 +126,11 @@ void finish(Handle& handle) {
     const auto frame = handle.engine.finish();
     if (frame) handle.eye = frame->eye, handle.report = report_of_handed_over(*frame);
 }
+constexpr const char* kBorrowed = "images are those of a host's device (vesper_device_borrow)";
 /// Hands over a frame: where its settings look back, the one before is waited for.
 template <class Handle, class... Arguments>
 void hand_over(Handle& handle, const RenderSettings& settings, const Arguments&... arguments) {
-    require(handle.device.borrowed(), "images are those of a host's device (vesper_device_borrow)");
+    require(handle.device.borrowed(), kBorrowed);
     if (EyeKeeper::looks_back(settings)) finish(handle);
     handle.engine.submit(settings, arguments...);
     handle.report.reset();

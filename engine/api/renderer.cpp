@@ -50,6 +50,9 @@ Seen see(const VesperRenderer& renderer, const VesperView* view) {
 void take_over_scene(VesperRenderer& renderer) {
     if (renderer.version == renderer.scene.version) return;
     renderer.engine.set_scene(renderer.scene.scene);
+    const auto is_gone = [&](const auto& of_node) { return of_node.first < renderer.scene.gone.size() && renderer.scene.gone[of_node.first]; };
+    std::erase_if(renderer.places, is_gone);
+    std::erase_if(renderer.dimming, is_gone);
     renderer.version = renderer.scene.version;
 }
 
@@ -106,6 +109,7 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
         const float passed = seconds_of(seconds);
         const Handover semaphores = handover_of(handover);
         const Seen seen = see(*renderer, view);
+        require(renderer->device.borrowed(), kBorrowed);
         const Outputs to{.display = false, .shown = shown_image(shown, seen.view.extent)};
         take_over_scene(*renderer);
         hand_over(*renderer, how, seen.view, seen.frame, passed, to, semaphores);

@@ -4,6 +4,8 @@
 
 #include "api/handles.h"
 #include "base/luminance.h"
+#include "io/atomic_file.h"
+#include "photometry/table.h"
 #include "scene/gltf.h"
 #include "scene/mesh.h"
 
@@ -37,15 +39,22 @@ Primitive primitive_of(const Scene& scene, const VesperMesh& m) {
     Primitive made;
     made.material = m.material;
     made.vertices.resize(m.vertex_count);
+    std::vector<char> missing(m.vertex_count);  // normals
     for (size_t i = 0; i < m.vertex_count; ++i) {
         Vertex& vertex = made.vertices[i];
         vertex.position = vector(m.positions + 3 * i);
-        if (m.normals) vertex.normal = unit_or_up(vector(m.normals + 3 * i));
+        if (m.normals) {
+            vertex.normal = unit_or_up(vector(m.normals + 3 * i));
+            missing[i] = vector(m.normals + 3 * i) == glm::vec3(0);
+        }
         if (m.uvs) vertex.uv = {m.uvs[2 * i], m.uvs[2 * i + 1]};
         made.bounds.add(vertex.position);
     }
     made.indices.assign(m.indices, m.indices + m.index_count);
-    if (!m.normals) make_flat(made);
+    if (!m.normals)
+        make_flat(made);
+    else if (std::find(missing.begin(), missing.end(), 1) != missing.end())
+        fill_normals(made, missing);
     return made;
 }
 
@@ -60,11 +69,12 @@ glm::quat turned(const VesperLamp& lamp) {
     return glm::quat_cast(glm::mat3(right, glm::cross(-axis, right), -axis));
 }
 
-/// The number of the distribution of a file, which is read once.
+/// The number of the distribution of a file, one for all lamps while the file is as it was.
 uint32_t distribution_of(VesperScene& scene, const std::string& file) {
-    if (const auto known = scene.distributions.find(file); known != scene.distributions.end()) return known->second;
+    std::pair key(file, read_file(file, kMaxTableBytes));
+    if (const auto known = scene.distributions.find(key); known != scene.distributions.end()) return known->second;
     scene.scene.distributions.push_back(read_distribution(file));
-    return scene.distributions[file] = added(scene.scene.distributions.size());
+    return scene.distributions[std::move(key)] = added(scene.scene.distributions.size());
 }
 
 /// A lamp, but for what was measured.
@@ -192,11 +202,13 @@ VesperResult vesper_scene_remove(VesperScene* scene, uint32_t node, VesperError*
         require(scene, "no scene");
         std::vector<Node>& nodes = scene->scene.nodes;
         require(node < nodes.size(), "the scene has no such node");
-        std::vector<bool> gone(nodes.size());
+        std::vector<bool> below(nodes.size());  // and the node itself
+        scene->gone.resize(nodes.size());
         std::set<uint32_t> unused;  // meshes
         for (size_t i = node; i < nodes.size(); ++i) {
-            gone[i] = i == node || (nodes[i].parent != kNone && gone[nodes[i].parent]);
-            if (!gone[i]) continue;
+            below[i] = i == node || (nodes[i].parent != kNone && below[nodes[i].parent]);
+            if (!below[i]) continue;
+            scene->gone[i] = true;
             unused.insert(nodes[i].mesh);
             nodes[i].mesh = nodes[i].light = nodes[i].camera = kNone;
         }

@@ -63,13 +63,7 @@ void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normal
     if (as_read && scaled && reader.document.element("accessors", reference).find("bufferView")) reader.scaled_normals.insert(reference.index(UINT32_MAX, "accessors"));
     if (!any) return;
     reader.notes.add("a primitive with normals of no direction: those are made from its triangles");
-    for (size_t i = 0; i < primitive.indices.size(); i += 3) {
-        const glm::vec3 normal = area_normal(primitive.vertices, &primitive.indices[i]);
-        for (size_t c = i; c < i + 3; ++c)
-            if (missing[primitive.indices[c]]) primitive.vertices[primitive.indices[c]].normal += normal;
-    }
-    for (size_t i = 0; i < primitive.vertices.size(); ++i)
-        if (missing[i]) primitive.vertices[i].normal = unit_or_up(primitive.vertices[i].normal);
+    fill_normals(primitive, missing);
 }
 
 /// Morphed normals need not be of length 1.

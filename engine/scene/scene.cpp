@@ -94,9 +94,10 @@ std::vector<glm::mat4> placed_transforms(const Scene& scene, double seconds, con
     }
     for (const auto& [index, node] : moved) world[index] = local_transform(node);
 
+    auto put = places.begin();
     for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
-        if (const auto put = places.find(i); put != places.end())
-            world[i] = glm::dmat4(put->second);
+        if (put != places.end() && put->first == i)
+            world[i] = glm::dmat4((put++)->second);
         else if (scene.nodes[i].parent != kNone)
             world[i] = world[scene.nodes[i].parent] * world[i];
     }

@@ -351,6 +351,17 @@ TEST_F(CInterface, DisplaysSayHowManyBitsTheirCodesHave) {
     EXPECT_EQ(vesper_display_bits(nullptr, &bits, &error), VESPER_BAD_ARGUMENT);
 }
 
+// The sum over an eye, as its bytes have it: FNV-1a of the version and what follows the three words of the head.
+void sum(std::vector<unsigned char>& eye) {
+    std::vector<unsigned char> summed(12);
+    const uint32_t version[]{VESPER_VERSION_MAJOR, VESPER_VERSION_MINOR, VESPER_VERSION_PATCH};
+    std::memcpy(summed.data(), version, 12);
+    summed.insert(summed.end(), eye.begin() + 12, eye.end());
+    uint32_t hash = 0x811c9dc5;
+    for (const unsigned char byte : summed) hash = (hash ^ byte) * 0x01000193;
+    std::memcpy(eye.data() + 8, &hash, sizeof hash);
+}
+
 TEST_F(CInterface, NoEyeRemembersAnything) {
     VesperToneMapper* mapper = nullptr;
     ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
@@ -359,20 +370,26 @@ TEST_F(CInterface, NoEyeRemembersAnything) {
     ASSERT_EQ(vesper_tone_mapper_eye(mapper, eye.data(), &error), VESPER_OK);
     for (const auto& [age, result] : {std::pair{1e12f, VESPER_OK}, {2e12f, VESPER_BAD_ARGUMENT}, {-1.0f, VESPER_BAD_ARGUMENT}, {NAN, VESPER_BAD_ARGUMENT}}) {
         std::vector<unsigned char> aged = eye;
-        std::memcpy(aged.data() + 2 * sizeof(uint32_t) + sizeof(float), &age, sizeof age);
+        std::memcpy(aged.data() + 3 * sizeof(uint32_t) + sizeof(float), &age, sizeof age);
+        sum(aged);
         EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, aged.data(), aged.size(), &error), result) << age;
     }
     ASSERT_EQ(vesper_tone_mapper_eye(mapper, eye.data(), &error), VESPER_OK);
     for (const float poison : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()})
-        for (const size_t place : {size_t(8), eye.size() - 4}) {
+        for (const size_t place : {size_t(12), eye.size() - 4}) {
             std::vector<unsigned char> bytes = eye;
             std::memcpy(&bytes[place], &poison, sizeof poison);
+            sum(bytes);
             EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, bytes.data(), bytes.size(), &error), VESPER_BAD_ARGUMENT) << poison << " at " << place;
         }
     EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size(), &error), VESPER_OK);
     EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size() - 4, &error), VESPER_BAD_ARGUMENT);
-    eye[1] ^= 1;
-    EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size(), &error), VESPER_BAD_ARGUMENT) << "bytes of something else";
+    // Of something else, of another version, or damaged anywhere.
+    for (size_t place = 0; place < eye.size(); ++place) {
+        std::vector<unsigned char> bytes = eye;
+        bytes[place] ^= 1 << place % 8;
+        EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, bytes.data(), bytes.size(), &error), VESPER_BAD_ARGUMENT) << place;
+    }
     vesper_tone_mapper_destroy(mapper);
 }
 

@@ -10,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "photometry/distribution.h"
+#include "photometry/ies.h"
 #include "places.h"
+#include "scene/scene_files.h"
 #include "support/host_device.h"
 
 namespace vesper::test {
@@ -199,6 +201,63 @@ TEST_F(CScene, MeasuredLampsShineAsTheirFile) {
     EXPECT_EQ(vesper_scene_add_lamp(scene, &lamp, &node, &error), VESPER_FAILED);
     EXPECT_NE(std::string(error.message).find("/nothing.ies"), std::string::npos);
     EXPECT_NEAR(lux(3), turned * 0.8 / 25, 1e-2 * turned * 0.8 / 25) << "and nothing has changed";
+}
+
+// A file that was edited is another distribution, and the lamps that have the old one keep it.
+TEST_F(CScene, ChangedLampFilesAreReadAnew) {
+    const TempFolder folder;
+    const auto written = [&](double candela) {
+        Distribution even;
+        even.goniometry = Goniometry::CGamma, even.horizontal = {0}, even.vertical = {0, 90}, even.candela = {candela, candela};
+        return folder.write("x.ies", write_ies(even)).string();
+    };
+    const std::string file = written(100);
+    VesperLamp lamp = candle();
+    lamp.axis[1] = -1, lamp.distribution = file.c_str();
+    const uint32_t first = add(lamp), second = add(lamp);
+    EXPECT_NEAR(lux(), 200, 0.5);
+    written(5);
+    add(lamp);
+    EXPECT_NEAR(lux(), 205, 0.5);
+    expect(vesper_scene_remove(scene, first, &error));
+    expect(vesper_scene_remove(scene, second, &error));
+    EXPECT_NEAR(lux(), 5, 0.02);
+    std::filesystem::remove(file);
+    EXPECT_EQ(vesper_scene_add_lamp(scene, &lamp, nullptr, &error), VESPER_FAILED);
+}
+
+// Normals of no direction are those of their triangles, as where there are none, and not up.
+TEST_F(CScene, NormalsWithoutDirectionAreMade) {
+    VesperLamp lamp = candle();
+    lamp.position[2] = 1;
+    add(lamp);
+    const std::vector<float> wall{-20, -20, 0, 20, -20, 0, 20, 20, 0, -20, 20, 0}, none(12, 0.0f);
+    const std::vector<uint32_t> front{0, 1, 2, 0, 2, 3};
+    VesperMesh mesh = square(ground_material);
+    mesh.positions = wall.data(), mesh.indices = front.data(), mesh.normals = none.data();
+    uint32_t shape = 0, node = 0;
+    expect(vesper_scene_add_mesh(scene, &mesh, &shape, &error));
+    expect(vesper_scene_add_node(scene, "wall", shape, nullptr, &node, &error));
+    VesperView view = down();
+    view.eye[1] = 1, view.eye[2] = 0.5f, view.forward[1] = view.up[2] = 0, view.forward[2] = -1, view.up[1] = 1;
+    EXPECT_NEAR(render(view)[4 * kMiddle] * kPi, 1, 2e-3);
+}
+
+// What a removed node was told is forgotten with it.
+TEST_F(CScene, NodesThatAreGoneAreForgotten) {
+    VesperLamp lamp = candle();
+    lux();
+    for (int i = 0; i < 20; ++i) {
+        uint32_t frame = 0;
+        expect(vesper_scene_add_node(scene, "car", VESPER_NONE, nullptr, &frame, &error));
+        const uint32_t node = add(lamp);
+        expect(vesper_scene_attach(scene, node, frame, &error));
+        expect(vesper_renderer_place(renderer, frame, at(3, 0, 0).data(), &error));
+        expect(vesper_renderer_dim(renderer, node, 2, &error));
+        EXPECT_NEAR(lux(3), 2, 4e-3);
+        expect(vesper_scene_remove(scene, frame, &error));
+        EXPECT_EQ(lux(3), 0);
+    }
 }
 
 // Emission, texture codes through sRGB, sky and ambient light.

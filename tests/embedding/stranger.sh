@@ -115,6 +115,28 @@ for python in python3 /usr/bin/python3; do
     if "$python" -c "import numpy" 2>/dev/null; then
         "$python" examples/tonemap.py ramp.ppm
         [[ $(stat -c %s ramp.ppm) == 196623 ]]
+        PYTHONPATH=examples "$python" - <<'PYTHON'
+import numpy as np
+from tonemap import ToneMapper
+dark, bright = np.full((8, 8, 3), 0.1), np.full((8, 8, 3), 1e4)
+with ToneMapper() as mapper:
+    alone = mapper.map(bright)
+    mapper.map(dark)
+    assert (mapper.map(bright) == alone).all(), "a picture for itself depends on the one before"
+    mapper.map(dark)
+    assert (mapper.map(bright, seconds=0.05) != alone).any(), "the eye forgets what it saw"
+    try:
+        mapper.map(dark, glares=1)
+        raise SystemExit("a setting that is none is taken")
+    except TypeError:
+        pass
+mapper.close()
+try:
+    mapper.map(dark)
+    raise SystemExit("maps with what is closed")
+except RuntimeError as error:
+    assert "no tone mapper" in str(error), error
+PYTHON
         exit 0
     fi
 done

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "arguments.h"
 #include "base/error.h"
@@ -29,11 +31,23 @@ constexpr Named kNames[]{{"veil", &GlareReport::veil},           {"road_veil", &
                          {"visibility", &GlareReport::visibility}, {"pupil", &GlareReport::pupil},
                          {"eye_seed", &GlareReport::eye_seed}};
 
+/// A heading may be in any words, but not of other columns or units than there are.
+void check_heading(const LineReader& lines, const std::vector<std::string_view>& cells) {
+    static const std::map<std::string, size_t> kColumns{{"azimuth", 0}, {"right", 0}, {"yaw", 0},         {"elevation", 1}, {"up", 1},      {"pitch", 1},
+                                                        {"lx", 2},      {"lux", 2},   {"illuminance", 2}, {"rad", 9},       {"radian", 9},  {"radians", 9},
+                                                        {"mrad", 9},    {"cd", 9},    {"candela", 9},     {"intensity", 9}, {"lamp", 9},    {"frame", 9}};
+    constexpr const char* kWanted = "three columns are expected: azimuth to the right and elevation, degrees, and the illuminance at the eye, lx";
+    if (cells.size() != 3) lines.fail(kWanted);
+    for (size_t i = 0; i < cells.size(); ++i)
+        for (const std::string& word : words_of(cells[i]))
+            if (const auto known = kColumns.find(word); known != kColumns.end() && known->second != i) lines.fail(quoted(cells[i]) + ": " + kWanted);
+}
+
 }  // namespace
 
 void add_glare_options(CLI::App& command, GlareArguments& a) {
     command.add_option("--lamps", a.lamps, "CSV file of lamps on other screens, to be scattered into this one with --glare cie, spencer or ward: degrees to the right, degrees up, lx at the eye");
-    command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: reports how visible it is")->delimiter(',')->expected(4)->check(between(0.0, 1.0));
+    command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: prints how visible it is, and says so in logs and .exr files")->delimiter(',')->expected(4)->check(between(0.0, 1.0));
 }
 
 std::vector<OutsideLamp> read_lamps(const std::string& file) {
@@ -41,13 +55,18 @@ std::vector<OutsideLamp> read_lamps(const std::string& file) {
     if (file.empty()) return lamps;
     const std::vector<uint8_t> bytes = read_file(file, kMostLampBytes);
     LineReader lines(bytes, one_line(file));
+    bool heading_allowed = true;
     while (const auto line = lines.next()) {
         const std::string_view text = trimmed(*line);
         if (text.empty() || text.front() == '#') continue;
-        if (lamps.empty() && std::isalpha(static_cast<unsigned char>(text.front()))) continue;
-        const auto fields = fields_of(text, ',', 3);
+        const char separator = text.find(';') != text.npos ? ';' : text.find('\t') != text.npos ? '\t' : ',';
+        const auto fields = fields_of(text, separator, 3);
+        if (std::exchange(heading_allowed, false) && std::none_of(fields.begin(), fields.end(), [](std::string_view cell) { return number_of(cell, true).has_value(); })) {
+            check_heading(lines, fields);
+            continue;
+        }
         std::optional<double> values[3];
-        for (size_t i = 0; i < 3 && fields.size() == 3; ++i) values[i] = number_of(fields[i], false);
+        for (size_t i = 0; i < 3 && fields.size() == 3; ++i) values[i] = number_of(fields[i], separator != ',');
         if (!values[0] || !values[1] || !values[2]) lines.fail("expected degrees to the right, degrees up, lx");
         const double azimuth = *values[0], elevation = *values[1], lux = *values[2];
         if (std::abs(azimuth) > 180 || std::abs(elevation) > 90 || lux < 0 || lux > 1e9) lines.fail("degrees of -180 to 180 and -90 to 90 and 0 to 1e9 lx are expected");
@@ -67,6 +86,10 @@ GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& s
     report.pupil = shown.pupil;
     if (settings.glare == Glare::Scatter && settings.scatter.has_corona()) report.eye_seed = settings.scatter.aperture.seed;
     return report;
+}
+
+std::string target_line(const GlareReport& r) {
+    return format("target %.4g cd/m^2 on %.4g cd/m^2, veil %.4g cd/m^2, visibility level %.3g\n", r.target, r.around, r.target_veil, r.visibility);
 }
 
 Header describe_glare(const ToneChainSettings& settings, const GlareReport& report) {

@@ -3,12 +3,56 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <sstream>
 
 #include "arguments.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
 
 namespace vesper {
+namespace {
+
+/// Degrees from the bottom to the top of a picture plane at distance 1; 0 where that is no picture.
+double degrees_between(double bottom, double top) {
+    const double degrees = (std::atan(top) - std::atan(bottom)) * 180 / std::numbers::pi;
+    return degrees >= 0.1 && degrees <= 170 ? degrees : 0;
+}
+
+/// Of the last VIEW of a Radiance picture: only perspectives (-vtv) have one, of -vv degrees, moved up by -vl of their height.
+double angle_of_view(const std::string& view) {
+    std::istringstream words(view);
+    double degrees = 45, lift = 0;  // Radiance's own
+    bool perspective = true;
+    for (std::string word; words >> word;) {
+        if (word.starts_with("-vt")) perspective = word == "-vtv";
+        double value = 0;
+        if ((word == "-vv" || word == "-vl") && words >> value) (word == "-vv" ? degrees : lift) = value;
+    }
+    if (!perspective || !(degrees > 0 && degrees < 180)) return 0;
+    const double half = std::tan(degrees * std::numbers::pi / 360);
+    return degrees_between((2 * lift - 1) * half, (2 * lift + 1) * half);
+}
+
+/// Angle in height that a header tells, degrees, or 0.
+double angle_of(const Header& header) {
+    double degrees = 0;
+    for (const auto& [key, value] : header) {
+        double left = 0, bottom = 0, right = 0, top = 0;
+        if (key == "vesper:tangents" && std::sscanf(value.c_str(), "%lf %lf %lf %lf", &left, &bottom, &right, &top) == 4) return degrees_between(bottom, top);
+        if (key == "VIEW") degrees = angle_of_view(value);
+    }
+    return degrees;
+}
+
+/// Width of a pixel over its height (OpenEXR), or the inverse (Radiance): 1 if square.
+double pixel_aspect_of(const Header& header) {
+    double aspect = 1;
+    for (const auto& [key, value] : header)
+        if (double factor = 0; (key == "pixelAspectRatio" || key == "PIXASPECT") && std::sscanf(value.c_str(), "%lf", &factor) == 1) aspect *= factor;
+    return aspect;
+}
+
+}  // namespace
 
 VkExtent2D parse_size(const std::string& text, unsigned least, unsigned most) {
     unsigned width = 0, height = 0;
@@ -19,24 +63,23 @@ VkExtent2D parse_size(const std::string& text, unsigned least, unsigned most) {
     return {width, height};
 }
 
-double fov_of(const HdrImage& image, double given) {
-    if (given > 0) return given;
-    for (const auto& [key, value] : image.header) {
-        double left = 0, bottom = 0, right = 0, top = 0;
-        if (key == "vesper:tangents" && std::sscanf(value.c_str(), "%lf %lf %lf %lf", &left, &bottom, &right, &top) == 4) {
-            const double degrees = (std::atan(top) - std::atan(bottom)) * 180 / std::numbers::pi;
-            if (degrees >= 0.1 && degrees <= 170) return degrees;
-        }
-    }
-    return 40;
-}
-
-double scale_of_picture(const HdrImage& image, double given) {
-    return given > 0 ? given : image.white_luminance > 0 ? image.white_luminance : 1;
-}
-
-void note_unknown_unit(const std::string& file) {
-    std::fprintf(stderr, "note: %s: its header names no unit: taken as cd/m^2 (--scale tells another)\n", one_line(file).c_str());
+PictureMeaning meaning_of(const HdrImage& image, double scale, double fov, bool angle_matters) {
+    PictureMeaning meaning;
+    const double told = image.white_luminance;
+    if (scale > 0)
+        meaning.scale = scale;
+    else if (told > 0)
+        meaning.scale = told;
+    else
+        meaning.notes.emplace_back("its header names no unit: taken as cd/m^2 (--scale tells another)");
+    if (scale > 0 && told > 0 && std::abs(scale - told) > 1e-6 * told) meaning.notes.push_back(format("its header says that 1.0 is %.6g cd/m^2: --scale %.6g is taken", told, scale));
+    if (const double angle = fov > 0 ? fov : angle_of(image.header); angle > 0)
+        meaning.fov = angle;
+    else if (angle_matters)
+        meaning.notes.push_back(format("its header names no angle: taken as %g degrees high (--fov tells another)", meaning.fov));
+    if (const double aspect = pixel_aspect_of(image.header); std::abs(aspect - 1) > 1e-3)
+        meaning.notes.push_back(format("its pixels are not square (%.4g): shown and measured as if they were", aspect));
+    return meaning;
 }
 
 }  // namespace vesper

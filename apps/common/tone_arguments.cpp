@@ -122,17 +122,28 @@ Header describe_tone(const ToneChainSettings& settings, const ToneMapped& shown)
     return header;
 }
 
+namespace {
+
+/// A gamma of 2.2 in Rec. 709 passes for sRGB, as viewers take it.
+PngColour png_colour_of(const Display& display) {
+    PngColour colour;
+    for (const auto& [primaries, code] : {std::pair(kRec709, 1), std::pair(kRec2020, 9), std::pair(kDisplayP3, 12)})
+        if (display.primaries == primaries) colour.primaries = uint8_t(code);
+    const bool square = display.eotf == Eotf::Gamma && display.gamma == 2.2f;
+    if (display.eotf == Eotf::Pq) colour.transfer = 16;
+    if (display.eotf == Eotf::Srgb || (square && colour.primaries == kPngSrgb.primaries)) colour.transfer = kPngSrgb.transfer;
+    else if (square) colour.transfer = 4;
+    return colour;
+}
+
+}  // namespace
+
 void write_codes(const std::string& file, const ToneMapped& shown, const Display& display) {
     const auto [width, height] = shown.extent;
-    if (display.bits == 8) return write_png(file, width, height, shown.display);
+    const PngColour colour = png_colour_of(display);
+    if (display.bits == 8) return write_png(file, width, height, shown.display, colour);
     std::vector<uint32_t> words(shown.display.size() / 4);
     std::memcpy(words.data(), shown.display.data(), words.size() * 4);
-    const bool hdr10 = display.eotf == Eotf::Pq;
-    const PngColour colour = !hdr10                             ? PngColour::Unknown
-                             : display.primaries == kRec2020   ? PngColour::Rec2020Pq
-                             : display.primaries == kDisplayP3 ? PngColour::DisplayP3Pq
-                             : display.primaries == kRec709    ? PngColour::Rec709Pq
-                                                               : PngColour::Unknown;
     write_png_10bit(file, width, height, words, colour);
 }
 

@@ -61,7 +61,7 @@ void add_pictures(CLI::App& command, StudyArguments& a) {
     command.add_option("--start", a.source.start, "Of a scene: its time, s")->check(between(0.0, 1e6))->capture_default_str();
     command.add_option("--layer", a.source.layer, kLayerHelp);
     command.add_option("--scale", a.source.scale, "cd/m^2 of a picture's 1.0 (default: its whiteLuminance, or 1)")->check(between(1e-12, 1e12));
-    command.add_option("--fov", a.source.fov, "Angle a picture covers in height, degrees (default: what vesper render wrote, or 40)")->check(between(0.1, 170.0));
+    command.add_option("--fov", a.source.fov, "Angle a picture covers in height, degrees (default: what the picture says, if Vesper or Radiance made it, or 40)")->check(between(0.1, 170.0));
 }
 
 CLI::App* add_one(CLI::App& studies, const std::shared_ptr<StudyArguments>& a, const std::string& name, const std::string& title, const std::string& help,
@@ -84,6 +84,7 @@ void add_study(CLI::App& program) {
     CLI::App* studies = program.add_subcommand("study", "Study what settings of the tone operators do: CSV, plots and a page (docs/study.md)");
     studies->require_subcommand(1);
     const auto mip = std::make_shared<StudyArguments>(), bins = std::make_shared<StudyArguments>(), tunnel = std::make_shared<StudyArguments>(), ops = std::make_shared<StudyArguments>();
+    mip->source.angle_matters = true;
     add_pictures(*add_one(*studies, mip, "mip", "The foveal level", "Foveal levels 1 to 8: what they do to curve and picture, against level 1",
                           "night.gltf --camera driver -o out/mip", study_mip), *mip);
     add_pictures(*add_one(*studies, bins, "bins", "Bins of the histogram", "16 to 256 bins, with shared and with whole votes: how few come within 1 code of 256",

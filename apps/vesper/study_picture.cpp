@@ -37,13 +37,14 @@ StudyPicture rendered(const PictureSource& arguments, Device& device, const Tone
 
 StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
     HdrImage image = read_hdr_image(input, {}, arguments.layer);
-    if (!(arguments.scale > 0) && !(image.white_luminance > 0)) note_unknown_unit(input);
+    const PictureMeaning meaning = meaning_of(image, arguments.scale, arguments.fov, arguments.angle_matters);
+    for (const std::string& note : meaning.notes) std::fprintf(stderr, "note: %s: %s\n", one_line(input).c_str(), note.c_str());
     return {.name = {},
             .extent = {image.width, image.height},
             .values = std::move(image.rgb),
             .channels = 3,
-            .scale = float(scale_of_picture(image, arguments.scale)),
-            .vertical_fov = fov_of(image, arguments.fov) * std::numbers::pi / 180};
+            .scale = float(meaning.scale),
+            .vertical_fov = meaning.fov * std::numbers::pi / 180};
 }
 
 /// Looks for the darkest and the brightest light.

@@ -30,6 +30,7 @@ struct PictureSource {
     std::string layer;                        ///< of OpenEXR files, see read_hdr_image
     double scale = 0;                         ///< cd/m^2 of a picture's 1.0; 0: as its file says, or 1
     double fov = 0;                           ///< angle a picture covers in height, degrees; 0: as its file says, or 40
+    bool angle_matters = false;               ///< to the study, so that a guess is noted
 };
 
 /// A picture without a name. Prints notes. Throws Error if it cannot be read or is black.

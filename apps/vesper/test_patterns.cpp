@@ -45,12 +45,12 @@ public:
         if (settings_.bits == 10) {
             std::vector<uint32_t> words;
             for (const Codes& c : pixels_) words.push_back(c.r | c.g << 10 | c.b << 20 | 3u << 30);
-            return write_png_10bit(file, width(), height(), words, PngColour::Unknown);
+            return write_png_10bit(file, width(), height(), words, PngColour());
         }
         std::vector<uint8_t> rgba;
         for (const Codes& c : pixels_)
             for (const uint32_t value : {c.r, c.g, c.b, 255u}) rgba.push_back(uint8_t(value));
-        write_png(file, width(), height(), rgba);
+        write_png(file, width(), height(), rgba, PngColour());
     }
 
 private:

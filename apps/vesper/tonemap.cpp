@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "arguments.h"
 #include "base/error.h"
@@ -107,24 +108,21 @@ Plan plan_of(const TonemapArguments& arguments) {
 
 struct Shown {
     ToneMapped picture;
-    double scale = 1, fov = 0;
-    bool absolute = false;
+    PictureMeaning meaning;
     GlareReport glare;
 };
 
 Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, const std::vector<OutsideLamp>& lamps, ToneMapper& mapper, const Job& job, bool wants_codes) {
     const HdrImage image = read_hdr_image(job.input, {}, arguments.layer);
     Shown shown;
-    shown.absolute = arguments.scale > 0 || image.white_luminance > 0;
-    shown.scale = scale_of_picture(image, arguments.scale);
-    shown.fov = fov_of(image, arguments.fov);
+    shown.meaning = meaning_of(image, arguments.scale, arguments.fov, settings.glare == Glare::Scatter || !arguments.glare.target.empty());
     Outputs outputs{.display = wants_codes, .scene = false, .light = false};
     for (const std::string& output : job.outputs) (output.ends_with(".png") ? outputs.display : outputs.light) = true;
-    const double vertical = shown.fov * std::numbers::pi / 180;
-    const bool asks_glare = settings.tone_operator != Operator::Ldr && (outputs.light || arguments.statistics);
+    const double vertical = shown.meaning.fov * std::numbers::pi / 180;
+    const bool asks_glare = settings.tone_operator != Operator::Ldr && (outputs.light || arguments.statistics || !arguments.glare.target.empty());
     outputs.scene = asks_glare;
     try {
-        shown.picture = mapper.map(settings, {.extent = {image.width, image.height}, .values = image.rgb, .channels = 3, .scale = float(shown.scale), .vertical_fov = vertical, .outside = lamps},
+        shown.picture = mapper.map(settings, {.extent = {image.width, image.height}, .values = image.rgb, .channels = 3, .scale = float(shown.meaning.scale), .vertical_fov = vertical, .outside = lamps},
                                    float(job.seconds), outputs);
     } catch (const Error& error) {
         throw Error(one_line(job.input) + ": " + error.what());
@@ -144,7 +142,7 @@ void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& s
                       {"vesper:source", one_line(job.input)},
                       {"vesper:options", arguments.options},
                       {"vesper:unit", "cd/m^2 on the display, linear Rec. 709 RGB"},
-                      {"vesper:sourceScale", digits(shown.scale)},
+                      {"vesper:sourceScale", digits(shown.meaning.scale)},
                       {"vesper:device", device.name() + ", " + device.driver()}};
         const Header tone = describe_tone(settings, picture);
         header.insert(header.end(), tone.begin(), tone.end());
@@ -154,16 +152,34 @@ void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& s
     }
 }
 
-void report(const TonemapArguments& arguments, const Job& job, const Shown& shown, bool first) {
+/// Says once what holds for many pictures, and in a sequence where its unit changes.
+class Notes {
+public:
+    void tell(const Job& job, const PictureMeaning& meaning, bool sequence) {
+        const std::string name = one_line(job.input);
+        for (const std::string& note : meaning.notes)
+            if (told_.insert(note).second) std::fprintf(stderr, "note: %s: %s\n", name.c_str(), note.c_str());
+        if (sequence && scale_ > 0 && meaning.scale != scale_)
+            std::fprintf(stderr, "note: %s: 1.0 is %.6g cd/m^2 from here on, and was %.6g\n", name.c_str(), meaning.scale, scale_);
+        scale_ = meaning.scale;
+    }
+
+private:
+    std::set<std::string> told_;
+    double scale_ = 0;
+};
+
+void report(const TonemapArguments& arguments, const ToneChainSettings& settings, const Job& job, const Shown& shown) {
     const ToneMapped& p = shown.picture;
-    if (!shown.absolute && first) note_unknown_unit(job.input);
     if (p.histogram.non_finite > 0)
         std::fprintf(stderr, "note: %s: %u of %u pixels are not finite and shown black\n", one_line(job.input).c_str(), p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite);
+    if (!arguments.glare.target.empty() && settings.tone_operator != Operator::Ldr)
+        std::printf("%s: %s", one_line(job.input).c_str(), target_line(shown.glare).c_str());
     if (!arguments.statistics) return;
     double device = 0;
     for (const Timing& timing : p.timings) device += timing.milliseconds;
     std::printf("%s: %u x %u px, %.4g cd/m^2 per unit, adaptation %.4g cd/m^2, maximum %.4g cd/m^2, foveal level %u (%.3g degrees), %.1f ms (device %.1f)\n",
-                one_line(job.input).c_str(), p.extent.width, p.extent.height, shown.scale, double(p.curve.adaptation), double(p.curve.maximum), p.foveal_level, shown.fov,
+                one_line(job.input).c_str(), p.extent.width, p.extent.height, shown.meaning.scale, double(p.curve.adaptation), double(p.curve.maximum), p.foveal_level, shown.meaning.fov,
                 p.milliseconds, device);
     std::printf("  veil %.4g cd/m^2, threshold increment %.3g %%, background %.4g cd/m^2\n", shown.glare.veil, shown.glare.increment, shown.glare.background);
     if (p.pupil > 0) std::printf("  pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", p.pupil, p.pattern_milliseconds);
@@ -182,7 +198,7 @@ void run(const TonemapArguments& arguments) {
     std::unique_ptr<Video> film;
     Progress progress("tone mapping", unsigned(plan.jobs.size()));
     size_t failed = 0;
-    bool first = true;
+    Notes notes;
     for (const Job& job : plan.jobs) {
         if (!plan.sequence) mapper.reset_adaptation();
         try {
@@ -191,8 +207,8 @@ void run(const TonemapArguments& arguments) {
             if (!plan.film.empty() && !film) film = std::make_unique<Video>(plan.film, width, height, plan.fps, settings.display);
             write_outputs(arguments, settings, device, job, shown);
             if (film) film->add(shown.picture.display);
-            report(arguments, job, shown, first);
-            first = false;
+            notes.tell(job, shown.meaning, plan.sequence);
+            report(arguments, settings, job, shown);
         } catch (const Error& error) {
             // Pictures that have nothing to do with each other do not wait for one that is damaged.
             if (plan.sequence || plan.jobs.size() == 1) throw;
@@ -213,10 +229,10 @@ void add_tonemap(CLI::App& program) {
     command->add_option("pictures", a->inputs, "OpenEXR or Radiance pictures, or frame.%04d.exr for a sequence")->required();
     command->add_option("--output,-o", a->outputs, "OUT.png: codes; OUT.exr: cd/m^2 on the display; OUT.mp4; a folder or %04d for several; may be given more than once")->required();
     command->add_option("--layer", a->layer, kLayerHelp);
-    command->add_option("--scale", a->scale, "cd/m^2 of the picture's 1.0 (default: its whiteLuminance, or 1)")->check(between(1e-12, 1e12));
+    command->add_option("--scale", a->scale, "cd/m^2 of the picture's 1.0 (default: its whiteLuminance, 1 for XYZE, or 1)")->check(between(1e-12, 1e12));
     command->add_option("--fps", a->fps, "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for frame.%04d.exr: 30)")->check(between(0.001, 10000.0));
-    command->add_option("--fov", a->fov, "Angle the picture covers in height, degrees (default: what vesper render wrote, or 40)")->check(between(0.1, 170.0));
-    command->add_flag("--stats", a->statistics, "Print adaptation and milliseconds of each picture");
+    command->add_option("--fov", a->fov, "Angle the picture covers in height, degrees (default: what the picture says, if Vesper or Radiance made it, or 40)")->check(between(0.1, 170.0));
+    command->add_flag("--stats", a->statistics, "Print adaptation, glare and milliseconds of each picture");
     command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     add_tone_options(*command, a->tone);
     add_glare_options(*command, a->glare);

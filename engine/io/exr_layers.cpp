@@ -26,9 +26,11 @@ std::vector<ExrLayer> layers_of(const Imf::MultiPartInputFile& file) {
         for (const std::string& name : names) {
             const std::string prefix = name.empty() ? "" : name + ".";
             const auto has = [&](const char* channel) { return channels.findChannel(prefix + channel) != nullptr; };
-            const bool colour = has("R") || has("G") || has("B");
-            if (colour || has("Y"))
-                found.push_back({part, prefix, part_name + (part_name.empty() || name.empty() ? "" : ".") + name, colour, has("RY") || has("BY")});
+            using Kind = ExrLayer::Kind;
+            const bool colour = has("R") || has("G") || has("B"), vector = !colour && has("X") && has("Y") && has("Z");
+            if (!colour && (!has("Y") || (vector && !(name.empty() && part_name.empty())))) continue;  // normals, places
+            const Kind kind = colour ? Kind::Colour : vector ? Kind::Xyz : has("RY") || has("BY") ? Kind::Chroma : Kind::Grey;
+            found.push_back({part, prefix, part_name + (part_name.empty() || name.empty() ? "" : ".") + name, kind});
         }
     }
     return found;
@@ -53,7 +55,7 @@ private:
         if (exr.hasType() && Imf::isDeepData(exr.type())) throw Error("OpenEXR: deep pictures are not read");
         for (auto it = exr.channels().begin(); it != exr.channels().end(); ++it) names.add(it.name());
     }
-    throw Error("OpenEXR: none of the channels R, G, B, Y; it has " + names.text());
+    throw Error("OpenEXR: no channels R, G, B or Y of a picture; it has " + names.text());
 }
 
 }  // namespace

@@ -12,8 +12,7 @@ struct ExrLayer {
     int part = 0;
     std::string prefix;   ///< of its channels' names: "" or "layer."
     std::string name;     ///< of the part where there are several, and of the layer
-    bool colour = false;  ///< any of R, G, B
-    bool chroma = false;  ///< RY or BY; else Y alone
+    enum class Kind { Colour, Xyz, Chroma, Grey } kind = Kind::Colour;  ///< any of R, G, B; X, Y and Z; Y with RY or BY; Y alone
 };
 
 /// The layer or part of that name; without a name channels R, G, B, Y of the first part, or the only picture there is.

@@ -1,6 +1,5 @@
 // OpenEXR, in. SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cstdio>
 
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
@@ -14,6 +13,7 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
+#include "base/decimal.h"
 #include "base/error.h"
 #include "io/exr_chroma.h"
 #include "io/exr_layers.h"
@@ -47,11 +47,7 @@ struct Window {
 /// cd/m^2 of white; 0, which some programs write, says nothing.
 double white_luminance_of(const Imf::Header& exr) {
     const auto white = static_cast<double>(Imf::whiteLuminance(exr));
-    if (!(white >= 0 && white <= 1e12)) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%g", white);
-        throw Error(std::string("OpenEXR: whiteLuminance ") + text + " is no luminance");
-    }
+    if (!(white >= 0 && white <= 1e12)) throw Error("OpenEXR: whiteLuminance " + decimal(white) + " is no luminance");
     return white;
 }
 
@@ -83,14 +79,14 @@ void read_rows(HdrImage& image, const Window& data, const Window& display, std::
     image.rgb.resize(values);
 }
 
-/// R, G and B as they are, or Y three times.
+/// R, G and B or X, Y and Z as they are, or Y three times.
 void read_channels(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, const Window& data, const Window& display) {
-    const bool grey = !layer.colour;
+    const bool grey = layer.kind == ExrLayer::Kind::Grey, xyz = layer.kind == ExrLayer::Kind::Xyz;
     std::vector<float> block;
     read_rows(image, data, display, block, [&](int first, int last) {
         const int64_t x_stride = 3 * sizeof(float), y_stride = x_stride * data.width();
         Imf::FrameBuffer pixels;
-        const char* names[] = {grey ? "Y" : "R", "G", "B"};
+        const char* names[] = {grey ? "Y" : xyz ? "X" : "R", xyz ? "Y" : "G", xyz ? "Z" : "B"};
         for (int c = 0; c < (grey ? 1 : 3); ++c)
             pixels.insert(layer.prefix + names[c], Imf::Slice(Imf::FLOAT, origin(block.data() + c, data.x0, first, x_stride, y_stride),
                                                static_cast<size_t>(x_stride), static_cast<size_t>(y_stride)));
@@ -152,9 +148,7 @@ Header texts_of(const Imf::Header& exr) {
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute())) {
             header.emplace_back(it.name(), text->value());
         } else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&it.attribute())) {
-            char digits[32];
-            std::snprintf(digits, sizeof digits, "%.9g", static_cast<double>(number->value()));
-            header.emplace_back(it.name(), digits);
+            header.emplace_back(it.name(), decimal(static_cast<double>(number->value()), 9));
         }
     }
     if (Imf::hasEnvmap(exr)) header.emplace_back("envmap", Imf::envmap(exr) == Imf::ENVMAP_CUBE ? "cube" : "latlong");
@@ -188,13 +182,14 @@ HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, con
                    {limits.max_side, std::min(limits.max_pixels, uint64_t{1} << 24)});
 
     HdrImage image{static_cast<uint32_t>(display.width()), static_cast<uint32_t>(display.height())};
-    const glm::dmat3 matrix = to_rec709(primaries_of(exr));
+    using Kind = ExrLayer::Kind;
+    const glm::dmat3 matrix = to_rec709(layer.kind == Kind::Xyz ? kXyz : primaries_of(exr));
     Imf::InputPart part(file, layer.part);
-    if (layer.colour || !layer.chroma)
-        read_channels(image, part, layer, data, display);
-    else
+    if (layer.kind == Kind::Chroma)
         read_chroma(image, part, layer, data, display);
-    if (layer.colour || layer.chroma) transform(image, matrix);  // a luminance alone is the same grey for all primaries
+    else
+        read_channels(image, part, layer, data, display);
+    if (layer.kind != Kind::Grey) transform(image, matrix);  // a luminance alone is the same grey for all primaries
     image.header = texts_of(exr);
     if (Imf::hasWhiteLuminance(exr)) image.white_luminance = white_luminance_of(exr);
     return image;

@@ -3,9 +3,9 @@
 // XYZE nor the older run lengths. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string_view>
 
@@ -51,15 +51,19 @@ std::string word_of(const std::string& text) {
 /// Exactly `count` finite numbers.
 std::optional<std::vector<double>> numbers(const std::string& text, size_t count) {
     std::vector<double> values;
-    const char* at = text.c_str();
-    for (char* end = nullptr; values.size() <= count; at = end) {
-        const double value = std::strtod(at, &end);
-        if (end == at) break;
-        if (!std::isfinite(value)) return std::nullopt;
+    std::string_view rest = text;
+    while (true) {
+        rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+        if (rest.empty()) break;
+        std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
+        rest.remove_prefix(word.size());
+        if (word.starts_with('+')) word.remove_prefix(1);
+        double value = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) || values.size() == count) return std::nullopt;
         values.push_back(value);
     }
-    if (values.size() != count || std::string_view(at).find_first_not_of(" \t") != std::string_view::npos)
-        return std::nullopt;
+    if (values.size() != count) return std::nullopt;
     return values;
 }
 
@@ -76,10 +80,19 @@ struct Description {
     Header header;
     double exposure = 1;
     std::array<double, 3> correction{1, 1, 1};  ///< COLORCORR
-    Primaries primaries = kRec709;
+    std::optional<Primaries> primaries;
+    bool radiance = false;  ///< one of Radiance's programs made it
     bool xyz = false;
     Axis lines, along;  ///< from line to line, and along one
 };
+
+/// Whether a line of the header is the command of a program that takes colours without PRIMARIES for Radiance's own.
+bool is_radiance_command(const std::string& line) {
+    static constexpr std::string_view kPrograms[]{"rpict", "rtpict", "rvu", "rview", "rtrace", "rcontrib", "rtcontrib", "rxpict", "rxtrace", "pfilt", "pcomb", "pcompos", "pinterp", "dctimestep", "ra_xyze"};
+    const std::string command = word_of(line), program = command.substr(0, command.find_first_of(" \t"));
+    const std::string_view name = std::string_view(program).substr(program.find_last_of("/\\") + 1);
+    return std::find(std::begin(kPrograms), std::end(kPrograms), name) != std::end(kPrograms);
+}
 
 void read_variable(Description& made, const std::string& name, const std::string& value) {
     if (name == "FORMAT") {
@@ -99,7 +112,9 @@ void read_variable(Description& made, const std::string& name, const std::string
         if (!p) throw Error("Radiance: PRIMARIES=" + value + " are not eight numbers");
         // Some programs write eight zeros for "I do not know".
         if (std::any_of(p->begin(), p->end(), [](double v) { return v != 0; }))
-            made.primaries = {{(*p)[0], (*p)[1]}, {(*p)[2], (*p)[3]}, {(*p)[4], (*p)[5]}, {(*p)[6], (*p)[7]}};
+            made.primaries = Primaries{{(*p)[0], (*p)[1]}, {(*p)[2], (*p)[3]}, {(*p)[4], (*p)[5]}, {(*p)[6], (*p)[7]}};
+    } else if (name == "VIEW" || (name == "SOFTWARE" && value.find("RADIANCE") != std::string::npos)) {
+        made.radiance = true;
     }
 }
 
@@ -108,7 +123,8 @@ Description read_description(Bytes& bytes) {
     bytes.line();  // #?RADIANCE
     for (std::string line = bytes.line(); !line.empty(); line = bytes.line()) {
         const size_t equals = line.find('=');
-        // Commands that made the picture are indented, comments start with #.
+        made.radiance |= is_radiance_command(line);
+        // What is said of pictures that this one was made of is indented, comments start with #.
         if (equals == std::string::npos || equals == 0 || line[0] == ' ' || line[0] == '\t' || line[0] == '#') continue;
         if (made.header.size() >= 1000) throw Error("Radiance: more than 1000 lines of header");
         made.header.emplace_back(line.substr(0, equals), line.substr(equals + 1));
@@ -169,7 +185,7 @@ HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits)
     const bool rows = lines.name == 'Y';
     const int64_t width = rows ? along.size : lines.size, height = rows ? lines.size : along.size;
     check_size("Radiance: picture", width, height, limits);
-    const glm::dmat3 matrix = to_rec709(made.xyz ? kXyz : made.primaries);
+    const glm::dmat3 matrix = to_rec709(made.xyz ? kXyz : made.primaries.value_or(made.radiance ? kRadiance : kRec709));
     const auto count = static_cast<size_t>(lines.size), length = static_cast<size_t>(along.size);
     if (bytes.left() / 4 < count) throw Error("Radiance: is cut off");  // a line takes four bytes at the very least
     HdrImage image{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
@@ -196,6 +212,7 @@ HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits)
         }
     }
     transform(image, matrix);
+    if (made.xyz) image.white_luminance = 1;  // lm/sr/m^2, where RGBE has W/sr/m^2
     image.header = std::move(made.header);
     return image;
 }

@@ -88,14 +88,12 @@ bool encode_png(PngJob& job, uint32_t width, uint32_t height, const void* pixels
     if (wide) {
         const png_color_8 bits{10, 10, 10, 0, 0};
         png_set_sBIT(png, header, &bits);
-    } else {
-        png_set_sRGB(png, header, PNG_sRGB_INTENT_PERCEPTUAL);
     }
+    if (colour == kPngSrgb) png_set_sRGB(png, header, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_compression_level(png, 3);  // a frame of a video is written in a third of the time, at 10 % more bytes
     png_write_info(png, header);
-    if (colour != PngColour::Unknown) {  // primaries, transfer (16: PQ), matrix (0: RGB), full range; libpng 1.6 has no name for it
-        const png_byte primaries = colour == PngColour::Rec709Pq ? 1 : colour == PngColour::Rec2020Pq ? 9 : 12;
-        const png_byte name[] = "cICP", values[] = {primaries, 16, 0, 1};
+    if (colour != kPngSrgb && colour.transfer != PngColour().transfer) {  // matrix (0: RGB) and full range; libpng 1.6 has no name for it
+        const png_byte name[] = "cICP", values[] = {colour.primaries, colour.transfer, 0, 1};
         png_write_chunk(png, name, values, sizeof values);
     }
     const FillRow fill = wide ? fill_10bit : fill_8bit;
@@ -129,11 +127,11 @@ private:
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba) {
+void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba, PngColour colour) {
     check_size(file, width, height, 4, rgba.size());
     PngJob job;
     job.row.resize(static_cast<size_t>(width) * 3);
-    if (!encode_png(job, width, height, rgba.data(), false, PngColour::Unknown)) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
+    if (!encode_png(job, width, height, rgba.data(), false, colour)) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
     replace_file(file, job.file);
 }
 

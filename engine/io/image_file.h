@@ -26,11 +26,16 @@ std::string media_type(std::span<const uint8_t> bytes);
 /// Whether a picture is a PNG of 16 bits a channel.
 bool is_16_bit_png(std::span<const uint8_t> bytes);
 
-/// Writes 8-bit RGBA (alpha ignored) as an RGB PNG. The file is replaced only when complete. Throws Error.
-void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba);
+/// What the codes of a picture mean, as its PNG says: code points of ITU-T H.273. Chunk cICP, sRGB for its curve in Rec. 709, none where the transfer is unknown.
+struct PngColour {
+    uint8_t primaries = 2;  ///< 1: Rec. 709, 9: Rec. 2020, 12: Display P3, 2: others
+    uint8_t transfer = 2;   ///< 4: gamma 2.2, 13: sRGB, 16: PQ, 2: others
+    bool operator==(const PngColour&) const = default;
+};
+constexpr PngColour kPngSrgb{1, 13};
 
-/// What the codes of a picture mean, as its PNG says (chunk cICP, ITU-T H.273).
-enum class PngColour : uint8_t { Unknown, Rec709Pq, Rec2020Pq, DisplayP3Pq };
+/// Writes 8-bit RGBA (alpha ignored) as an RGB PNG. The file is replaced only when complete. Throws Error.
+void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba, PngColour = kPngSrgb);
 
 /// Writes words of 10 bits a channel, red in the lowest (A2B10G10R10, alpha ignored), as an RGB PNG of 16 bits (chunk
 /// sBIT: 10). The file is replaced only when complete. Throws Error.

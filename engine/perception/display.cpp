@@ -38,7 +38,7 @@ void check_display(const Display& d) {
     if (!in(double(d.gamma), 0.5, 5)) throw Error("the gamma of a display is 0.5 to 5");
     if (!in(double(d.ambient), 0, 1e5)) throw Error("the illuminance on a display is 0 to 1e5 lx");
     if (!in(double(d.reflection), 0, 1)) throw Error("the diffuse reflectance of a display is 0 to 1");
-    if (!(d.low() >= 1e-6f)) throw Error("black and reflected light of a display together must be at least 1e-6 cd/m^2");
+    if (!(d.low() >= float(kLeastBlack))) throw Error("black and reflected light of a display together must be at least 1e-6 cd/m^2");
     if (d.bits != 8 && d.bits != 10) throw Error("a display has 8 or 10 bits a channel");
     if (d.eotf == Eotf::Pq && d.peak > 10000) throw Error("PQ ends at 10,000 cd/m^2");
     to_rec709(d.primaries);

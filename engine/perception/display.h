@@ -28,6 +28,8 @@ struct DisplaySample {
     double luminance = 0;  ///< cd/m^2
 };
 
+constexpr double kLeastBlack = 1e-6;  ///< cd/m^2: code 0 shows at least that, reflected light included
+
 /// A display and the light that falls on it (Mantiuk, Daly and Kerofsky 2008): it shows a code V in [0, 1] with
 /// L(V) = emitted(V) + reflection * ambient / pi.
 struct Display {

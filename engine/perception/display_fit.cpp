@@ -112,43 +112,38 @@ void fit_gamma(Display& display, std::span<const DisplayMeasurement> measured, d
     display.black = float(line.black), display.peak = float(line.black + line.range);
 }
 
+/// Luminance must rise, so those of a plateau differ by this part from its first code to its last: far less than a meter can tell.
+constexpr double kPlateau = 1e-6;
+
+/// Means of each code; those that do not rise are a plateau of their mean from the first code to the last (isotonic regression).
 void fit_table(Display& display, std::span<const DisplayMeasurement> measured) {
     struct Block {
-        double code = 0, luminance = 0, weight = 0;
+        uint32_t first = 0, last = 0;
+        double luminance = 0, weight = 0;
+        void add(double mean, double more) { luminance = (luminance * weight + mean * more) / (weight + more), weight += more; }
     };
     std::map<uint32_t, Block> codes;
     for (const DisplayMeasurement& m : measured) {
         Block& b = codes[m.code];
-        b.code = m.code, b.luminance = (b.luminance * b.weight + m.luminance) / (b.weight + 1), b.weight += 1;
+        b.first = b.last = m.code;
+        b.add(std::max(m.luminance, kLeastBlack), 1);
     }
     std::vector<Block> blocks;  // pool adjacent violators
     for (const auto& [code, next] : codes) {
         blocks.push_back(next);
-        while (blocks.size() > 1 && !(blocks.back().luminance > blocks[blocks.size() - 2].luminance)) {
+        while (blocks.size() > 1 && !(blocks.back().luminance > blocks[blocks.size() - 2].luminance * (1 + kPlateau))) {
             const Block b = blocks.back();
             blocks.pop_back();
-            Block& a = blocks.back();
-            const double weight = a.weight + b.weight;
-            a = {(a.code * a.weight + b.code * b.weight) / weight, (a.luminance * a.weight + b.luminance * b.weight) / weight, weight};
+            blocks.back().add(b.luminance, b.weight);
+            blocks.back().last = b.last;
         }
     }
     if (blocks.size() < 2) throw Error("the luminance of the display does not rise with the code");
-    blocks.front().code = 0, blocks.back().code = display.largest_code();
-    for (const Block& b : blocks) display.table.push_back({b.code / display.largest_code(), b.luminance});
-    display.black = float(blocks.front().luminance), display.peak = float(blocks.back().luminance);
-}
-
-/// Moves what was pooled between codes along the curve to the nearest whole one: profiles hold whole codes.
-void move_to_codes(Display& display) {
-    const DisplayCurve curve(display);
-    std::vector<DisplaySample>& table = display.table;
-    for (size_t i = 1; i + 1 < table.size(); ++i) {
-        const double code = std::round(table[i].code * display.largest_code()) / display.largest_code();
-        const double luminance = curve.emitted(code);
-        // In the last digits a curve may be flatter than its table.
-        if (code != table[i].code && luminance > table[i - 1].luminance && luminance < table[i + 1].luminance) table[i].luminance = luminance;
-        table[i].code = code;
+    for (const Block& b : blocks) {
+        display.table.push_back({double(b.first) / display.largest_code(), b.luminance});
+        if (b.last > b.first) display.table.push_back({double(b.last) / display.largest_code(), b.luminance * (1 + kPlateau)});
     }
+    display.black = float(display.table.front().luminance), display.peak = float(display.table.back().luminance);
 }
 
 }  // namespace
@@ -191,12 +186,8 @@ DisplayFit fit_display(std::span<const DisplayMeasurement> measured, uint32_t bi
         for (const DisplayMeasurement& m : measured) black = std::min(black, m.luminance);
         display.black = float(black), display.peak = float(std::min(peak_of(measured), 1e4));
     }
-    if (display.black < 1e-6f) {  // a meter that reads 0: blacker than it can tell
-        display.black = 1e-6f;
-        if (eotf == Eotf::Table) display.table.front().luminance = double(display.black);
-    }
+    display.black = std::max(display.black, float(kLeastBlack));
     check_display(display);
-    if (eotf == Eotf::Table) move_to_codes(display);
     const DisplayCurve curve(display);
     for (const DisplayMeasurement& m : measured) {
         fit.residuals.push_back((curve.emitted(double(m.code) / display.largest_code()) - m.luminance) / std::max(m.luminance, floor));

@@ -29,8 +29,8 @@ struct DisplayFit {
 };
 
 /// The display with a transfer function that is nearest to measurements. Gamma: black, peak and gamma by least squares of
-/// the relative residuals; sRGB: black and peak; PQ: black and peak as measured; table: means of each code, where those
-/// fall the pooled means that do not (Ayer et al. 1955), moved along the curve to whole codes; as measured everywhere else.
+/// the relative residuals; sRGB: black and peak; PQ: black and peak as measured; table: means of each code; where those
+/// do not rise, a plateau of their mean (isotonic regression, Ayer et al. 1955), as limited and full range mixed up make it at both ends.
 DisplayFit fit_display(std::span<const DisplayMeasurement>, uint32_t bits, Eotf);
 
 /// The simplest that is as good as measurements are: gamma, sRGB or PQ if their residuals have a root mean square of at

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/decimal.h"
 #include "base/error.h"
 #include "base/srgb.h"
 #include "io/atomic_file.h"
@@ -86,10 +86,9 @@ std::array<int, 3> count_falls(const Response& response) {
 void write_response(const std::filesystem::path& file, const Response& response) {
     std::string text = "code,ln_exposure_r,ln_exposure_g,ln_exposure_b\n";
     for (size_t z = 0; z < 256; ++z) {
-        char line[120];
-        std::snprintf(line, sizeof line, "%zu,%.9g,%.9g,%.9g\n", z, response.ln_exposure[0][z],
-                      response.ln_exposure[1][z], response.ln_exposure[2][z]);
-        text += line;
+        text += std::to_string(z);
+        for (const auto& channel : response.ln_exposure) text += "," + decimal(channel[z], 9);
+        text += "\n";
     }
     replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));
 }

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "base/decimal.h"
 
 namespace vesper {
 namespace {
@@ -14,11 +15,7 @@ constexpr double kClosing = 0.1;  // of the largest intensity: what C0 and C360 
 
 bool same(double a, double b) { return std::abs(a - b) < kSame; }
 
-std::string degrees(double angle) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", angle);
-    return text;
-}
+std::string number(double value) { return decimal(value, 6); }
 
 /// All intensities at one horizontal angle, linear between those of the table.
 std::vector<double> plane_at(const Distribution& table, double angle) {
@@ -75,8 +72,8 @@ bool close_planes(Distribution& table, double largest, const TableFault& fault) 
         const size_t count = table.vertical.size(), end = table.candela.size() - count;
         for (size_t v = 0; v < count; ++v) {
             if (std::abs(table.candela[v] - table.candela[end + v]) > kClosing * largest)
-                fault(TablePart::Candela, "C0 and C360 are one plane, but at gamma " + degrees(table.vertical[v]) + " have " +
-                                              degrees(table.candela[v]) + " and " + degrees(table.candela[end + v]) + " cd");
+                fault(TablePart::Candela, "C0 and C360 are one plane, but at gamma " + number(table.vertical[v]) + " have " +
+                                              number(table.candela[v]) + " and " + number(table.candela[end + v]) + " cd");
             table.candela[v] = table.candela[end + v] = (table.candela[v] + table.candela[end + v]) / 2;
         }
     } else if (same(first, 0) && last > 180 && go_round(list)) {
@@ -94,7 +91,7 @@ bool close_planes(Distribution& table, double largest, const TableFault& fault) 
 void drop_repeated_ends(Distribution& table, const TableFault& fault) {
     const size_t count = table.vertical.size();
     const auto differ = [&](TablePart part, const char* what, double angle) {
-        fault(part, std::string(what) + " angle " + degrees(angle) + " is there twice, with other intensities");
+        fault(part, std::string(what) + " angle " + number(angle) + " is there twice, with other intensities");
     };
     if (table.horizontal.size() > 1 && same(table.horizontal.back(), table.horizontal.end()[-2])) {
         const auto last = table.candela.end() - static_cast<ptrdiff_t>(count);
@@ -115,13 +112,13 @@ void drop_repeated_ends(Distribution& table, const TableFault& fault) {
 
 /// Why a list of angles is not one; empty if it is.
 std::string objection_to(const std::vector<double>& angles, const char* what, double low, double high) {
-    const std::string range = degrees(low) + " to " + degrees(high);
+    const std::string range = number(low) + " to " + number(high);
     for (size_t i = 0; i < angles.size(); ++i) {
         if (!(angles[i] >= low - kSame && angles[i] <= high + kSame))
-            return std::string(what) + " angle " + degrees(angles[i]) + " is not in " + range;
+            return std::string(what) + " angle " + number(angles[i]) + " is not in " + range;
         if (i > 0 && !(angles[i] > angles[i - 1]))
-            return std::string(what) + " angles do not ascend: " + degrees(angles[i]) + " follows " +
-                   degrees(angles[i - 1]);
+            return std::string(what) + " angles do not ascend: " + number(angles[i]) + " follows " +
+                   number(angles[i - 1]);
     }
     return {};
 }
@@ -131,7 +128,7 @@ std::string objection_to(const std::vector<double>& angles, const char* what, do
 std::string objection_to_size(double horizontal, double vertical) {
     for (const auto& [count, what] : {std::pair(horizontal, "horizontal"), std::pair(vertical, "vertical")})
         if (!(count >= 1 && count <= static_cast<double>(kMaxAngles) && count == std::floor(count)))
-            return degrees(count) + " " + what + " angles: a whole number from 1 to " + std::to_string(kMaxAngles) +
+            return number(count) + " " + what + " angles: a whole number from 1 to " + std::to_string(kMaxAngles) +
                    " is read";
     if (vertical < 2) return "one vertical angle makes no distribution";
     if (horizontal * vertical > static_cast<double>(kMaxCells))
@@ -163,7 +160,7 @@ void finish_table(Distribution& table, bool halves, const TableFault& fault) {
         if (!std::isfinite(candela) || candela > 1e12)
             fault(TablePart::Candela, "an intensity is not finite, or more than 1e12 cd");
         if (candela < -0.01 * largest || (candela < 0 && !(largest > 0)))
-            fault(TablePart::Candela, "a negative intensity of " + degrees(candela) + " cd");
+            fault(TablePart::Candela, "a negative intensity of " + number(candela) + " cd");
         if (!(candela > 0)) candela = 0;  // also -0
     }
     const double range = table.horizontal.back() - table.horizontal.front();
@@ -171,8 +168,8 @@ void finish_table(Distribution& table, bool halves, const TableFault& fault) {
     if (copies * table.candela.size() > kMaxCells)
         fault(TablePart::Horizontal, "more than " + std::to_string(kMaxCells) + " intensities, symmetry expanded");
     if (c && !close_planes(table, largest, fault))
-        fault(TablePart::Horizontal, "C planes from " + degrees(table.horizontal.front()) + " to " +
-                                         degrees(table.horizontal.back()) +
+        fault(TablePart::Horizontal, "C planes from " + number(table.horizontal.front()) + " to " +
+                                         number(table.horizontal.back()) +
                                          " are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round");
     if (c) return;
     if (table.horizontal.size() < 2) fault(TablePart::Horizontal, "one horizontal angle makes no distribution");

@@ -1,7 +1,6 @@
 // Cameras, and the driver's way along the lanes. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "photometry/standard_lamps.h"
@@ -163,9 +162,7 @@ void build_cameras(RoadBuild& build) {
         look(scene, "roadside", start.position + side * (start.width / 2 + 2) + glm::dvec3(0, 1.7, 0),
              ahead.position + glm::dvec3(0, 0.8, 0));
         const double longest = animation_length(scene);
-        char line[120];
-        std::snprintf(line, sizeof line, "driver: %zu m over %zu lanes in %.0f s", points.size(), way.size(), longest);
-        build.notes.emplace_back(line);
+        build.notes.push_back("driver: " + std::to_string(points.size()) + " m over " + std::to_string(way.size()) + " lanes in " + std::to_string(std::lround(longest)) + " s");
     }
     if (bounds.empty()) bounds.add(glm::vec3(0)), bounds.add(glm::vec3(10));
     // From above, looking down at 45 degrees on the middle of all lanes.

@@ -1,8 +1,8 @@
 // OpenSCENARIO files: parameters and catalogs. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "base/decimal.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
@@ -31,9 +31,7 @@ std::optional<std::string> resolved(const XmlElement& element, const char* attri
         if (!value)
             element.fail(std::string(attribute) + " " + vesper::quoted(*text) +
                          " is no expression of known parameters");
-        char digits[40];
-        std::snprintf(digits, sizeof digits, "%.17g", *value);
-        return digits;
+        return decimal(*value, 17);
     }
     const auto found = scope.find(text->substr(1));
     if (found == scope.end()) element.fail(std::string(attribute) + ": there is no parameter " + vesper::quoted(*text));

@@ -2,8 +2,8 @@
 #include "roads/sign_faces.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "base/lower.h"
@@ -131,6 +131,13 @@ Face speed_limit(double value) {
     return {Shape::Round, Stuff::SignRed, Stuff::SignWhite, std::clamp(static_cast<int>(std::lround(value)), 0, 999)};
 }
 
+/// "60" of "60-1"; 0 without digits.
+int leading_number(const std::string& text) {
+    int value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
 /// Signs of Germany, which most files are made with, by their number in the StVO.
 Face german(int number, const RoadSignal& s) {
     switch (number) {
@@ -139,7 +146,7 @@ Face german(int number, const RoadSignal& s) {
         case 206:
             return {Shape::Octagon, Stuff::SignWhite, Stuff::SignRed};
         case 274:
-            return speed_limit(s.value > 0 ? s.value : std::atof(s.subtype.c_str()));
+            return speed_limit(s.value > 0 ? s.value : leading_number(s.subtype));
         case 267:
             return {.shape = Shape::Round, .rim = Stuff::SignWhite, .field = Stuff::SignRed, .bar = true};
         case 278:
@@ -168,7 +175,7 @@ Face german(int number, const RoadSignal& s) {
 Face face_of(const RoadSignal& s) {
     const std::string country = lower(s.country), name = lower(s.name), type = lower(s.type);
     if (country == "de" || country == "ger" || country == "germany" || country == "276")
-        if (const int number = std::atoi(type.c_str()); number > 0) return german(number, s);
+        if (const int number = leading_number(type); number > 0) return german(number, s);
     if (country == "se" && type == "c") {
         if (s.subtype == "31")
             return speed_limit(s.value < 13 ? 10 * s.value : s.value);  // esmini's catalogue counts in tens
@@ -215,19 +222,19 @@ bool is_painted(const RoadSignal& s) {
     const std::string name = lower(s.name);
     if (name.starts_with("sgrm") || name.find("stopline") != name.npos || name.find("holdingline") != name.npos)
         return true;
-    const int number = std::atoi(s.type.c_str());
+    const int number = leading_number(s.type);
     return lower(s.country) == "de" && ((number >= 293 && number <= 299) || number == 341);
 }
 
 bool is_traffic_light(const RoadSignal& s) {
-    const int number = std::atoi(s.type.c_str());
+    const int number = leading_number(s.type);
     const bool country = s.country.empty() || lower(s.country) == "opendrive" || lower(s.country) == "ger";
     return (s.dynamic && (number >= 1'000'000 || number <= 0)) ||
            (country && number >= 1'000'000 && number < 1'000'100);
 }
 
 bool is_for_pedestrians(const RoadSignal& s) {
-    return std::atoi(s.type.c_str()) == 1'000'002 || std::atoi(s.type.c_str()) == 1'000'003;
+    return leading_number(s.type) == 1'000'002 || leading_number(s.type) == 1'000'003;
 }
 
 }  // namespace vesper

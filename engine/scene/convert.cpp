@@ -2,7 +2,7 @@
 #include "scene/convert.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <new>
 
 #include "base/error.h"
@@ -29,8 +29,8 @@ json block_of(const Conversion& conversion, const std::filesystem::path& input,
     const Photometry& p = conversion.photometry;
     json block = {{"version", 1}};
     block["transfer"] = {{"kind", p.transfer.kind == Transfer::Kind::Gamma ? "gamma" : "srgb"}};
-    // Through text: 2.2f as a double has a long tail.
-    if (p.transfer.kind == Transfer::Kind::Gamma) block["transfer"]["gamma"] = std::stod(decimal(p.transfer.gamma));
+    // 2.2f as a double has a long tail.
+    if (p.transfer.kind == Transfer::Kind::Gamma) block["transfer"]["gamma"] = std::round(double(p.transfer.gamma) * 1e4) / 1e4;
     if (p.ambient) block["ambient"] = quantity_of("illuminance_lx", *p.ambient);
     if (p.sky) block["sky"] = quantity_of("luminance_cd_m2", *p.sky);
     if (!conversion.environment.is_null()) block["environment"] = conversion.environment;
@@ -96,12 +96,6 @@ size_t add_buffer_view(nlohmann::json& root, std::span<const uint8_t> bytes) {
     root["buffers"].push_back(
         {{"byteLength", bytes.size()}, {"uri", encode_data_uri("application/octet-stream", bytes)}});
     return root["bufferViews"].size() - 1;
-}
-
-std::string decimal(double value) {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.4g", value);
-    return digits;
 }
 
 std::string in_quotes(const std::string& name) { return "'" + one_line(name) + "'"; }

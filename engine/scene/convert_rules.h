@@ -6,6 +6,7 @@
 #include <span>
 #include <tuple>
 
+#include "base/decimal.h"
 #include "scene/convert.h"
 #include "scene/gltf_reader.h"
 #include "scene/photometry.h"
@@ -37,8 +38,6 @@ nlohmann::json& object_member(const GltfDocument& document, nlohmann::json& hold
 void use_extension(nlohmann::json& root, const std::string& name);
 /// A new buffer that holds these bytes, and the index of a view of it.
 size_t add_buffer_view(nlohmann::json& root, std::span<const uint8_t> bytes);
-/// "%.4g"
-std::string decimal(double value);
 std::string in_quotes(const std::string& name);
 
 /// Removes the lights there are, puts lamps on nodes.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/display_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -58,7 +59,9 @@ void read_table(Display& display, const JsonValue& value) {
         display.table.push_back(sample);
     }
     if (display.table.back().code != 1) rows.back().fail("must be of the largest code, " + std::to_string(display.largest_code()));
-    display.black = float(display.table.front().luminance);
+    double& black = display.table.front().luminance;
+    if (black < kLeastBlack && display.table[1].luminance > kLeastBlack) black = kLeastBlack;
+    display.black = float(black);
     display.peak = float(display.table.back().luminance);
 }
 
@@ -87,7 +90,7 @@ Display read_display(const std::filesystem::path& file) {
     } else {
         refuse("table", "has a meaning only with the eotf table");
         display.peak = float(root.at("peak_cd_m2").number(0.1, 1e5));
-        display.black = float(root.at("black_cd_m2").number(0, 1e3));
+        display.black = std::max(float(root.at("black_cd_m2").number(0, 1e3)), float(kLeastBlack));
     }
     display.ambient = float(root.number_or("ambient_lx", 0, 0, 1e5));
     display.reflection = float(root.number_or("reflection", 0.01, 0, 1));

@@ -1,10 +1,10 @@
 // Rules of glTF 2.0 for its JSON: what each property is, from where to where, and which there must be. SPDX-License-Identifier: MIT
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "base/decimal.h"
 #include "scene/gltf_rules.h"
 
 namespace vesper {
@@ -187,15 +187,10 @@ private:
         if (!std::isfinite(number)) return note_(at, "is not finite");
         if (number == 0 && property.flags & kOrZero) return;
         if (number < property.low || (number == property.low && property.flags & kNotLow)) {
-            note_(at, (property.flags & kNotLow ? "is not more than " : "is less than ") + decimal(property.low));
+            note_(at, (property.flags & kNotLow ? "is not more than " : "is less than ") + decimal(property.low, 6));
         } else if (number > property.high) {
-            note_(at, "is more than " + decimal(property.high));
+            note_(at, "is more than " + decimal(property.high, 6));
         }
-    }
-    static std::string decimal(double number) {
-        char digits[32];
-        std::snprintf(digits, sizeof digits, "%g", number);
-        return digits;
     }
 
     const GltfLists& lists_;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
+#include "base/decimal.h"
 #include "base/error.h"
 #include "base/limits.h"
 #include "io/atomic_file.h"
@@ -28,12 +28,6 @@ std::optional<std::string> pointer_to(const nlohmann::json& here, const nlohmann
             if (auto rest = pointer_to(here[i], wanted)) return "/" + std::to_string(i) + *rest;
     }
     return std::nullopt;
-}
-
-std::string decimal(double value) {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.6g", value);
-    return digits;
 }
 
 // nlohmann::json takes memory to go, and ends the program where there is none: so it goes empty. Depth is bounded by parse_json.
@@ -104,8 +98,8 @@ double JsonValue::number(double low, double high) const {
     const double number = value_->get<double>();
     if (!std::isfinite(number) || std::abs(number) > FLT_MAX) fail("must be a finite number");
     if (number < low || number > high) {
-        if (high == FLT_MAX) fail("must be at least " + decimal(low) + ", is " + decimal(number));
-        fail("must be from " + decimal(low) + " to " + decimal(high) + ", is " + decimal(number));
+        if (high == FLT_MAX) fail("must be at least " + decimal(low, 6) + ", is " + decimal(number, 6));
+        fail("must be from " + decimal(low, 6) + " to " + decimal(high, 6) + ", is " + decimal(number, 6));
     }
     return number;
 }

@@ -70,6 +70,21 @@ TEST_F(GlareProgram, ALampElsewhereVeilsABlackPicture) {
     EXPECT_NEAR(std::stod(header("out.exr", "vesper:glare:veil")), e * cie_general_glare(10, {60, 1}) + below * cie_general_glare(40, {60, 1}), 1e-6);
 }
 
+// Other columns or units than there are would be read as what they are not.
+TEST_F(GlareProgram, HeadingsOfLampListsAreRead) {
+    write_layout(folder / "black.exr", {16, 10, std::vector<float>(size_t{3} * 16 * 10, 0), 0, {}}, {});
+    const auto veil = [&](const std::string& text) {
+        write("lamps.csv", text);
+        return run("tonemap black.exr --scale 1 --fov 8 --glare cie --lamps lamps.csv -o out.exr") == 0 ? header("out.exr", "vesper:glare:veil") : said;
+    };
+    const std::string wanted = veil("20,0,5\n");
+    for (const char* good : {"azimuth,elevation,lx\n20,0,5\n", "azimuth [deg]; elevation [deg]; E_v [lx]\n20;0;5,0\n", "# lamps\nto the right\tup\tilluminance\n20\t0\t5\n", "a,b,c\n20,0,5\n"})
+        EXPECT_EQ(veil(good), wanted) << good;
+    for (const char* bad : {"lx,azimuth,elevation\n5,20,0\n", "azimuth_rad,elevation_rad,lx\n1,0,5\n", "azimuth,elevation,cd\n20,0,5\n", "frame,lamp,azimuth,elevation\n0,x,20,0\n"})
+        EXPECT_NE(veil(bad).find("lamps.csv: line 1: "), std::string::npos) << bad << said;
+    for (const char* bad : {"20,0,x\n", "20,0,5\na,b,c\n", "20;0,5\n"}) EXPECT_NE(veil(bad).find("lamps.csv: line "), std::string::npos) << bad << said;
+}
+
 TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {
     for (const double aside : {0.5, 12.0}) {
         write_lamp(aside);

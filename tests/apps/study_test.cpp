@@ -166,7 +166,7 @@ TEST_F(StudyProgram, OperatorsShowContrastAndVisibility) {
     expect_page("out/operators.html");
     expect_refused("study operators street.exr -o out --operator ldr", {"ldr"});
     expect_refused("study operators street.exr -o out --contrast 0");
-    expect_refused("study mip street.exr -o out --operator linear", {"linear", "histogram"});
+    expect_refused("study mip street.exr -o out --fov 40 --operator linear", {"linear", "histogram"});
 }
 
 TEST_F(StudyProgram, RefusesInOneLine) {

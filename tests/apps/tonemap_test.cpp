@@ -89,11 +89,75 @@ TEST_F(TonemapProgram, TheUnitIsTheFilesOrTheOneGiven) {
     ASSERT_EQ(tonemap("relative.exr --scale 250 -o scaled.png"), 0);
     EXPECT_EQ(said, "");
     ASSERT_EQ(tonemap("absolute.exr --scale 1 -o unscaled.png"), 0);
+    EXPECT_NE(said.find("says that 1.0 is 250 cd/m^2: --scale 1 is taken"), std::string::npos) << said;
     EXPECT_EQ(difference("absolute.png", "scaled.png"), 0);
     EXPECT_EQ(difference("relative.png", "unscaled.png"), 0);
     EXPECT_GT(difference("relative.png", "scaled.png"), 0);
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScale"), "250");
     EXPECT_EQ(header("on-display.exr", "whiteLuminance"), "1");
+}
+
+// Each is told once, by the first picture that lacks it; where a sequence changes its unit is told, too.
+TEST_F(TonemapProgram, WhatPicturesDoNotSayIsNoted) {
+    fs::create_directory(folder / "many");
+    write_layout(folder / "a.exr", street(30, 20), {.white_luminance = 10});
+    for (const char* name : {"b.exr", "c.exr"}) write_layout(folder / name, street(30, 20), {});
+    ASSERT_EQ(tonemap("a.exr b.exr c.exr -o many/"), 0);
+    EXPECT_EQ(said, "note: b.exr: its header names no unit: taken as cd/m^2 (--scale tells another)\n");
+    ASSERT_EQ(tonemap("a.exr b.exr c.exr --fps 30 -o many/"), 0);
+    EXPECT_NE(said.find("note: b.exr: 1.0 is 1 cd/m^2 from here on, and was 10\n"), std::string::npos) << said;
+    ASSERT_EQ(tonemap("a.exr --glare cie -o a.png"), 0);
+    EXPECT_EQ(said, "note: a.exr: its header names no angle: taken as 40 degrees high (--fov tells another)\n");
+    ASSERT_EQ(tonemap("a.exr --glare cie --fov 30 -o a.png"), 0);
+    EXPECT_EQ(said, "");
+}
+
+// Radiance's own angle, the picture's height moved by a lift; other projections have none.
+TEST_F(TonemapProgram, ViewsOfRadianceTellTheAngle) {
+    const auto angle = [&](const std::string& header) {
+        folder.write("v.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + header + "\n-Y 1 +X 2\n" + std::string(4, char(128)) + std::string(4, char(129)));
+        EXPECT_EQ(tonemap("v.hdr --scale 179 --glare cie --stats -o v.png"), 0) << said;
+        const size_t at = printed.find("degrees)");
+        return at == std::string::npos ? 0.0 : std::stod(printed.substr(printed.rfind('(', at) + 1));
+    };
+    EXPECT_NEAR(angle("VIEW= -vtv -vp 0 0 1 -vd 0 1 0 -vh 20 -vv 15 -vs 0 -vl 0\n"), 15, 0.01);
+    EXPECT_EQ(said.find("no angle"), std::string::npos) << said;
+    EXPECT_NEAR(angle("VIEW= -vtv -vv 60\nVIEW= -vtv -vv 15\n"), 15, 0.01);
+    EXPECT_NEAR(angle("VIEW= -vtv -vv 40 -vl 0.5\n"), 36.1, 0.1) << "atan(2 tan 20)";
+    EXPECT_NEAR(angle("VIEW= -vta -vh 180 -vv 180\n"), 40, 0.01);
+    EXPECT_NE(said.find("no angle"), std::string::npos) << said;
+    EXPECT_NEAR(angle("PIXASPECT=0.5\n"), 40, 0.01);
+    EXPECT_NE(said.find("its pixels are not square (0.5)"), std::string::npos) << said;
+}
+
+TEST_F(TonemapProgram, TargetsArePrinted) {
+    write_layout(folder / "a.exr", uniform(64, 48, 2), {.white_luminance = 1});
+    ASSERT_EQ(tonemap("a.exr --fov 20 --target .4,.4,.2,.2 -o a.png"), 0) << said;
+    EXPECT_EQ(printed, "a.exr: target 2 cd/m^2 on 2 cd/m^2, veil 0 cd/m^2, visibility level 0\n");
+}
+
+// The sRGB chunk says sRGB: other displays name what they are, or nothing.
+TEST_F(TonemapProgram, PngsSayWhatTheirCodesMean) {
+    write_layout(folder / "a.exr", uniform(4, 4, 2), {.white_luminance = 1});
+    const auto chunks = [&](const std::string& display) {
+        EXPECT_EQ(tonemap("a.exr --display " + display + " -o a.png"), 0) << said;
+        const auto bytes = read_file(folder / "a.png", 1u << 20);
+        return std::string(bytes.begin(), bytes.end());
+    };
+    const auto profile = [&](const std::string& rest) {
+        folder.write("d.json", R"({"version": 1, "peak_cd_m2": 100, "black_cd_m2": 0.1, )" + rest + "}");
+        return chunks("d.json");
+    };
+    const auto cicp = [](int primaries, int transfer) { return std::string("cICP") + char(primaries) + char(transfer) + std::string("\0\1", 2); };
+    EXPECT_TRUE(contains(chunks("desk"), "sRGB"));
+    EXPECT_TRUE(contains(chunks("hdr10"), cicp(9, 16)));
+    const std::string gamma = profile(R"("eotf": "gamma", "gamma": 2.6)");
+    EXPECT_FALSE(contains(gamma, "sRGB"));
+    EXPECT_FALSE(contains(gamma, "cICP"));
+    EXPECT_TRUE(contains(profile(R"("eotf": "pq", "bits": 8, "primaries": "rec2020")"), cicp(9, 16)));
+    EXPECT_TRUE(contains(profile(R"("eotf": "srgb", "primaries": "p3")"), cicp(12, 13)));
+    EXPECT_TRUE(contains(profile(R"("eotf": "gamma", "gamma": 2.2, "primaries": "rec2020")"), cicp(9, 4)));
+    EXPECT_TRUE(contains(profile(R"("eotf": "pq", "primaries": {"red": [0.66, 0.33], "green": [0.25, 0.65], "blue": [0.15, 0.06], "white": [0.3127, 0.329]})"), cicp(2, 16)));
 }
 
 TEST_F(TonemapProgram, AnglesSetTheFovealLevel) {

@@ -263,6 +263,18 @@ TEST(HdrExr, ConvertsPrimariesToRec709) {
     EXPECT_TRUE(contains(refusal(folder / "x.exr"), "primaries"));
 }
 
+// X, Y and Z in no layer are colours, in a layer or a named part normals or places: no picture.
+TEST(HdrExr, TellsTristimulusValuesFromVectors) {
+    const TempFolder folder;
+    write(folder / "xyz.exr", Imf::Header(2, 1), {0.950456f, 1.0f, 1.089058f, 0.412391f, 0.212639f, 0.019331f}, {"X", "Y", "Z"});
+    expect_values(read_exr(folder / "xyz.exr"), {1, 1, 1, 1, 0, 0}, 3e-4);
+    write(folder / "render.exr", Imf::Header(1, 1), {1, 2, 3, 9, 9, 9}, {"View.Combined.R", "View.Combined.G", "View.Combined.B", "View.Normal.X", "View.Normal.Y", "View.Normal.Z"});
+    expect_values(read_exr(folder / "render.exr"), {1, 2, 3});
+    EXPECT_TRUE(contains(refusal(folder / "render.exr", {}, "View.Normal"), "no layer View.Normal; it has View.Combined"));
+    write(folder / "normal.exr", Imf::Header(1, 1), {9, 9, 9}, {"N.X", "N.Y", "N.Z"});
+    EXPECT_TRUE(contains(refusal(folder / "normal.exr"), "no channels R, G, B or Y of a picture; it has N.X, N.Y, N.Z"));
+}
+
 TEST(HdrExr, ReadsOurOwnWithHeaderAndUnit) {
     const TempFolder folder;
     const Values rgba = {1e-4f, 1, 1e8f, 1, 65504, 70000, 0, 1};

@@ -62,11 +62,28 @@ TEST(ImageFile, WritesPngThatReadsBack) {
     EXPECT_THROW(write_png(folder / "no/x.png", 7, 5, rgba), Error);
 }
 
+// Chunks of 8 bits: sRGB unless said otherwise.
+TEST(ImageFile, SaysWhatTheCodesMean) {
+    const TempFolder folder;
+    const auto chunks = [&](PngColour colour) {
+        write_png(folder / "x.png", 1, 1, std::vector<uint8_t>(4, 200), colour);
+        const std::vector<uint8_t> file = read_file(folder / "x.png", 1u << 20);
+        return std::string(file.begin(), file.end());
+    };
+    EXPECT_TRUE(contains(chunks(kPngSrgb), "sRGB"));
+    EXPECT_FALSE(contains(chunks(kPngSrgb), "cICP"));
+    EXPECT_TRUE(contains(chunks({9, 16}), std::string("cICP\x09\x10\x00\x01", 8)));
+    EXPECT_TRUE(contains(chunks({12, 13}), std::string("cICP\x0c\x0d\x00\x01", 8)));
+    EXPECT_FALSE(contains(chunks({12, 13}), "sRGB"));
+    EXPECT_FALSE(contains(chunks({}), "sRGB"));
+    EXPECT_FALSE(contains(chunks({}), "cICP"));
+}
+
 // 10 bits become 16 with the upper ones repeated below; sBIT and, for PQ, cICP say what they are.
 TEST(ImageFile, WritesPngOfTenBits) {
     const TempFolder folder;
     const std::vector<uint32_t> words{0u, 1023u | 512u << 10 | 1u << 20 | 3u << 30};
-    write_png_10bit(folder / "x.png", 2, 1, words, PngColour::Rec2020Pq);
+    write_png_10bit(folder / "x.png", 2, 1, words, {9, 16});
     const std::vector<uint8_t> file = read_file(folder / "x.png", 1u << 20);
     const std::string text(file.begin(), file.end());
     EXPECT_NE(text.find("sBIT\x0a\x0a\x0a"), std::string::npos);
@@ -85,10 +102,10 @@ TEST(ImageFile, WritesPngOfTenBits) {
     EXPECT_EQ(value(5), 64);
     std::fclose(stream);
     png_destroy_read_struct(&png, &header, nullptr);
-    write_png_10bit(folder / "y.png", 2, 1, words, PngColour::Unknown);
+    write_png_10bit(folder / "y.png", 2, 1, words, PngColour());
     const std::vector<uint8_t> other = read_file(folder / "y.png", 1u << 20);
-    EXPECT_EQ(std::string(other.begin(), other.end()).find("cICP"), std::string::npos);
-    EXPECT_THROW(write_png_10bit(folder / "x.png", 3, 1, words, PngColour::Unknown), Error);
+    for (const char* chunk : {"cICP", "sRGB"}) EXPECT_EQ(std::string(other.begin(), other.end()).find(chunk), std::string::npos) << chunk;
+    EXPECT_THROW(write_png_10bit(folder / "x.png", 3, 1, words, PngColour()), Error);
 }
 
 TEST(ImageFile, ReadsEveryKindOfPng) {

@@ -60,19 +60,43 @@ TEST(DisplayFit, OthersAreTables) {
     EXPECT_NO_THROW(check_display(fit.display));
 }
 
-// Codes 3 and 4 fall within the noise and 255 was measured twice: pooled, and the curve rises.
+// Codes 3 and 4 fall within the noise and 255 was measured twice: a plateau of their mean, and the curve rises.
 TEST(DisplayFit, TablesRiseThroughNoise) {
     std::vector<DisplayMeasurement> measured{{0, 0.1, 1}, {3, 0.102, 2}, {4, 0.101, 3}, {60, 5, 4}, {255, 100, 5}, {255, 102, 6}};
     const DisplayFit fit = fit_display(measured, 8, Eotf::Table);
-    ASSERT_EQ(fit.display.table.size(), 4u);
-    EXPECT_NEAR(fit.display.table[1].code * 255, 4, 1e-9) << "half a code up along the curve, as profiles hold whole codes";
-    EXPECT_GT(fit.display.table[1].luminance, 0.1015);
-    EXPECT_LT(fit.display.table[1].luminance, 0.103);
+    ASSERT_EQ(fit.display.table.size(), 5u);
+    for (const size_t i : {1u, 2u}) {
+        EXPECT_EQ(std::lround(fit.display.table[i].code * 255), long(i) + 2);
+        EXPECT_NEAR(fit.display.table[i].luminance, 0.1015, 2e-7);
+    }
     EXPECT_FLOAT_EQ(fit.display.peak, 101);
     EXPECT_NEAR(fit.residuals.back(), -1.0 / 102, 1e-6);
 }
 
-// What was pooled between two codes stays on the curve: the residuals are those of the noise, and the file is read again.
+// Limited range shown as full range: codes below 16 are black, those above 235 white; the profile says so.
+TEST(DisplayFit, CrushedAndClippedCodesStayEqual) {
+    std::vector<DisplayMeasurement> measured;
+    for (const uint32_t code : {0u, 4u, 8u, 16u, 17u, 20u, 34u, 68u, 120u, 180u, 230u, 235u, 238u, 250u, 255u})
+        measured.push_back({code, 0.05 + 8 * std::pow(std::clamp((code - 16.0) / 219, 0.0, 1.0), 2.2), measured.size() + 1});
+    const DisplayFit fit = fit_display(measured, 8);
+    EXPECT_EQ(fit.display.eotf, Eotf::Table);
+    EXPECT_LT(fit.largest, 2e-6);
+    const DisplayCurve curve(fit.display);
+    EXPECT_NEAR(curve.emitted(12 / 255.0), 0.05, 1e-6) << "between measured codes of the plateau, too";
+    EXPECT_NEAR(curve.emitted(244 / 255.0), 8.05, 1e-4);
+    for (double code = 0, before = 0; code <= 1; code += 1.0 / 255) EXPECT_GE(curve.emitted(code), before), before = curve.emitted(code);
+    EXPECT_NO_THROW(check_display(fit.display));
+}
+
+// A meter reads 0 for what it cannot tell: equally black.
+TEST(DisplayFit, ZerosAreBlack) {
+    const DisplayFit fit = fit_display(std::vector<DisplayMeasurement>{{0, 0, 1}, {5, 0, 2}, {10, 5e-7, 3}, {60, 5, 4}, {120, 20, 5}, {255, 500, 6}}, 8, Eotf::Table);
+    EXPECT_FLOAT_EQ(fit.display.black, 1e-6f);
+    EXPECT_LT(DisplayCurve(fit.display).emitted(10 / 255.0), 1.1e-6);
+    EXPECT_NO_THROW(check_display(fit.display));
+}
+
+// The residuals are those of the noise, and the file is read again.
 TEST(DisplayFit, PooledTablesAreReadAgain) {
     const TempFolder folder;
     std::mt19937 random(7);
@@ -87,7 +111,6 @@ TEST(DisplayFit, PooledTablesAreReadAgain) {
         }
         const auto measured = read_display_measurements(folder.write("m.csv", text), 8);
         const DisplayFit fit = fit_display(measured, 8, Eotf::Table);
-        ASSERT_LT(fit.display.table.size(), measured.size()) << "nothing was pooled";
         EXPECT_LT(fit.largest, largest - least);
         EXPECT_LT(fit.rms, 0.011);
         const Display again = read_display(folder.write("d.json", display_json(fit.display, "")));

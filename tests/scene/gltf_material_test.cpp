@@ -90,7 +90,7 @@ TEST(GltfMaterial, NotesWhatIsReadWithAChange) {
 TEST(GltfMaterial, SaysWhatIsNotRead) {
     GltfFile file = with_material({{"occlusionTexture", {{"index", 0}}}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     const TempFolder folder;
-    write_png_10bit(folder / "x.png", 1, 1, std::vector<uint32_t>{3u << 30 | 1000}, PngColour::Unknown);
+    write_png_10bit(folder / "x.png", 1, 1, std::vector<uint32_t>{3u << 30 | 1000}, PngColour());
     const std::string text = read_text(folder / "x.png");
     add_texture(file, encode_data_uri("image/png", {reinterpret_cast<const uint8_t*>(text.data()), text.size()}));
     file.root["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 2}}}});

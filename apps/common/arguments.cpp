@@ -30,7 +30,12 @@ void Files::writes(const std::string& option, const std::string& file) {
     if (!folder.empty() && !std::filesystem::is_directory(folder, failed)) throw Error(place + "there is no folder " + one_line(folder.string()));
     const std::string name = true_name(file);
     if (read_.contains(name)) throw Error(place + "would replace what is read");
-    if (!written_.insert(name).second) throw Error(place + "would be written twice");
+    if (!written_.emplace(name, place).second) throw Error(place + "would be written twice");
+}
+
+void Files::spare(const FilesRead& read) const {
+    for (const auto& [name, place] : written_)
+        if (read.contains(name)) throw Error(place + "would replace what is read");
 }
 
 std::string in_shell(const std::string& value) {

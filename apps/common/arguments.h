@@ -1,10 +1,13 @@
 // What the commands share: checks of arguments, texts. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 
 #include <CLI/CLI.hpp>
+
+#include "io/files_read.h"
 
 namespace vesper {
 
@@ -15,9 +18,12 @@ public:
     void reads(const std::string& file);
     /// Throws Error if the folder that `file` is to be written to does not exist, if the file is read or written twice.
     void writes(const std::string& option, const std::string& file);
+    /// Throws Error if something that is written was read since, whatever named it.
+    void spare(const FilesRead&) const;
 
 private:
-    std::set<std::string> read_, written_;
+    std::set<std::string> read_;
+    std::map<std::string, std::string> written_;  // and what the message begins with
 };
 /// A number in a range; not-a-number is in none.
 CLI::Validator between(double low, double high);

@@ -1,7 +1,9 @@
 #include "program.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
 #include <string>
 
@@ -25,6 +27,13 @@ void keep_freed_memory() {
 #endif
 }
 
+/// Whether all that was printed has got where it goes; says otherwise on standard error.
+bool output_ended(const std::string& program) {
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
+    std::fprintf(stderr, "%s: standard output: %s\n", program.c_str(), std::strerror(errno));
+    return false;
+}
+
 }  // namespace
 
 int run_program(CLI::App& program, int argc, char** argv) {
@@ -32,8 +41,12 @@ int run_program(CLI::App& program, int argc, char** argv) {
     const std::string name = program.get_name();
     try {
         program.parse(argc, argv);
+        if (!output_ended(name)) return kBadInput;
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+        if (error.get_exit_code() == 0) {  // --help, --version
+            program.exit(error);
+            return output_ended(name) ? 0 : kBadInput;
+        }
         std::string message = error.what();
         std::replace(message.begin(), message.end(), '\n', ' ');
         std::fprintf(stderr, "%s: %s (--help shows what is possible)\n", name.c_str(), one_line(message, 1000).c_str());

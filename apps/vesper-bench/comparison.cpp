@@ -3,6 +3,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "io/atomic_file.h"
 #include "result.h"
 
 namespace vesper {
@@ -13,9 +14,11 @@ bool alike(const RunSettings& a, const RunSettings& b) {
            a.channels == b.channels && a.lamps == b.lamps && a.triangles == b.triangles && a.threshold == b.threshold;
 }
 
-std::string row(const std::string& name, const Spread& a, const Spread& b) {
+// `laps`: whether there were several of either; one says nothing about the next.
+std::string row(const std::string& name, const Spread& a, const Spread& b, bool laps) {
     const Ratio r = ratio(a, b);
     const std::string numbers = "  " + column(name, 36) + format(" %9.2f %9.2f", a.median, b.median);
+    if (!laps && r.median > 0) return numbers + format("  %6.3f\n", r.median);
     return numbers + (r.median > 0 ? format("  %6.3f  (%.3f to %.3f)\n", r.median, r.low, r.high) : "       -\n");
 }
 
@@ -26,15 +29,16 @@ std::string row(const std::string& name, double a, double b) {
 
 std::string compare_runs(const RunResult& a, const RunResult& b) {
     constexpr double kMiB = 1 << 20;
+    const bool laps = a.settings.laps > 1 || b.settings.laps > 1;
     std::string text = a.settings.title() + a.settings.details();
     if (!alike(a.settings, b.settings)) text += "\nwith " + b.settings.title() + b.settings.details();
-    text += "\n  " + column("", 36) + "         A         B   B / A  (as laps differ)\n" + row("frame, ms", a.frame, b.frame) + row("frame, 99 %, ms", a.p99, b.p99);
-    for (size_t i = 0; i < kHostParts.size(); ++i) text += row(std::string("host: ") + kHostParts[i] + ", ms", a.host[i], b.host[i]);
+    text += "\n  " + column("", 36) + "         A         B   B / A  (as laps differ)\n" + row("frame, ms", a.frame, b.frame, laps) + row("frame, 99 %, ms", a.p99, b.p99);
+    for (size_t i = 0; i < kHostParts.size(); ++i) text += row(std::string("host: ") + kHostParts[i] + ", ms", a.host[i], b.host[i], laps);
     std::string only;
     for (const PassResult& pass : a.passes) {
         const auto other = std::find_if(b.passes.begin(), b.passes.end(), [&](const PassResult& p) { return p.name == pass.name; });
         if (other != b.passes.end())
-            text += row("pass: " + pass.name + ", ms", pass.ms, other->ms);
+            text += row("pass: " + pass.name + ", ms", pass.ms, other->ms, laps);
         else
             only += "  pass: " + pass.name + format(", %.2f ms, is in A alone\n", pass.ms.median);
     }
@@ -55,6 +59,7 @@ std::string who(const char* name, const BenchResult& r) { return std::string(nam
 
 std::string comparison(const BenchResult& a, const BenchResult& b) {
     std::string text = who("A", a) + who("B", b);
+    if (a.command != b.command) text += "A with: " + one_line(a.command, 1000) + "\nB with: " + one_line(b.command, 1000) + "\n";
     if (a.runs.size() == 1 && b.runs.size() == 1) return text + compare_runs(a.runs[0], b.runs[0]);
     bool any = false;
     for (const RunResult& run : a.runs)

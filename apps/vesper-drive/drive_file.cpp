@@ -89,7 +89,8 @@ DriveSettings::Values read_values(const JsonValue& object) {
 // What an event of a file says, added to a drive. `input`: of the step before.
 void read_event(const JsonValue& event, uint64_t place, DriverInput& input, DriveEvents& events) {
     event.allow_only({"step", "pose", "frame", "set", "restart"});
-    if (event.json().size() != (event.find("step") ? 2 : 1)) event.fail("is more than one step, frame, set or restart");
+    if (event.find("pose") && !event.find("step")) event.fail("has a pose without a step");
+    if (event.json().size() != (event.find("pose") ? 2 : 1)) event.fail("is more than one step, frame, set or restart");
     const auto happens = [&](const char* name) {
         const auto found_event = event.find(name);
         if (found_event && !(found_event->json().is_boolean() && found_event->json().get<bool>())) found_event->fail("must be true");
@@ -97,8 +98,12 @@ void read_event(const JsonValue& event, uint64_t place, DriverInput& input, Driv
     };
     if (const auto step = event.find("step")) {
         input = read_input(*step, input);
-        const auto pose = event.at("pose").elements(4);
-        events.push_back({.kind = DriveEvent::Kind::Step, .input = input, .pose = glm::dvec4(pose[0].number(), pose[1].number(), pose[2].number(), pose[3].number()), .name = {}, .value = {}});
+        DriveEvent driven{.kind = DriveEvent::Kind::Step, .input = input, .pose = {}, .name = {}, .value = {}};
+        if (const auto stated = event.find("pose")) {
+            const auto pose = stated->elements(4);
+            driven.pose = glm::dvec4(pose[0].number(), pose[1].number(), pose[2].number(), pose[3].number());
+        }
+        events.push_back(driven);
     } else if (const auto set = event.find("set")) {
         for (const auto& [name, value] : read_values(*set)) events.push_back({.kind = DriveEvent::Kind::Set, .input = {}, .pose = {}, .name = name, .value = value, .place = place});
     } else if (happens("frame")) {
@@ -122,10 +127,9 @@ public:
         try {
             std::ignore = json::parse(text.begin(), text.end(), [this](int depth, json::parse_event_t at, json& value) { return take(depth, at, value); });
         } catch (const json::parse_error& error) {
-            // A file whose program ended early is whole up to its last line.
-            const auto rest = text.subspan(std::min(text.size(), size_t(error.byte)));
+            // A file whose program ended early is whole as far as it goes.
             drive_.complete = false;
-            if (key_ != "events" || std::find(rest.begin(), rest.end(), '\n') != rest.end()) throw Error(name_ + ": byte " + std::to_string(error.byte) + ": not valid JSON");
+            if (key_ != "events" || error.byte < text.size()) throw Error(name_ + ": byte " + std::to_string(error.byte) + ": not valid JSON");
             rest_[key_] = json::array();
         } catch (const json::exception& error) {  // a number beyond double
             throw Error(name_ + ": not valid JSON: " + one_line(error.what()));

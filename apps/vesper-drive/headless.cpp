@@ -45,17 +45,19 @@ DriveEvents evenly(const DriveEvents& events, double time_step, double fps) {
     return made;
 }
 
-// Frames a second that a film of recorded frames plays with.
-double rate_of(const DriveEvents& events, double time_step) {
+// Frames a second that a film of recorded frames plays with, and whether they were recorded at that rate.
+std::pair<double, bool> rate_of(const DriveEvents& events, double time_step) {
     std::vector<unsigned> strides;
     unsigned steps = 0;
     for (const DriveEvent& event : events) {
         if (event.kind == DriveEvent::Kind::Step) ++steps;
         if (event.kind == DriveEvent::Kind::Frame && steps > 0) strides.push_back(std::exchange(steps, 0));
     }
-    if (strides.empty()) return 30;
+    if (strides.empty()) return {30, true};
+    const auto [least, most] = std::minmax_element(strides.begin(), strides.end());
+    const bool even = *least == *most;
     std::nth_element(strides.begin(), strides.begin() + strides.size() / 2, strides.end());
-    return 1 / (strides[strides.size() / 2] * time_step);
+    return {1 / (strides[strides.size() / 2] * time_step), even};
 }
 
 /// Where frames go.
@@ -181,7 +183,11 @@ void run_headless(const DriveArguments& a) {
     for (long left = replays ? 0 : std::lround(a.seconds / options.time_step); left > 0; --left) drive.events.push_back(step);
     const bool own_frames = drive.events.frames() > 0 && a.fps == 0;
     if (outlet.wanted() && !own_frames) drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : 30);
-    const double fps = own_frames ? rate_of(drive.events, options.time_step) : std::min(a.fps > 0 ? a.fps : 30, 1 / options.time_step);
+    const double most = 1 / options.time_step;
+    if (a.fps > most * (1 + 1e-6)) throw Error(format("--fps %g: the world goes on in steps of %.4g s, so there are at most %.4g frames a second", a.fps, options.time_step, most));
+    const auto [fps, even] = own_frames ? rate_of(drive.events, options.time_step) : std::pair(std::min(a.fps > 0 ? a.fps : 30, most), true);
+    if (!even && a.video.ends_with(".mp4"))
+        std::fprintf(stderr, "note: frames were not recorded at an even rate: the film shows them at %.4g a second, and not in real time (--fps 30 takes frames at an even rate)\n", fps);
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
 
     Scenery scenery(options.scene, options.run, options.scenario);

@@ -99,7 +99,12 @@ Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scen
         LoadedScene loaded = load(world.scene, world.photometry);
         notes_ = notes_of(loaded, world.scene.string()), scene_ = std::move(loaded.scene);
         scene_.name = world.scene.string();
+        const LampRoles roles = world.roles;
+        const std::vector<std::string> by_day = world.by_day;
         adopt(std::move(world));
+        for (const auto& [place, names] : {std::pair("/lamps/low", &roles.low), std::pair("/lamps/high", &roles.high), std::pair("/lamps/tail", &roles.tail), std::pair("/lamps/brake", &roles.brake),
+                                           std::pair("/lamps/left", &roles.left), std::pair("/lamps/right", &roles.right), std::pair("/lit_by_day", &by_day)})
+            for (size_t i = 0; i < names->size(); ++i) require_lamp((*names)[i], one_line(file.string()) + ": " + place + "/" + std::to_string(i));
     } else if (extension == ".gltf" || extension == ".glb") {
         LoadedScene loaded = load(file, {});
         notes_ = notes_of(loaded, file.string()), scene_ = std::move(loaded.scene);
@@ -175,14 +180,15 @@ std::vector<LampGroup> Scenery::lamp_groups() const {
 }
 
 const DriveSettings& Scenery::check(const DriveSettings& settings) const {
-    for (const auto& dimmed : settings.lamps()) {
-        const std::string& name = dimmed.first;
-        if (std::any_of(lamps_.begin(), lamps_.end(), [&](const Lamp& lamp) { return lamp.name == name; })) continue;
-        std::string names;
-        for (const LampGroup& group : lamp_groups()) names += (names.empty() ? "" : ", ") + group.name;
-        throw Error("--lamp " + one_line(name) + ": the scene has no lamp of that name; it has " + (names.empty() ? "none" : one_line(names, 1000)));
-    }
+    for (const auto& dimmed : settings.lamps()) require_lamp(dimmed.first, "--lamp " + one_line(dimmed.first));
     return settings;
+}
+
+void Scenery::require_lamp(const std::string& name, const std::string& place) const {
+    if (std::any_of(lamps_.begin(), lamps_.end(), [&](const Lamp& lamp) { return lamp.name == name; })) return;
+    std::string names;
+    for (const LampGroup& group : lamp_groups()) names += (names.empty() ? "" : ", ") + group.name;
+    throw Error(place + ": the scene has no lamp of that name; it has " + (names.empty() ? "none" : one_line(names, 1000)));
 }
 
 bool Scenery::shines(const Lamp& lamp, const std::vector<Actor>& actors, bool bright) const {

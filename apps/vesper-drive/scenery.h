@@ -52,6 +52,8 @@ private:
         std::string name;
     };
     void adopt(WorldFile);
+    /// Throws Error, which begins with `place`, where no lamp of the scene has that name.
+    void require_lamp(const std::string& name, const std::string& place) const;
     void find_lamps(const LampRoles&, const std::vector<std::string>& by_day);
     bool shines(const Lamp&, const std::vector<Actor>&, bool bright) const;
 

@@ -47,6 +47,7 @@ void run(const InspectArguments& a) {
     files.writes("--json", a.json);
     if (!a.picture.empty() && !a.picture.ends_with(".png")) throw Error("-o " + a.picture + ": a .png file is expected");
     files.writes("-o", a.picture);
+    const FilesRead read;
     const Kind kind = kind_of(a.file);
     const auto only = [&](bool given, Kind wanted, const char* what) {
         if (given && kind != wanted) throw Error(what);
@@ -71,6 +72,7 @@ void run(const InspectArguments& a) {
             found = inspect_picture(a);
             break;
     }
+    files.spare(read);
     std::fputs(found.text.c_str(), stdout);
     if (!a.json.empty())
         write_text(a.json, found.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");

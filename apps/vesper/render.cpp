@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +11,7 @@
 #include "commands.h"
 #include "glare_arguments.h"
 #include "io/atomic_file.h"
+#include "io/growing_file.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
 #include "picture_arguments.h"
@@ -104,8 +106,14 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
     }
 }
 
-// Everything that can be wrong with the arguments alone, and what follows from them.
-void check_arguments(RenderArguments& arguments) {
+// Of many frames only the first has a name that is looked at before anything is rendered.
+void spare_numbered(const RenderArguments& arguments, unsigned index, const FilesRead& read) {
+    for (const std::string& output : arguments.outputs)
+        if (const std::string file = file_of_frame(output, index, arguments.frames); read.contains(file)) throw Error("-o " + one_line(file) + ": would replace what is read");
+}
+
+// Everything that can be wrong with the arguments alone, and what follows from them. What is read and written.
+Files check_arguments(RenderArguments& arguments) {
     RenderSettings& settings = arguments.settings;
     static_cast<ToneChainSettings&>(settings) = tone_settings(arguments.tone);
     settings.paper_lambert = arguments.lambert == "paper";
@@ -120,10 +128,13 @@ void check_arguments(RenderArguments& arguments) {
         files.writes("-o", file_of_frame(output, 0, arguments.frames));
     }
     files.writes("--stats-json", arguments.statistics_file);
-    files.writes("--log", arguments.log_file);
-    files.writes("--glare-sources", arguments.sources_file);
+    for (const auto& [option, file] : {std::pair("--log", arguments.log_file), std::pair("--glare-sources", arguments.sources_file)}) {
+        files.writes(option, file);
+        files.writes(option, GrowingFile::part_of(file));  // where it grows
+    }
     if (arguments.outputs.empty() && arguments.log_file.empty() && arguments.sources_file.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan)
         throw Error("nothing to do: give -o, --stats, --stats-json, --log, --glare-sources or --plan");
+    return files;
 }
 
 // A frame to render: its time, how long after the one before, and, in a replay, what the eye remembers.
@@ -167,7 +178,7 @@ std::vector<Moment> moments_of(const RenderArguments& arguments) {
 
 void run(RenderArguments& arguments) {
     const VkExtent2D extent = parse_size(arguments.size);
-    check_arguments(arguments);
+    const Files files = check_arguments(arguments);
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
     Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs) (output.ends_with(".png") ? outputs.display : outputs.scene) = true;
@@ -176,12 +187,15 @@ void run(RenderArguments& arguments) {
     // Glare is read off luminances.
     const bool ldr = arguments.settings.tone_operator == Operator::Ldr;
     const bool logs_glare = !arguments.log_file.empty() && !ldr;
-    outputs.scene |= logs_glare;
+    const bool wants_target = !arguments.glare.target.empty() && !ldr;
+    outputs.scene |= logs_glare || wants_target;
 
+    const FilesRead read;
     const std::vector<Moment> moments = moments_of(arguments);
     arguments.frames = unsigned(moments.size());
     LoadedScene loaded = read_gltf(arguments.scene);
     loaded.scene.name = arguments.scene;
+    files.spare(read);
     for (const std::string& note : loaded.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     const Scene& scene = loaded.scene;
     SceneFrame moment{world_transforms(scene, moments.front().seconds)};
@@ -193,7 +207,11 @@ void run(RenderArguments& arguments) {
     Renderer renderer(device, scene);
     Progress progress("rendering", arguments.frames);
     std::vector<double> milliseconds;
-    std::string log = log_heading(), sources = glare_sources_heading();
+    std::optional<GrowingFile> log, sources;
+    const auto begin = [](std::optional<GrowingFile>& grows, const std::string& file, const std::string& heading) {
+        if (!file.empty()) grows.emplace(file).append(heading);
+    };
+    begin(log, arguments.log_file, log_heading()), begin(sources, arguments.sources_file, glare_sources_heading());
     for (unsigned index = 0; index < arguments.frames; ++index) {
         const auto& [seconds, step, eye] = moments[index];
         if (eye) renderer.set_eye(*eye);
@@ -206,19 +224,21 @@ void run(RenderArguments& arguments) {
         if (const std::string note = photometry_note(loaded, arguments.scene); index == 0 && !note.empty()) std::fprintf(stderr, "note: %s\n", note.c_str());
         GlareReport glare;
         if (outputs.scene && !ldr) glare = glare_of(arguments.glare, arguments.settings, frame, angles_of(view), frame.outside);
+        if (arguments.frames > 1) spare_numbered(arguments, index, read);
         write_outputs(arguments, device, view, frame, glare, index, seconds);
-        if (!arguments.log_file.empty()) log += log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display, glare);
-        if (!arguments.sources_file.empty()) sources += glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye);
+        if (log) log->append(log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display, glare));
+        if (sources) sources->append(glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));
         if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);
         if (last) {
+            if (wants_target) std::fputs(target_line(glare).c_str(), stdout);
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
             if (!arguments.statistics_file.empty())
                 write_text(arguments.statistics_file, json_of(luminance_statistics(frame.scene)) + "\n");
         }
         progress.step();
     }
-    if (!arguments.log_file.empty()) write_text(arguments.log_file, log);
-    if (!arguments.sources_file.empty()) write_text(arguments.sources_file, sources);
+    if (log) log->complete();
+    if (sources) sources->complete();
 }
 
 }  // namespace

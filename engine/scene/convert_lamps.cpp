@@ -160,7 +160,9 @@ Reference reference_of(Conversion& conversion, const LampRule& rule) {
 void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& reference, uint32_t node,
               glm::dvec3 scale) {
     json& root = conversion.document.edit();
-    const bool plain = !rule.aim && !rule.turn && rule.offset == glm::dvec3(0);
+    // A measured lamp has no name but that of its node.
+    const bool named = reference.extension != kMeasured || root["nodes"][node].value("name", "") == rule.name;
+    const bool plain = named && !rule.aim && !rule.turn && rule.offset == glm::dvec3(0);
     json& extensions = object_member(conversion.document, root["nodes"][node], "extensions");
     if (plain && !extensions.contains(kLights) && !extensions.contains(kMeasured)) {
         extensions[reference.extension] = reference.use;
@@ -212,6 +214,21 @@ void warn_of_instances(Conversion& conversion, const JsonValue& node, const Lamp
                                              " is instanced; the lamp is placed once, at the node");
 }
 
+/// A scale of negative determinant turns a beam for right-hand traffic into one for left-hand, which no lamp does.
+void warn_of_mirrors(Conversion& conversion, const LampRule& rule, const std::vector<uint32_t>& nodes, const std::vector<glm::mat4>& world) {
+    if (rule.light.kind != Light::Kind::Measured) return;
+    size_t mirrored = 0;
+    std::string first;
+    for (const uint32_t node : nodes) {
+        const uint32_t placed = conversion.original.node_of[node];
+        if (placed == kNone || !(glm::determinant(glm::dmat3(world[placed])) < 0)) continue;
+        if (mirrored++ == 0) first = conversion.original.scene.nodes[placed].name;
+    }
+    if (mirrored > 0)
+        conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": node " + in_quotes(first) + (mirrored > 1 ? " and " + number_of(mirrored - 1, "other") : "") +
+                                             (mirrored > 1 ? " are" : " is") + " mirrored by a scale, and so is the distribution there: a rule of its own with \"mirror\": true undoes it");
+}
+
 }  // namespace
 
 void convert_lamps(Conversion& conversion) {
@@ -253,6 +270,7 @@ void convert_lamps(Conversion& conversion) {
                                                  (rule.nodes.size() > 1 ? " or its other patterns" : ""));
             continue;
         }
+        warn_of_mirrors(conversion, rule, matched[r], world);
         const Reference reference = reference_of(conversion, rule);
         for (const uint32_t node : matched[r])
             add_lamp(conversion, rule, reference, node, axis_lengths(conversion, world, node));

@@ -118,6 +118,33 @@ void check_named(Conversion& conversion, const EmitterRule& emitter) {
     }
 }
 
+/// Glass whose lamps are to show in it, but where none is: it is dark.
+void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining, const std::vector<glm::mat4>& world) {
+    const Scene& scene = conversion.original.scene;
+    std::vector<dvec3> lamps;
+    for (size_t r = 0; r < conversion.photometry.lamps.size(); ++r)
+        if (std::find(emitter.lamps.begin(), emitter.lamps.end(), conversion.photometry.lamps[r].name) != emitter.lamps.end())
+            for (const Placed& lamp : placed_lamps(conversion, world, r)) lamps.push_back(lamp.position);
+    size_t surfaces = 0, dark = 0;
+    std::string first;
+    for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
+        if (scene.nodes[node].mesh == kNone) continue;
+        for (const Primitive& p : scene.meshes[scene.nodes[node].mesh].primitives) {
+            if (std::find(shining.begin(), shining.end(), p.material) == shining.end() || p.vertices.empty()) continue;
+            Bounds box;
+            for (const Vertex& vertex : p.vertices) box.add(glm::vec3(world[node] * glm::vec4(vertex.position, 1)));
+            const dvec3 low(box.low), high(box.high);
+            ++surfaces;
+            if (std::any_of(lamps.begin(), lamps.end(), [&](dvec3 lamp) { return glm::distance(lamp, glm::clamp(lamp, low, high)) <= kReach; })) continue;
+            if (dark++ == 0) first = scene.nodes[node].name;
+        }
+    }
+    if (dark > 0)
+        conversion.report.warnings.push_back("emitter " + in_quotes(emitter.name) + ": " + std::to_string(dark) + " of " + std::to_string(surfaces) +
+                                             (dark == 1 ? " surfaces has" : " surfaces have") + " no lamp " + in_quotes(emitter.lamps.front()) + " within " + decimal(kReach) + " m and " +
+                                             (dark == 1 ? "is" : "are") + " dark (node " + in_quotes(first) + ")");
+}
+
 /// One emitter against one lamp rule, by the meshes beside its lamps; one line for all nodes.
 void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining,
                 size_t rule_index, const std::vector<glm::mat4>& world) {
@@ -174,7 +201,10 @@ void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_
     const std::vector<glm::mat4> world = world_transforms(conversion.original.scene, 0);
     for (size_t e = 0; e < photometry.emitters.size(); ++e) {
         const EmitterRule& emitter = photometry.emitters[e];
-        if (!emitter.lamps.empty()) check_named(conversion, emitter);
+        if (!emitter.lamps.empty()) {
+            check_named(conversion, emitter);
+            check_lit(conversion, emitter, emitting[e], world);
+        }
         // The mean of a texture of 8 bits is not known here, and what is off is meant to be.
         if (!emitter.lamps.empty() || emitter.modulate || !(emitter.luminance > 0) || emitting[e].empty()) continue;
         for (size_t r = 0; r < photometry.lamps.size(); ++r) check_pair(conversion, emitter, emitting[e], r, world);

@@ -145,7 +145,11 @@ SurfaceRule read_surface(const JsonValue& source, const std::filesystem::path& f
         rule.reflection_table = read_named_table(source, folder);
     else if (const auto q0 = source.find("q0"))
         q0->fail("has a meaning only beside a reflection_table");
+    if (rule.reflection_table)
+        for (const char* key : {"reflectance_scale", "roughness", "metallic"})
+            if (const auto beside = source.find(key)) beside->fail("has no meaning beside reflection_table, which is the whole of a surface (q0 scales it)");
     if (const auto retroreflection = source.find("retroreflection")) {
+        if (const auto metallic = source.find("metallic"); metallic && rule.metallic > 0.0) metallic->fail("has no meaning beside retroreflection: such a surface is no metal");
         if (rule.reflection_table) retroreflection->fail("is given beside reflection_table: one of them is wanted");
         rule.retroreflector = read_retroreflection(*retroreflection);
     }

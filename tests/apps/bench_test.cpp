@@ -68,6 +68,17 @@ TEST_F(BenchProgram, ComparesTwoFiles) {
     EXPECT_NE(line("start, warm, s").find(" 2.00      1.00   0.500"), std::string::npos) << printed;
 }
 
+// One lap says nothing of the next, so no bracket says that it did; and what else was asked for is shown.
+TEST_F(BenchProgram, SingleLapsHaveNoSpread) {
+    BenchResult a = made_up({64}), b = made_up({64}, 0.5);
+    for (BenchResult* result : {&a, &b}) result->runs[0].settings.laps = 1;
+    b.command = "--size=64x36 --age=70";
+    put("a.json", a), put("b.json", b);
+    ASSERT_EQ(run("--compare a.json b.json"), 0) << said;
+    EXPECT_NE(printed.find(" 10.00      5.00   0.500\n"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("A with: --size=64x36\nB with: --size=64x36 --age=70\n"), std::string::npos) << printed;
+}
+
 TEST_F(BenchProgram, ComparesRunsThatAreAlike) {
     put("a.json", made_up({64, 256})), put("b.json", made_up({256, 1024}, 2)), put("c.json", made_up({1, 2}));
     ASSERT_EQ(run("--compare a.json b.json"), 0) << said;

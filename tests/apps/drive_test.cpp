@@ -320,6 +320,49 @@ TEST_F(DriveProgram, RefusesIdleOptions) {
     EXPECT_FALSE(exists("l.csv") || exists("r.json") || exists("l.csv.part"));
 }
 
+// There are as many frames as steps of the world, at most.
+TEST_F(DriveProgram, RatesAreThoseThatThereAre) {
+    folder.write("s.gltf", R"({"asset": {"version": "2.0"}})");
+    expect_refused("s.gltf --headless --seconds 0.1 --log l.csv --fps 100", {"--fps 100", "at most 60"});
+    // Two frames after a step each, then one after three.
+    const std::string step = R"({"step":{}})", frame = R"(,{"frame":true},)";
+    folder.write("d.json", R"({"vesper_drive":1,"scene":"s.gltf","events":[)" + step + frame + step + frame + step + "," + step + "," + step + R"(,{"frame":true}]})");
+    ASSERT_EQ(run("--headless --size 16x10 --replay d.json --video d.mp4"), 0) << said;
+    EXPECT_NE(said.find("not recorded at an even rate: the film shows them at 60 a second"), std::string::npos) << said;
+    ASSERT_EQ(run("--headless --size 16x10 --replay d.json --log l.csv"), 0) << "steps of a program need no pose: " << said;
+    EXPECT_EQ(said.find("even rate"), std::string::npos) << said;
+}
+
+// Only what ends too early is a drive that broke off, on however many lines.
+TEST_F(DriveProgram, ErrorsAreNotEnds) {
+    folder.write("s.gltf", R"({"asset": {"version": "2.0"}})");
+    const std::string head = R"({"vesper_drive":1,"scene":"s.gltf","events":[{"step":{}},{"frame":true},)";
+    folder.write("d.json", head + R"({"step":{"steering":NaN}},{"frame":true}]})");
+    expect_refused("--headless --replay d.json --log l.csv", {"d.json: byte ", "not valid JSON"});
+    folder.write("d.json", head + R"({"pose":[0,0,0,0]},{"frame":true}]})");
+    expect_refused("--headless --replay d.json --log l.csv", {"/events/2", "a pose without a step"});
+    for (const char* end : {"", R"({"st)", R"({"step":{"steering":0.)", R"({"frame":tr)"}) {
+        folder.write("d.json", head + end);
+        EXPECT_EQ(run("--headless --size 16x10 --replay d.json --log l.csv"), 0) << end << said;
+        EXPECT_NE(said.find("breaks off"), std::string::npos) << end;
+    }
+}
+
+// Names and places that nothing has.
+TEST_F(DriveProgram, WorldsNameWhatThereIs) {
+    folder.write("s.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"name":"car"},{"name":"lamp"}],"scene":0,"scenes":[{"nodes":[0,1]}]})");
+    folder.write("p.json", R"({"version": 1, "lamps": [{"name": "brake lamp", "nodes": "lamp", "type": "point", "intensity_cd": 60}]})");
+    const auto world = [&](const std::string& more, const std::string& driver = R"("lane": "a")") {
+        folder.write("w.json", R"({"version": 1, "scene": "s.gltf", "photometry": "p.json", "driver": {)" + driver + R"(}, "lanes": [{"name": "a", "points": [[0, 0, 9], [0, 0, -9]]}])" + more + "}");
+        return std::string("w.json --headless --size 16x10 --seconds 0.05 --log l.csv");
+    };
+    EXPECT_EQ(run(world(R"(, "lamps": {"brake": ["brake lamp"]}, "lit_by_day": ["brake lamp"])")), 0) << said;
+    expect_refused(world(R"(, "lamps": {"brake": ["brake lamp", "brake lmap"]})"), {"w.json: /lamps/brake/1: ", "it has brake lamp"});
+    expect_refused(world(R"(, "lit_by_day": ["zz"])"), {"w.json: /lit_by_day/0: "});
+    for (const char* at : {"-5", "18.1"}) expect_refused(world("", std::string(R"("lane": "a", "at_m": )") + at), {"/driver/at_m", "18 m long"});
+    EXPECT_EQ(run(world("", R"("lane": "a", "at_m": 18)")), 0) << said;
+}
+
 // No output replaces what is read, also where only another file names it; nor does what there is of a log replace a good one.
 TEST_F(DriveProgram, SparesWhatItReadsAndWhatIsGood) {
     GltfFile scene;

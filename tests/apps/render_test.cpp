@@ -143,6 +143,28 @@ TEST_F(Program, NeverReplacesWhatItReadsOrWrites) {
     EXPECT_EQ(text_of(folder / "log.csv"), log);
 }
 
+// What a scene names is spared, too; and a log that does not get to its end is beside the old one, as far as it goes.
+TEST_F(Program, SparesFilesOfScenesAndKeepsLogs) {
+    const std::string bytes(36, '\0');
+    std::ofstream(folder / "s.bin", std::ios::binary) << bytes;
+    std::ofstream(folder / "s.gltf") << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"buffers":[{"byteLength":36,"uri":"s.bin"}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[0,0,0]}]})";
+    fs::create_symlink("s.bin", folder / "1.png");
+    for (const char* arguments : {"-o a.png --log s.bin", "--stats-json s.bin", "--frames 2 -o %d.png"}) {
+        const std::string command = "cd " + folder.string() + " && " VESPER_PROGRAM " render s.gltf --size 16x8 " + arguments + " >out.txt 2>err.txt";
+        EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2) << arguments;
+        EXPECT_NE(text_of(folder / "err.txt").find("would replace what is read"), std::string::npos) << arguments << text_of(folder / "err.txt");
+    }
+    EXPECT_EQ(text_of(folder / "s.bin"), bytes);
+
+    std::ofstream(folder / "log.csv") << "old";
+    fs::create_directory(folder / "b2.png");
+    expect_refused("--frames 4 -o b%d.png --log log.csv");
+    EXPECT_EQ(text_of(folder / "log.csv"), "old");
+    const std::string part = text_of(folder / "log.csv.part");
+    EXPECT_EQ(std::count(part.begin(), part.end(), '\n'), 3) << "a heading and two frames";
+}
+
 TEST_F(Program, RefusesWhatCannotBeInOneLine) {
     for (const char* arguments : {"", "-o a.tiff", "-o none/a.png", "-o a.png --stats-json none/a.json", "-o a.png --operator foo", "-o a.exr --operator ldr",
                                   "-o a.png --threshold nan", "-o a.png --dt nan", "-o a.png --frames 0", "-o a.png --frames 2 -o b%99d.png",

@@ -99,6 +99,26 @@ Differences differences_in(const std::string& text) {
     return found;
 }
 
+// What the layout names, or an option, is as little replaced as the layout.
+TEST_F(Road, NeverReplacesWhatItReads) {
+    for (const char* file : {"worked-example.json", "luminaire.ldt", "R3.csv"}) fs::copy_file(fs::path(VESPER_SOURCE_DIR "/data/road") / file, folder / file);
+    const std::string luminaire = text_of("luminaire.ldt"), table = text_of("R3.csv");
+    for (const char* arguments : {"--csv luminaire.ldt", "--json luminaire.ldt", "--r-table R3.csv --csv R3.csv", "--luminaire luminaire.ldt --csv ./luminaire.ldt"}) {
+        EXPECT_EQ(run(arguments, "worked-example.json"), 2) << arguments;
+        EXPECT_NE(text_of("err.txt").find("would replace what is read"), std::string::npos) << text_of("err.txt");
+    }
+    EXPECT_EQ(text_of("luminaire.ldt"), luminaire);
+    EXPECT_EQ(text_of("R3.csv"), table);
+}
+
+// A report that does not get to its file is no success.
+TEST_F(Road, SaysWhereItCannotPrint) {
+    const std::string command = std::string(VESPER_PROGRAM " road " VESPER_SOURCE_DIR "/data/road/worked-example.json >/dev/full 2>'") + folder.string() + "/err.txt'";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
+    EXPECT_EQ(text_of("err.txt"), "vesper: standard output: No space left on device\n");
+}
+
 TEST_F(Road, ThePictureOfTheRoadHasItsLuminances) {
     ASSERT_EQ(run("--render a.png --render a.exr --json a.json --csv a.csv"), 0) << text_of("err.txt");
     const Differences found = differences_in(text_of("a.json"));

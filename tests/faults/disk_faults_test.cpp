@@ -46,9 +46,11 @@ protected:
     void put_old(const Writing& writing) const {
         for (const std::string& file : writing.files) folder.write(file, kOld);
     }
+    /// But for what there is of a log, which stays.
     std::set<std::string> names() const {
         std::set<std::string> found;
-        for (const auto& entry : fs::directory_iterator(folder.path())) found.insert(entry.path().filename().string());
+        for (const auto& entry : fs::directory_iterator(folder.path()))
+            if (entry.path().filename() != "a.csv.part") found.insert(entry.path().filename().string());
         return found;
     }
 };

@@ -68,6 +68,36 @@ protected:
 
 const double kDegree = std::acos(-1.0) / 180;
 
+// A measured lamp has no name but its node's, and roles and factors of lamps go by the rule's.
+TEST_F(ConvertDistributionTest, LampsHaveTheNamesOfTheirRules) {
+    const auto names = [&](const json& rule) {
+        convert_with({rule});
+        std::vector<std::string> found;
+        const Scene scene = converted();
+        for (const Node& node : scene.nodes)
+            if (node.light != kNone) found.push_back(node.name);
+        return found;
+    };
+    json turned = beam_rule(), named = street_rule();
+    turned["pitch_deg"] = -0.5, named["name"] = "street_lamp";
+    EXPECT_EQ(names(beam_rule()), (std::vector<std::string>{"beam", "beam"}));
+    EXPECT_EQ(names(turned), (std::vector<std::string>{"beam", "beam"}));
+    const size_t nodes = (names(named), converted().nodes.size());
+    EXPECT_EQ(names(named), std::vector<std::string>{"street_lamp"});
+    EXPECT_EQ(nodes, street_.root["nodes"].size()) << "no node of its own where that has the name already";
+}
+
+// Where a car's left side is its right one mirrored, so is the beam: no lamp does that.
+TEST_F(ConvertDistributionTest, MirroredNodesAreWarnedOf) {
+    EXPECT_FALSE(mentions(convert_with({beam_rule()}).warnings, "mirrored by a scale"));
+    for (json& node : street_.root["nodes"])
+        if (node.value("name", "") == "car_1/headlamp") node["scale"] = {-1, 1, 1};
+    EXPECT_TRUE(mentions(convert_with({beam_rule()}).warnings, "lamp 'beam': node 'car_1/headlamp' is mirrored by a scale"));
+    json point = beam_rule();
+    point.erase("file"), point["type"] = "spot", point["intensity_cd"] = 5, point["outer_cone_deg"] = 20;
+    EXPECT_FALSE(mentions(convert_with({point}).warnings, "mirrored by a scale"));
+}
+
 TEST_F(ConvertDistributionTest, EmbedsEachFileOnce) {
     for (const char* output : {"out.gltf", "out.glb"}) {
         json street = street_rule(), again = street_rule();

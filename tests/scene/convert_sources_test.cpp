@@ -123,6 +123,16 @@ TEST_F(ConvertSourcesTest, GlassOfALampDoesNotEmitBesides) {
     EXPECT_EQ(given(twice), 0u);
 }
 
+// Glass of a lamp shows nothing where that lamp is not.
+TEST_F(ConvertSourcesTest, GlassWithoutItsLampIsDark) {
+    json rule = lamp(600);
+    rule["opening"] = opening();
+    EXPECT_FALSE(mentions(convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}}).warnings, "dark"));
+    street_.root["nodes"].push_back({{"name", "shop window"}, {"mesh", 0}, {"translation", {4, 0, 0}}});
+    EXPECT_TRUE(mentions(convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}}).warnings,
+                         "emitter 'glass': 1 of 3 surfaces has no lamp 'beam' within 1 m and is dark (node 'shop window')"));
+}
+
 // 600 cd over 0.06 m^2 are 10000 cd/m^2, by the opening stated or by the mesh.
 TEST_F(ConvertSourcesTest, DisagreementsAboveTenPercentAreReported) {
     for (const bool stated : {true, false})

@@ -168,9 +168,9 @@ TEST(Layering, NoTypeIsDefinedTwice) {
     EXPECT_GT(defined.size(), 300u);
 }
 
-// Hosts set locales (Qt does), and then these take and write a comma for the decimal point: base/decimal.h and std::from_chars instead.
-TEST(Layering, NumbersDoNotFollowTheLocaleOfTheHost) {
-    const std::regex follows(R"re(\b(strtof|strtol?d|atof|stof|stol?d|[a-z]*stringstream)\s*[({ ]|scanf\([^;]*%[0-9]*l?[efg]|printf\([^;]*%[-+#0-9.]*[efgEFG])re");
+// Hosts set locales (Qt does), and then these take and write a comma for the decimal point, or know no i of other letters: base/decimal.h, base/lower.h and std::from_chars instead.
+TEST(Layering, NothingFollowsTheLocaleOfTheHost) {
+    const std::regex follows(R"re(\b(strtof|strtol?d|atof|stof|stol?d|toupper|tolower|[a-z]*stringstream)\s*[({ ]|scanf\([^;]*%[0-9]*l?[efg]|printf\([^;]*%[-+#0-9.]*[efgEFG])re");
     for (const auto& entry : fs::recursive_directory_iterator(kSource / "engine")) {
         const std::string text = entry.is_regular_file() ? text_of(entry.path()) : std::string();
         std::smatch found;

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <utility>
+#include <set>
 
 #include "arguments.h"
 #include "base/error.h"
@@ -31,23 +30,43 @@ constexpr Named kNames[]{{"veil", &GlareReport::veil},           {"road_veil", &
                          {"visibility", &GlareReport::visibility}, {"pupil", &GlareReport::pupil},
                          {"eye_seed", &GlareReport::eye_seed}};
 
-/// A heading may be in any words, but not of other columns or units than there are.
+/// A row of words: no cell of it begins as a number does.
+bool is_heading(const std::vector<std::string_view>& cells) {
+    return std::none_of(cells.begin(), cells.end(), [](std::string_view cell) {
+        const size_t first = cell.find_first_not_of("\" \t");
+        return first != cell.npos && std::string_view("0123456789+-.").find(cell[first]) != std::string_view::npos;
+    });
+}
+
+/// Headings name the columns, or their units, and nothing else.
 void check_heading(const LineReader& lines, const std::vector<std::string_view>& cells) {
-    static const std::map<std::string, size_t> kColumns{{"azimuth", 0}, {"right", 0}, {"yaw", 0},         {"elevation", 1}, {"up", 1},      {"pitch", 1},
-                                                        {"lx", 2},      {"lux", 2},   {"illuminance", 2}, {"rad", 9},       {"radian", 9},  {"radians", 9},
-                                                        {"mrad", 9},    {"cd", 9},    {"candela", 9},     {"intensity", 9}, {"lamp", 9},    {"frame", 9}};
-    constexpr const char* kWanted = "three columns are expected: azimuth to the right and elevation, degrees, and the illuminance at the eye, lx";
+    static const std::set<std::string> kColumns[]{{"azimuth", "az", "right", "horizontal", "h", "deg", "degree", "degrees"},
+                                                {"elevation", "el", "up", "vertical", "v", "deg", "degree", "degrees"},
+                                                {"illuminance", "e", "ev", "lx", "lux"}};
+    static const std::set<std::string> kOthers{"angle", "to", "the", "of", "at", "in", "eye", "lamp", "light", "source", "glare", "direction", "position", "intensity", "v"};
+    constexpr const char* kWanted = "the columns are azimuth (to the right, degrees), elevation (up, degrees) and illuminance at the eye (lx)";
     if (cells.size() != 3) lines.fail(kWanted);
-    for (size_t i = 0; i < cells.size(); ++i)
-        for (const std::string& word : words_of(cells[i]))
-            if (const auto known = kColumns.find(word); known != kColumns.end() && known->second != i) lines.fail(quoted(cells[i]) + ": " + kWanted);
+    for (size_t i = 0; i < cells.size(); ++i) {
+        bool named = false;
+        for (const std::string& word : words_of(cells[i])) {
+            named |= kColumns[i].contains(word);
+            if (!kColumns[i].contains(word) && !kOthers.contains(word)) lines.fail(vesper::quoted(word) + " in " + quoted(cells[i]) + ": " + kWanted);
+        }
+        if (!named) lines.fail(quoted(cells[i]) + ": " + kWanted);
+    }
+}
+
+/// Semicolons and tabs leave the comma to decimals.
+char separator_of(std::string_view line) {
+    if (line.find(';') != line.npos) return ';';
+    return std::count(line.begin(), line.end(), '\t') == 2 ? '\t' : ',';
 }
 
 }  // namespace
 
 void add_glare_options(CLI::App& command, GlareArguments& a) {
     command.add_option("--lamps", a.lamps, "CSV file of lamps on other screens, to be scattered into this one with --glare cie, spencer or ward: degrees to the right, degrees up, lx at the eye");
-    command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: prints how visible it is, and says so in logs and .exr files")->delimiter(',')->expected(4)->check(between(0.0, 1.0));
+    command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: prints how visible it is, as logs and .exr files say it, too")->delimiter(',')->expected(4)->check(between(0.0, 1.0));
 }
 
 std::vector<OutsideLamp> read_lamps(const std::string& file) {
@@ -55,13 +74,12 @@ std::vector<OutsideLamp> read_lamps(const std::string& file) {
     if (file.empty()) return lamps;
     const std::vector<uint8_t> bytes = read_file(file, kMostLampBytes);
     LineReader lines(bytes, one_line(file));
-    bool heading_allowed = true;
     while (const auto line = lines.next()) {
         const std::string_view text = trimmed(*line);
         if (text.empty() || text.front() == '#') continue;
-        const char separator = text.find(';') != text.npos ? ';' : text.find('\t') != text.npos ? '\t' : ',';
+        const char separator = separator_of(text);
         const auto fields = fields_of(text, separator, 3);
-        if (std::exchange(heading_allowed, false) && std::none_of(fields.begin(), fields.end(), [](std::string_view cell) { return number_of(cell, true).has_value(); })) {
+        if (lamps.empty() && is_heading(fields)) {
             check_heading(lines, fields);
             continue;
         }
@@ -82,10 +100,19 @@ GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& s
     for (const OutsideLamp& lamp : outside) lights.push_back({lamp.direction, luminance(lamp.illuminance)});
     GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze)};
     if (const auto& t = arguments.target; t.size() == 4) question.target = MarkedTarget{{t[0], t[1]}, {t[2], t[3]}};
-    GlareReport report = report_glare(image, shown.scene, lights, question);
+    GlareReport report;
+    try {
+        report = report_glare(image, shown.scene, lights, question);
+    } catch (const Error& error) {
+        throw Error(std::string("--target: ") + error.what());
+    }
     report.pupil = shown.pupil;
     if (settings.glare == Glare::Scatter && settings.scatter.has_corona()) report.eye_seed = settings.scatter.aperture.seed;
     return report;
+}
+
+void check_target(const GlareArguments& arguments, const ToneChainSettings& settings) {
+    if (!arguments.target.empty() && settings.tone_operator == Operator::Ldr) throw Error("--target: the ldr operator has no luminances to measure");
 }
 
 std::string target_line(const GlareReport& r) {

@@ -27,6 +27,8 @@ std::vector<OutsideLamp> read_lamps(const std::string& file);
 
 /// What glare hides in a frame, whose `scene` was brought back: a pixel of more than 100 times the log average is a source.
 GlareReport glare_of(const GlareArguments&, const ToneChainSettings&, const ToneMapped&, const ImageAngles&, const std::vector<OutsideLamp>& outside);
+/// Throws Error where a target is asked of an operator that shows no luminances.
+void check_target(const GlareArguments&, const ToneChainSettings&);
 /// How visible the marked target is, in a line.
 std::string target_line(const GlareReport&);
 Header describe_glare(const ToneChainSettings&, const GlareReport&);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "arguments.h"
@@ -18,30 +19,39 @@ double degrees_between(double bottom, double top) {
     return degrees >= 0.1 && degrees <= 170 ? degrees : 0;
 }
 
-/// Of the last VIEW of a Radiance picture: only perspectives (-vtv) have one, of -vv degrees, moved up by -vl of their height.
-double angle_of_view(const std::string& view) {
-    std::istringstream words(view);
-    double degrees = 45, lift = 0;  // Radiance's own
-    bool perspective = true;
-    for (std::string word; words >> word;) {
-        if (word.starts_with("-vt")) perspective = word == "-vtv";
-        double value = 0;
-        if ((word == "-vv" || word == "-vl") && words >> value) (word == "-vv" ? degrees : lift) = value;
+/// The view of a Radiance picture: each VIEW of its header changes what those before said. Only perspectives (-vtv) have an angle of their
+/// height, -vv degrees, moved up by -vl of it.
+class RadianceView {
+public:
+    void add(const std::string& options) {
+        std::istringstream words(options);
+        for (std::string word; words >> word;) {
+            if (word.starts_with("-vt")) perspective_ = word == "-vtv";
+            if (word == "-vv" || word == "-vl") sound_ = sound_ && words >> (word == "-vv" ? degrees_ : lift_);
+        }
     }
-    if (!perspective || !(degrees > 0 && degrees < 180)) return 0;
-    const double half = std::tan(degrees * std::numbers::pi / 360);
-    return degrees_between((2 * lift - 1) * half, (2 * lift + 1) * half);
-}
+    double angle() const {
+        if (!perspective_ || !sound_ || !(degrees_ > 0 && degrees_ < 180)) return 0;
+        const double half = std::tan(degrees_ * std::numbers::pi / 360);
+        return degrees_between((2 * lift_ - 1) * half, (2 * lift_ + 1) * half);
+    }
+
+private:
+    double degrees_ = 45, lift_ = 0;  // Radiance's own
+    bool perspective_ = true, sound_ = true;
+};
 
 /// Angle in height that a header tells, degrees, or 0.
 double angle_of(const Header& header) {
-    double degrees = 0;
+    std::optional<RadianceView> view;
     for (const auto& [key, value] : header) {
         double left = 0, bottom = 0, right = 0, top = 0;
         if (key == "vesper:tangents" && std::sscanf(value.c_str(), "%lf %lf %lf %lf", &left, &bottom, &right, &top) == 4) return degrees_between(bottom, top);
-        if (key == "VIEW") degrees = angle_of_view(value);
+        if (key != "VIEW") continue;
+        if (!view) view.emplace();
+        view->add(value);
     }
-    return degrees;
+    return view ? view->angle() : 0;
 }
 
 /// Width of a pixel over its height (OpenEXR), or the inverse (Radiance): 1 if square.
@@ -76,7 +86,7 @@ PictureMeaning meaning_of(const HdrImage& image, double scale, double fov, bool 
     if (const double angle = fov > 0 ? fov : angle_of(image.header); angle > 0)
         meaning.fov = angle;
     else if (angle_matters)
-        meaning.notes.push_back(format("its header names no angle: taken as %g degrees high (--fov tells another)", meaning.fov));
+        meaning.notes.push_back(format("its header names no angle of a perspective: taken as %g degrees high (--fov tells another)", meaning.fov));
     if (const double aspect = pixel_aspect_of(image.header); std::abs(aspect - 1) > 1e-3)
         meaning.notes.push_back(format("its pixels are not square (%.4g): shown and measured as if they were", aspect));
     return meaning;

@@ -127,9 +127,12 @@ public:
         try {
             std::ignore = json::parse(text.begin(), text.end(), [this](int depth, json::parse_event_t at, json& value) { return take(depth, at, value); });
         } catch (const json::parse_error& error) {
-            // A file whose program ended early is whole as far as it goes.
+            // A file whose program ended early is whole as far as it goes; a machine that lost its power may have put zeros behind that. What is wrong lies
+            // beyond that end, then.
+            size_t end = text.size();
+            while (end > 0 && (text[end - 1] == 0 || text[end - 1] == '\n')) --end;
             drive_.complete = false;
-            if (key_ != "events" || error.byte < text.size()) throw Error(name_ + ": byte " + std::to_string(error.byte) + ": not valid JSON");
+            if (key_ != "events" || error.byte <= end) throw Error(name_ + ": byte " + std::to_string(error.byte) + ": not valid JSON");
             rest_[key_] = json::array();
         } catch (const json::exception& error) {  // a number beyond double
             throw Error(name_ + ": not valid JSON: " + one_line(error.what()));

@@ -23,6 +23,8 @@
 namespace vesper {
 namespace {
 
+constexpr double kUsualRate = 30;  // frames a second
+
 // Steps of time with frames at an even rate among them.
 DriveEvents evenly(const DriveEvents& events, double time_step, double fps) {
     const DriveEvent frame{.kind = DriveEvent::Kind::Frame, .pose = {}, .name = {}, .value = {}};
@@ -49,13 +51,17 @@ DriveEvents evenly(const DriveEvents& events, double time_step, double fps) {
 std::pair<double, bool> rate_of(const DriveEvents& events, double time_step) {
     std::vector<unsigned> strides;
     unsigned steps = 0;
+    bool first = true, twice = false;  // before the first step; at one moment
     for (const DriveEvent& event : events) {
         if (event.kind == DriveEvent::Kind::Step) ++steps;
-        if (event.kind == DriveEvent::Kind::Frame && steps > 0) strides.push_back(std::exchange(steps, 0));
+        if (event.kind != DriveEvent::Kind::Frame) continue;
+        if (steps > 0) strides.push_back(std::exchange(steps, 0));
+        else twice |= !first;
+        first = false;
     }
-    if (strides.empty()) return {30, true};
+    if (strides.empty()) return {kUsualRate, true};
     const auto [least, most] = std::minmax_element(strides.begin(), strides.end());
-    const bool even = *least == *most;
+    const bool even = *least == *most && !twice;
     std::nth_element(strides.begin(), strides.begin() + strides.size() / 2, strides.end());
     return {1 / (strides[strides.size() / 2] * time_step), even};
 }
@@ -182,12 +188,12 @@ void run_headless(const DriveArguments& a) {
     const DriveEvent step{.kind = DriveEvent::Kind::Step, .input = {.autopilot = a.autopilot}, .pose = {}, .name = {}, .value = {}};
     for (long left = replays ? 0 : std::lround(a.seconds / options.time_step); left > 0; --left) drive.events.push_back(step);
     const bool own_frames = drive.events.frames() > 0 && a.fps == 0;
-    if (outlet.wanted() && !own_frames) drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : 30);
+    if (outlet.wanted() && !own_frames) drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : kUsualRate);
     const double most = 1 / options.time_step;
-    if (a.fps > most * (1 + 1e-6)) throw Error(format("--fps %g: the world goes on in steps of %.4g s, so there are at most %.4g frames a second", a.fps, options.time_step, most));
-    const auto [fps, even] = own_frames ? rate_of(drive.events, options.time_step) : std::pair(std::min(a.fps > 0 ? a.fps : 30, most), true);
+    if (a.fps > most * 1.001) throw Error(format("--fps %g: the world goes on in steps of %.6g s, so there are at most %.6g frames a second", a.fps, options.time_step, most));
+    const auto [fps, even] = own_frames ? rate_of(drive.events, options.time_step) : std::pair(std::min(a.fps > 0 ? a.fps : kUsualRate, most), true);
     if (!even && a.video.ends_with(".mp4"))
-        std::fprintf(stderr, "note: frames were not recorded at an even rate: the film shows them at %.4g a second, and not in real time (--fps 30 takes frames at an even rate)\n", fps);
+        std::fprintf(stderr, "note: frames were not recorded at an even rate: the film shows them at %.4g a second, and not in real time (--fps %.4g takes frames at an even rate)\n", fps, std::min(kUsualRate, most));
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
 
     Scenery scenery(options.scene, options.run, options.scenario);

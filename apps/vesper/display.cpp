@@ -79,7 +79,7 @@ void run_fit(const FitArguments& a) {
         std::printf("%6zu %6u %11.5g %11.5g %8.2f%%\n", measured[i].line, measured[i].code, measured[i].luminance,
                     curve.emitted(double(measured[i].code) / d.largest_code()), 100 * fit.residuals[i]);
     if (d.eotf == Eotf::Table && fit.largest > 0.03)
-        std::fprintf(stderr, "note: %s: as codes rise its luminances fall by so much that no display is within 3 %% of all of them\n", one_line(a.measurements).c_str());
+        std::fprintf(stderr, "note: %s: luminances of one code, or of codes where they do not rise, differ by so much that no display is within 3 %% of all\n", one_line(a.measurements).c_str());
     write_text(a.output, display_json(d, a.name));
     std::printf("wrote %s\n", a.output.c_str());
 }

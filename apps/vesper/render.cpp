@@ -116,6 +116,7 @@ void spare_numbered(const RenderArguments& arguments, unsigned index, const File
 Files check_arguments(RenderArguments& arguments) {
     RenderSettings& settings = arguments.settings;
     static_cast<ToneChainSettings&>(settings) = tone_settings(arguments.tone);
+    check_target(arguments.glare, settings);
     settings.paper_lambert = arguments.lambert == "paper";
     Files files;
     files.reads(arguments.scene);
@@ -132,8 +133,8 @@ Files check_arguments(RenderArguments& arguments) {
         files.writes(option, file);
         files.writes(option, GrowingFile::part_of(file));  // where it grows
     }
-    if (arguments.outputs.empty() && arguments.log_file.empty() && arguments.sources_file.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan)
-        throw Error("nothing to do: give -o, --stats, --stats-json, --log, --glare-sources or --plan");
+    if (arguments.outputs.empty() && arguments.log_file.empty() && arguments.sources_file.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan && arguments.glare.target.empty())
+        throw Error("nothing to do: give -o, --stats, --stats-json, --log, --glare-sources, --target or --plan");
     return files;
 }
 
@@ -187,7 +188,7 @@ void run(RenderArguments& arguments) {
     // Glare is read off luminances.
     const bool ldr = arguments.settings.tone_operator == Operator::Ldr;
     const bool logs_glare = !arguments.log_file.empty() && !ldr;
-    const bool wants_target = !arguments.glare.target.empty() && !ldr;
+    const bool wants_target = !arguments.glare.target.empty();
     outputs.scene |= logs_glare || wants_target;
 
     const FilesRead read;

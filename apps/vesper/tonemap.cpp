@@ -124,10 +124,10 @@ Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings,
     try {
         shown.picture = mapper.map(settings, {.extent = {image.width, image.height}, .values = image.rgb, .channels = 3, .scale = float(shown.meaning.scale), .vertical_fov = vertical, .outside = lamps},
                                    float(job.seconds), outputs);
+        if (asks_glare) shown.glare = glare_of(arguments.glare, settings, shown.picture, angles_of(View::symmetric(shown.picture.extent, float(vertical), glm::mat4(1))), lamps);
     } catch (const Error& error) {
         throw Error(one_line(job.input) + ": " + error.what());
     }
-    if (asks_glare) shown.glare = glare_of(arguments.glare, settings, shown.picture, angles_of(View::symmetric(shown.picture.extent, float(vertical), glm::mat4(1))), lamps);
     return shown;
 }
 
@@ -169,11 +169,11 @@ private:
     double scale_ = 0;
 };
 
-void report(const TonemapArguments& arguments, const ToneChainSettings& settings, const Job& job, const Shown& shown) {
+void report(const TonemapArguments& arguments, const Job& job, const Shown& shown) {
     const ToneMapped& p = shown.picture;
     if (p.histogram.non_finite > 0)
         std::fprintf(stderr, "note: %s: %u of %u pixels are not finite and shown black\n", one_line(job.input).c_str(), p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite);
-    if (!arguments.glare.target.empty() && settings.tone_operator != Operator::Ldr)
+    if (!arguments.glare.target.empty())
         std::printf("%s: %s", one_line(job.input).c_str(), target_line(shown.glare).c_str());
     if (!arguments.statistics) return;
     double device = 0;
@@ -188,6 +188,7 @@ void report(const TonemapArguments& arguments, const ToneChainSettings& settings
 
 void run(const TonemapArguments& arguments) {
     const ToneChainSettings settings = tone_settings(arguments.tone);
+    check_target(arguments.glare, settings);
     const Plan plan = plan_of(arguments);
     const std::vector<OutsideLamp> lamps = read_lamps(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs)
@@ -208,7 +209,7 @@ void run(const TonemapArguments& arguments) {
             write_outputs(arguments, settings, device, job, shown);
             if (film) film->add(shown.picture.display);
             notes.tell(job, shown.meaning, plan.sequence);
-            report(arguments, settings, job, shown);
+            report(arguments, job, shown);
         } catch (const Error& error) {
             // Pictures that have nothing to do with each other do not wait for one that is damaged.
             if (plan.sequence || plan.jobs.size() == 1) throw;

@@ -27,10 +27,11 @@ std::vector<ExrLayer> layers_of(const Imf::MultiPartInputFile& file) {
             const std::string prefix = name.empty() ? "" : name + ".";
             const auto has = [&](const char* channel) { return channels.findChannel(prefix + channel) != nullptr; };
             using Kind = ExrLayer::Kind;
-            const bool colour = has("R") || has("G") || has("B"), vector = !colour && has("X") && has("Y") && has("Z");
-            if (!colour && (!has("Y") || (vector && !(name.empty() && part_name.empty())))) continue;  // normals, places
-            const Kind kind = colour ? Kind::Colour : vector ? Kind::Xyz : has("RY") || has("BY") ? Kind::Chroma : Kind::Grey;
-            found.push_back({part, prefix, part_name + (part_name.empty() || name.empty() ? "" : ".") + name, kind});
+            const bool colour = has("R") || has("G") || has("B");
+            if (!colour && !has("Y")) continue;
+            const Kind kind = colour ? Kind::Colour : has("X") && has("Z") ? Kind::Xyz : has("RY") || has("BY") ? Kind::Chroma : Kind::Grey;
+            const std::string whole = part_name + (part_name.empty() || name.empty() ? "" : ".") + name;
+            found.push_back({part, prefix, whole, kind == Kind::Xyz && !whole.empty(), kind});
         }
     }
     return found;
@@ -61,7 +62,8 @@ private:
 }  // namespace
 
 ExrLayer choose_layer(const Imf::MultiPartInputFile& file, const std::string& wanted) {
-    const std::vector<ExrLayer> layers = layers_of(file);
+    std::vector<ExrLayer> layers = layers_of(file);
+    if (wanted.empty()) std::erase_if(layers, [](const ExrLayer& layer) { return layer.vector; });
     if (layers.empty()) fail_without_pictures(file);
     List names;
     for (const ExrLayer& layer : layers) {

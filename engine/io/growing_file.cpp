@@ -30,7 +30,7 @@ GrowingFile::GrowingFile(const fs::path& file) : file_(file), target_(target_of(
     if (fs::is_directory(status)) throw Error(one_line(file.string()) + ": is a folder");
     const bool directly = fs::exists(status) && !fs::is_regular_file(status);
     if (directly) {
-        descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+        descriptor_ = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
     } else {
         // A file of its own: what the name, or a link of that name, led to before is not written to.
         part_ = part_beside(target_);

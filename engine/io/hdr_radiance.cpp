@@ -86,11 +86,14 @@ struct Description {
     Axis lines, along;  ///< from line to line, and along one
 };
 
-/// Whether a line of the header is the command of a program that takes colours without PRIMARIES for Radiance's own.
+/// Whether a line of the header is the command of one of the programs that take colours without PRIMARIES for Radiance's own.
 bool is_radiance_command(const std::string& line) {
-    static constexpr std::string_view kPrograms[]{"rpict", "rtpict", "rvu", "rview", "rtrace", "rcontrib", "rtcontrib", "rxpict", "rxtrace", "pfilt", "pcomb", "pcompos", "pinterp", "dctimestep", "ra_xyze"};
-    const std::string command = word_of(line), program = command.substr(0, command.find_first_of(" \t"));
-    const std::string_view name = std::string_view(program).substr(program.find_last_of("/\\") + 1);
+    static constexpr std::string_view kPrograms[]{"rpict", "rtpict", "rvu", "rview", "rtrace", "rcontrib", "rtcontrib", "rxpict", "rxtrace", "rpiece", "pfilt", "pcomb", "pcompos", "pcond", "pinterp", "pvalue", "dctimestep", "rmtxop", "rcomb", "falsecolor", "ra_xyze"};
+    const std::string command = word_of(line);
+    const bool in_quotes = command.starts_with('"');
+    const std::string program = in_quotes ? command.substr(1, command.find('"', 1) - 1) : command.substr(0, command.find_first_of(" \t"));
+    std::string_view name = std::string_view(program).substr(program.find_last_of("/\\") + 1);
+    if (name.ends_with(".exe")) name.remove_suffix(4);
     return std::find(std::begin(kPrograms), std::end(kPrograms), name) != std::end(kPrograms);
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/error.h"
 #include "base/luminance.h"
 #include "perception/visibility.h"
 #include "photometry/road.h"
@@ -86,6 +87,8 @@ void report_target(const ImageAngles& image, const Pixels& pixels, const std::ve
             const double value = pixels.luminance(x, y);
             if (within || value <= source_luminance) (within ? target : around).add(value, 1);
         }
+    if (!(target.weight > 0)) throw Error("no pixel has its centre in the target");
+    if (!(around.weight > 0)) throw Error("there is nothing around the target, of a frame of its own width, but sources of glare");
     const dvec2 middle = image.at(0.5 * (low + high));
     report.target = target.value();
     report.around = around.value();

@@ -46,6 +46,7 @@ struct GlareReport {
 
 /// Asks a picture (RGBA rows from the top, cd/m^2 RGB in linear Rec. 709) and the lights outside of it. Sources nearer than 0.1
 /// degrees to the line of sight are looked at, and count as no glare. Pixels that are not finite have no light.
+/// Throws Error for a target without a pixel in it or around it.
 GlareReport report_glare(const ImageAngles&, std::span<const float> rgba, std::span<const DazzlingLight> outside, const GlareQuestion&);
 
 }  // namespace vesper

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/lower.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
 
@@ -78,17 +79,11 @@ struct Header {
     bool has_ballast_lamp_factor() const { return year <= 1995; }
 };
 
-std::string upper(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return text;
-}
-
 /// What follows "TILT=", also written "TILT = ".
 std::optional<std::string_view> tilt_of(std::string_view line) {
     constexpr std::string_view kWord = "TILT";
     line = trimmed(line);
-    for (size_t i = 0; i < kWord.size(); ++i)
-        if (i >= line.size() || std::toupper(static_cast<unsigned char>(line[i])) != kWord[i]) return std::nullopt;
+    if (upper(line.substr(0, kWord.size())) != kWord) return std::nullopt;
     line = trimmed(line.substr(kWord.size()));
     if (!line.starts_with('=')) return std::nullopt;
     return trimmed(line.substr(1));
@@ -98,7 +93,7 @@ std::optional<std::string_view> tilt_of(std::string_view line) {
 /// Nothing: a label.
 std::optional<int> year_of(std::string_view line) {
     std::string text;
-    for (const char c : upper(std::string(line)))
+    for (const char c : upper(line))
         if (std::isalnum(static_cast<unsigned char>(c))) text += c;
     const size_t standard = text.find("LM63");
     if (!text.starts_with("IES") || (standard == text.npos && !text.starts_with("IESNA"))) return std::nullopt;
@@ -114,8 +109,7 @@ std::optional<int> year_of(std::string_view line) {
 void read_keyword(Distribution& made, std::string_view line) {
     const size_t end = line.find(']');
     if (!line.starts_with('[') || end == line.npos) return;  // a free label of 1986
-    std::string key = readable(line.substr(1, end - 1)), text = readable(line.substr(end + 1));
-    for (char& c : key) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    std::string key = upper(readable(line.substr(1, end - 1))), text = readable(line.substr(end + 1));
     if (key == "MORE" && !made.metadata.empty())
         made.metadata.back().second += "\n" + text;
     else

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/lower.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
 
@@ -60,7 +61,7 @@ XmlFile::XmlFile(std::string_view text, const std::string& name) : name_(one_lin
     const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
     if (!result) {
         std::string reason = result.description();
-        if (!reason.empty()) reason[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(reason[0])));
+        if (!reason.empty()) reason = lower(reason.substr(0, 1)) + reason.substr(1);
         refuse(result.offset, reason);
     }
     // What the parser lets pass (XML 1.0, 2.1, 2.2 and 3.1). Of a fragment it keeps text beside the root.

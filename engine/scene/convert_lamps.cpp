@@ -1,5 +1,6 @@
 // Lamps on nodes: photometry rules to KHR_lights_punctual and EXT_lights_ies. SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <glm/gtc/quaternion.hpp>
@@ -214,19 +215,29 @@ void warn_of_instances(Conversion& conversion, const JsonValue& node, const Lamp
                                              " is instanced; the lamp is placed once, at the node");
 }
 
+/// Whether left and right of a distribution are alike.
+bool is_symmetric(const Distribution& d) {
+    const Distribution other = mirrored(d);
+    const double limit = 1e-3 * largest_intensity(d);
+    return other.horizontal == d.horizontal && std::equal(d.candela.begin(), d.candela.end(), other.candela.begin(), other.candela.end(),
+                                                          [&](double a, double b) { return std::abs(a - b) <= limit; });
+}
+
 /// A scale of negative determinant turns a beam for right-hand traffic into one for left-hand, which no lamp does.
 void warn_of_mirrors(Conversion& conversion, const LampRule& rule, const std::vector<uint32_t>& nodes, const std::vector<glm::mat4>& world) {
     if (rule.light.kind != Light::Kind::Measured) return;
-    size_t mirrored = 0;
+    const MeasuredLamp& lamp = conversion.photometry.measured[rule.light.distribution];
+    if (lamp.mirror || is_symmetric(lamp.distribution)) return;
+    size_t mirrored_nodes = 0;
     std::string first;
     for (const uint32_t node : nodes) {
         const uint32_t placed = conversion.original.node_of[node];
         if (placed == kNone || !(glm::determinant(glm::dmat3(world[placed])) < 0)) continue;
-        if (mirrored++ == 0) first = conversion.original.scene.nodes[placed].name;
+        if (mirrored_nodes++ == 0) first = conversion.original.scene.nodes[placed].name;
     }
-    if (mirrored > 0)
-        conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": node " + in_quotes(first) + (mirrored > 1 ? " and " + number_of(mirrored - 1, "other") : "") +
-                                             (mirrored > 1 ? " are" : " is") + " mirrored by a scale, and so is the distribution there: a rule of its own with \"mirror\": true undoes it");
+    if (mirrored_nodes > 0)
+        conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": node " + in_quotes(first) + (mirrored_nodes > 1 ? " and " + number_of(mirrored_nodes - 1, "other") : "") +
+                                             (mirrored_nodes > 1 ? " are" : " is") + " mirrored by a scale, and so is the distribution there: a rule of its own with \"mirror\": true undoes it");
 }
 
 }  // namespace

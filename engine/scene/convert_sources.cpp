@@ -118,6 +118,27 @@ void check_named(Conversion& conversion, const EmitterRule& emitter) {
     }
 }
 
+/// Boxes, in the world, around what hangs together in a primitive: triangles with corners at the same place.
+std::vector<Bounds> pieces_of(const Primitive& primitive, const glm::mat4& world) {
+    std::vector<uint32_t> first(primitive.vertices.size());  // of each vertex's piece, by way of others
+    const auto root = [&](uint32_t v) {
+        while (first[v] != v) v = first[v] = first[first[v]];
+        return v;
+    };
+    std::map<std::array<float, 3>, uint32_t> places;
+    for (uint32_t v = 0; v < first.size(); ++v) {
+        const glm::vec3 p = primitive.vertices[v].position;
+        first[v] = places.try_emplace({p.x, p.y, p.z}, v).first->second;
+    }
+    for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
+        for (const size_t c : {i + 1, i + 2}) first[root(primitive.indices[c])] = root(primitive.indices[i]);
+    std::map<uint32_t, Bounds> boxes;
+    for (const uint32_t v : primitive.indices) boxes[root(v)].add(glm::vec3(world * glm::vec4(primitive.vertices[v].position, 1)));
+    std::vector<Bounds> pieces;
+    for (const auto& [_, box] : boxes) pieces.push_back(box);
+    return pieces;
+}
+
 /// Glass whose lamps are to show in it, but where none is: it is dark.
 void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining, const std::vector<glm::mat4>& world) {
     const Scene& scene = conversion.original.scene;
@@ -130,13 +151,13 @@ void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::ve
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
         if (scene.nodes[node].mesh == kNone) continue;
         for (const Primitive& p : scene.meshes[scene.nodes[node].mesh].primitives) {
-            if (std::find(shining.begin(), shining.end(), p.material) == shining.end() || p.vertices.empty()) continue;
-            Bounds box;
-            for (const Vertex& vertex : p.vertices) box.add(glm::vec3(world[node] * glm::vec4(vertex.position, 1)));
-            const dvec3 low(box.low), high(box.high);
-            ++surfaces;
-            if (std::any_of(lamps.begin(), lamps.end(), [&](dvec3 lamp) { return glm::distance(lamp, glm::clamp(lamp, low, high)) <= kReach; })) continue;
-            if (dark++ == 0) first = scene.nodes[node].name;
+            if (std::find(shining.begin(), shining.end(), p.material) == shining.end()) continue;
+            for (const Bounds& box : pieces_of(p, world[node])) {
+                const dvec3 low(box.low), high(box.high);
+                ++surfaces;
+                if (std::any_of(lamps.begin(), lamps.end(), [&](dvec3 lamp) { return glm::distance(lamp, glm::clamp(lamp, low, high)) <= kReach; })) continue;
+                if (dark++ == 0) first = scene.nodes[node].name;
+            }
         }
     }
     if (dark > 0)

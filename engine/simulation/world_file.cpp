@@ -87,7 +87,7 @@ void read_driver(const JsonValue& driver, WorldFile& file) {
     file.world.driver_s = driver.number_or("at_m", 0, -kFar, kFar);
     const Course& lane = file.world.lanes[file.world.driver_lane];
     if (!lane.closed() && !(file.world.driver_s >= 0 && file.world.driver_s <= lane.length()))
-        driver.at("at_m").fail("is not on the lane, which is " + decimal(lane.length()) + " m long");
+        driver.at("at_m").fail("is not on the lane, which is " + decimal(lane.length(), 9) + " m long");
     file.world.driver_speed = driver.number_or("speed_km_h", 0, 0, 300) / 3.6;
 }
 

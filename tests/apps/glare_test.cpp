@@ -78,11 +78,13 @@ TEST_F(GlareProgram, HeadingsOfLampListsAreRead) {
         return run("tonemap black.exr --scale 1 --fov 8 --glare cie --lamps lamps.csv -o out.exr") == 0 ? header("out.exr", "vesper:glare:veil") : said;
     };
     const std::string wanted = veil("20,0,5\n");
-    for (const char* good : {"azimuth,elevation,lx\n20,0,5\n", "azimuth [deg]; elevation [deg]; E_v [lx]\n20;0;5,0\n", "# lamps\nto the right\tup\tilluminance\n20\t0\t5\n", "a,b,c\n20,0,5\n"})
-        EXPECT_EQ(veil(good), wanted) << good;
-    for (const char* bad : {"lx,azimuth,elevation\n5,20,0\n", "azimuth_rad,elevation_rad,lx\n1,0,5\n", "azimuth,elevation,cd\n20,0,5\n", "frame,lamp,azimuth,elevation\n0,x,20,0\n"})
+    for (const char* good : {"azimuth,elevation,lx\n20,0,5\n", "azimuth [deg]; elevation [deg]; E_v [lx]\n20;0;5,0\n", "# lamps\nto the right\tup\tilluminance\n20\t0\t5\n", "azimuth,elevation,illuminance\ndeg,deg,lx\n20,0,5\n",
+                             "lamp azimuth, lamp elevation, light intensity (lux)\n20, 0,\t5\n", "20,0\t0\t5,0\n", "\"20\",\"0\",\"5\"\n"})
+        EXPECT_NEAR(std::stod("0" + veil(good)), std::stod("0" + wanted), 1e-6) << good << said;
+    for (const char* bad : {"lx,azimuth,elevation\n5,20,0\n", "azimuth_rad,elevation_rad,lx\n1,0,5\n", "azimuthRad,elevation,lx\n1,0,5\n", "azimuth,elevation,cd\n20,0,5\n", "azimuth,elevation,E_mlx\n20,0,5\n", "left,up,lx\n20,0,5\n",
+                            "azimuth,down,lx\n20,0,5\n", "el,az,lx\n20,0,5\n", "a,b,c\n20,0,5\n", "frame,lamp,azimuth,elevation\n0,x,20,0\n"})
         EXPECT_NE(veil(bad).find("lamps.csv: line 1: "), std::string::npos) << bad << said;
-    for (const char* bad : {"20,0,x\n", "20,0,5\na,b,c\n", "20;0,5\n"}) EXPECT_NE(veil(bad).find("lamps.csv: line "), std::string::npos) << bad << said;
+    for (const char* bad : {"20,0,x\n", "20,0,5\na,b,c\n", "20;0,5\n", "20\xc2\xb0,0\xc2\xb0,5 lx\n10,0,1\n", "20 deg,0 deg,5 lx\n", "20..0,0..0,5..0\n"}) EXPECT_NE(veil(bad).find("lamps.csv: line "), std::string::npos) << bad << said;
 }
 
 TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {

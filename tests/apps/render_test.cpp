@@ -157,9 +157,12 @@ TEST_F(Program, SparesFilesOfScenesAndKeepsLogs) {
     }
     EXPECT_EQ(text_of(folder / "s.bin"), bytes);
 
+    EXPECT_EQ(render("--log /dev/stdout | cat"), 0) << said;
+    EXPECT_TRUE(text_of(folder / "out.txt").starts_with("frame,")) << "a pipe is written to";
+
     std::ofstream(folder / "log.csv") << "old";
     fs::create_directory(folder / "b2.png");
-    expect_refused("--frames 4 -o b%d.png --log log.csv");
+    EXPECT_EQ(render("--frames 4 -o b%d.png --log log.csv"), 2) << said;
     EXPECT_EQ(text_of(folder / "log.csv"), "old");
     const std::string part = text_of(folder / "log.csv.part");
     EXPECT_EQ(std::count(part.begin(), part.end(), '\n'), 3) << "a heading and two frames";
@@ -168,7 +171,7 @@ TEST_F(Program, SparesFilesOfScenesAndKeepsLogs) {
 TEST_F(Program, RefusesWhatCannotBeInOneLine) {
     for (const char* arguments : {"", "-o a.tiff", "-o none/a.png", "-o a.png --stats-json none/a.json", "-o a.png --operator foo", "-o a.exr --operator ldr",
                                   "-o a.png --threshold nan", "-o a.png --dt nan", "-o a.png --frames 0", "-o a.png --frames 2 -o b%99d.png",
-                                  "-o a.png --linear-min 5 --linear-max 1", "-o a.png --display-peak 1 --display-black 5", "-o a.png --camera nope",
+                                  "-o a.png --operator ldr --target .1,.1,.2,.2", "-o a.png --linear-min 5 --linear-max 1", "-o a.png --display-peak 1 --display-black 5", "-o a.png --camera nope",
                                   "-o a.png --foveal-level 14", "-o a.png --gaze 0.5", "-o a.png --gaze 2,0", "-o a.png --age 0", "-o a.png --smoothing -1", "-o a.png --adapt-to sun", "-o a.png --nonsense", "-o a.png --size 0x5", "-o a.png --device nowhere"})
         expect_refused(arguments);
     EXPECT_FALSE(fs::exists(folder / "a.png"));

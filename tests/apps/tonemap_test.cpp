@@ -107,7 +107,7 @@ TEST_F(TonemapProgram, WhatPicturesDoNotSayIsNoted) {
     ASSERT_EQ(tonemap("a.exr b.exr c.exr --fps 30 -o many/"), 0);
     EXPECT_NE(said.find("note: b.exr: 1.0 is 1 cd/m^2 from here on, and was 10\n"), std::string::npos) << said;
     ASSERT_EQ(tonemap("a.exr --glare cie -o a.png"), 0);
-    EXPECT_EQ(said, "note: a.exr: its header names no angle: taken as 40 degrees high (--fov tells another)\n");
+    EXPECT_EQ(said, "note: a.exr: its header names no angle of a perspective: taken as 40 degrees high (--fov tells another)\n");
     ASSERT_EQ(tonemap("a.exr --glare cie --fov 30 -o a.png"), 0);
     EXPECT_EQ(said, "");
 }
@@ -124,6 +124,9 @@ TEST_F(TonemapProgram, ViewsOfRadianceTellTheAngle) {
     EXPECT_EQ(said.find("no angle"), std::string::npos) << said;
     EXPECT_NEAR(angle("VIEW= -vtv -vv 60\nVIEW= -vtv -vv 15\n"), 15, 0.01);
     EXPECT_NEAR(angle("VIEW= -vtv -vv 40 -vl 0.5\n"), 36.1, 0.1) << "atan(2 tan 20)";
+    EXPECT_NEAR(angle("VIEW= -vtv -vh 20 -vv 15\nVIEW= -vs 0.5\n"), 15, 0.01) << "each changes what was before";
+    EXPECT_NEAR(angle("VIEW= -vta -vh 180 -vv 180\nVIEW= -vv 60\n"), 40, 0.01) << "still a fisheye";
+    EXPECT_NEAR(angle("VIEW= -vtv -vv nan\n"), 40, 0.01);
     EXPECT_NEAR(angle("VIEW= -vta -vh 180 -vv 180\n"), 40, 0.01);
     EXPECT_NE(said.find("no angle"), std::string::npos) << said;
     EXPECT_NEAR(angle("PIXASPECT=0.5\n"), 40, 0.01);
@@ -134,6 +137,7 @@ TEST_F(TonemapProgram, TargetsArePrinted) {
     write_layout(folder / "a.exr", uniform(64, 48, 2), {.white_luminance = 1});
     ASSERT_EQ(tonemap("a.exr --fov 20 --target .4,.4,.2,.2 -o a.png"), 0) << said;
     EXPECT_EQ(printed, "a.exr: target 2 cd/m^2 on 2 cd/m^2, veil 0 cd/m^2, visibility level 0\n");
+    for (const char* target : {".5,.5,.002,.002", "0,0,1,1", ".5,.5,0,0"}) expect_refused(std::string("tonemap a.exr --fov 20 -o a.png --target ") + target, {"a.exr: --target: "});
 }
 
 // The sRGB chunk says sRGB: other displays name what they are, or nothing.

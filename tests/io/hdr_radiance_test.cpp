@@ -101,10 +101,10 @@ TEST(HdrRadiance, PrimariesAreRadiancesOwnWhereItsProgramsMadeThePicture) {
         for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 2e-4 * double(wanted[c])) << header;  // the weights have five digits
     };
     expect(kRgbe, rec709);
-    expect(kRgbe + "GAMMA=1\nSOFTWARE=a camera\n", rec709);
+    for (const char* other : {"GAMMA=1\nSOFTWARE=a camera\n", "hdrmerge a b\n", "\"\n"}) expect(kRgbe + other, rec709);
     expect(kRgbe + "VIEW= -vtv -vv 20\n", own);
     expect(kRgbe + "SOFTWARE= RADIANCE 5.4a\n", own);
-    for (const char* command : {"rpict -vf a.vf scene.oct\n", "\t/usr/local/bin/pfilt -1\n", "\trtrace -x 3\n"}) expect(kRgbe + command, own);
+    for (const char* command : {"rpict -vf a.vf scene.oct\n", "\t/usr/local/bin/pfilt -1\n", "\trtrace -x 3\n", "rmtxop -fc a b\n", "\"C:\\Program Files\\Radiance\\bin\\rpict.exe\" a.oct\n"}) expect(kRgbe + command, own);
     expect(kRgbe + "VIEW= -vtv\nPRIMARIES=.64 .33 .3 .6 .15 .06 .3127 .3290\n", rec709);
     expect(kRgbe + "PRIMARIES=0 0 0 0 0 0 0 0\nrpict scene.oct\n", own);
 }

@@ -93,6 +93,12 @@ TEST_F(ConvertDistributionTest, MirroredNodesAreWarnedOf) {
     for (json& node : street_.root["nodes"])
         if (node.value("name", "") == "car_1/headlamp") node["scale"] = {-1, 1, 1};
     EXPECT_TRUE(mentions(convert_with({beam_rule()}).warnings, "lamp 'beam': node 'car_1/headlamp' is mirrored by a scale"));
+    json undone = beam_rule();
+    undone["mirror"] = true;
+    EXPECT_FALSE(mentions(convert_with({undone}).warnings, "mirrored by a scale"));
+    folder_.write("even.csv", ",-20,0,20\n-10,1,100,1\n0,1,500,1\n");
+    undone["file"] = "even.csv", undone.erase("mirror");
+    EXPECT_FALSE(mentions(convert_with({undone}).warnings, "mirrored by a scale")) << "left and right are alike";
     json point = beam_rule();
     point.erase("file"), point["type"] = "spot", point["intensity_cd"] = 5, point["outer_cone_deg"] = 20;
     EXPECT_FALSE(mentions(convert_with({point}).warnings, "mirrored by a scale"));

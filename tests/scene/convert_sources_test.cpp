@@ -131,6 +131,12 @@ TEST_F(ConvertSourcesTest, GlassWithoutItsLampIsDark) {
     street_.root["nodes"].push_back({{"name", "shop window"}, {"mesh", 0}, {"translation", {4, 0, 0}}});
     EXPECT_TRUE(mentions(convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}}).warnings,
                          "emitter 'glass': 1 of 3 surfaces has no lamp 'beam' within 1 m and is dark (node 'shop window')"));
+    // Two panes in one mesh, the other 20 m away.
+    street_.root["nodes"].erase(street_.root["nodes"].size() - 1);
+    json& primitive = street_.root["meshes"][0]["primitives"][0];
+    primitive["attributes"]["POSITION"] = street_.vec3({0, 0, 0, 0, 0, -0.3f, 0, 0.2f, -0.3f, 0, 0.2f, 0, 20, 0, 0, 20, 0, -0.3f, 20, 0.2f, -0.3f});
+    primitive["indices"] = street_.indices({0, 1, 2, 0, 2, 3, 4, 5, 6});
+    EXPECT_TRUE(mentions(convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}}).warnings, "emitter 'glass': 2 of 4 surfaces have no lamp 'beam'"));
 }
 
 // 600 cd over 0.06 m^2 are 10000 cd/m^2, by the opening stated or by the mesh.

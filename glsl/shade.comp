@@ -67,7 +67,9 @@ vec3 coefficient(uint r, vec3 toward_light, float normal_light) {
     const vec3 s = toward_light + toward_eye[r];
     const float s2 = max(dot(s, s), 1e-8);
     const float normal_s = normal_light + dot(normal[r], toward_eye[r]);
-    const float bump = max(s2 - (1.0 - a2[r]) * normal_s * max(normal_s, 0.0), a2[r] * s2);  // times s2 what GGX squares
+    // Times s2 what GGX squares: s2 - (1 - a2) (n.s)^2, as a sum, since for smooth surfaces that is a difference of equals.
+    const vec3 aside = cross(normal[r], s);
+    const float bump = normal_s > 0.0 ? dot(aside, aside) + a2[r] * normal_s * normal_s : s2;
     const float smith = normal_light * smith_eye[r] + normal_eye[r] * sqrt(normal_light * normal_light * (1.0 - a2[r]) + a2[r]);
     const float lobe = a2[r] * s2 * s2 / (2.0 * kPi * bump * bump * smith);
     const float off = max(1.0 - 0.5 * sqrt(s2), 0.0), off2 = off * off, schlick = off2 * off2 * off;

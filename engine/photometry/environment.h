@@ -44,7 +44,8 @@ glm::dvec3 irradiance(const Environment&, glm::dvec3 n);
 
 /// Illuminance on surfaces of every normal as a quadratic polynomial (spherical harmonics up to order 2, R. Ramamoorthi
 /// and P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps", SIGGRAPH 2001), lx RGB: factors of
-/// 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2.
+/// 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2. What is left out at normals that point up is added by the least change of the others, so that level ground has the
+/// illuminance that the sky is said to give it.
 using Irradiance9 = std::array<glm::dvec3, 9>;
 Irradiance9 irradiance_polynomial(const Environment&);
 /// Its value, which may ring below 0 opposite a very bright spot: at least 0.

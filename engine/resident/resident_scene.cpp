@@ -143,12 +143,14 @@ void ResidentScene::make_surfaces(const Device&, const Scene& scene) {
         if (m.emission != glm::vec3(0))
             variant |= picture || m.emission_texture.image != kNone ? kEmits | kEmissionTexture : kEmits;
         if (m.alpha == Material::Alpha::Mask) variant |= kMask;
+        const bool masks = m.alpha == Material::Alpha::Mask && m.alpha_cutoff > 0 && m.base_colour.a > 0;
+        const float cutoff = masks ? m.alpha_cutoff / m.base_colour.a : 0;  // of the texture
         float unit = 1;
         const VkDescriptorImageInfo emission = picture ? textures_.get_picture(scene, m.emission_picture, unit)
                                                        : textures_.get(scene, m.emission_texture, Decode::Srgb);
         m.emission *= unit;
         surfaces_.push_back({m, variant,
-                             {textures_.get(scene, m.base_colour_texture, Decode::Colour),
+                             {textures_.get(scene, m.base_colour_texture, Decode::Colour, cutoff),
                               textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission}});
     }
 }

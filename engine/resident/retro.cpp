@@ -25,7 +25,9 @@ void append(std::vector<glm::vec4>& texels, const Retroreflector& r) {
     for (size_t i = 0; i < r.entrance.size(); ++i) {
         const double cosine = std::cos(r.entrance[i] * kRadians);
         ramps[i].entrance = float(cosine);
-        if (i + 1 < r.entrance.size())
+        if (i + 1 == r.entrance.size())
+            ramps[i].entrance_slope = float(r.entrance[i] < 90 ? -r.entrance_factor[i] / cosine : 0.0);
+        else
             ramps[i].entrance_slope = float((r.entrance_factor[i + 1] - r.entrance_factor[i]) /
                                             (cosine - std::cos(r.entrance[i + 1] * kRadians)));
     }

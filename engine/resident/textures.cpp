@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include <glm/gtc/packing.hpp>
@@ -40,11 +41,42 @@ std::vector<Level> with_smaller(Level base) {
     return levels;
 }
 
-std::vector<Level> mip_chain(const Image& image, const std::vector<float>& table, bool linear_alpha) {
+Level decoded(const Image& image, const std::vector<float>& table, bool linear_alpha) {
     Level base{image.width, image.height, std::vector<float>(image.rgba.size())};
     for (size_t i = 0; i < image.rgba.size(); ++i)
         base.rgba[i] = linear_alpha && i % 4 == 3 ? float(image.rgba[i]) / 255 : table[image.rgba[i]];
-    return with_smaller(std::move(base));
+    return base;
+}
+
+/// The part of a level that `cutoff` leaves of its opacities times `scale`: of its area, between texels as filters see it, where that is no more than 256 x 256
+/// texels; of its texels otherwise.
+double covered(const Level& level, float cutoff, float scale = 1) {
+    const auto opacity = [&](uint32_t x, uint32_t y) { return std::min(level.rgba[(size_t(y) * level.width + x) * 4 + 3] * scale, 1.0f); };
+    const uint32_t steps = size_t(level.width) * level.height <= 65536 ? 4 : 1;
+    size_t count = 0;
+    for (uint32_t y = 0; y < level.height; ++y)
+        for (uint32_t x = 0; x < level.width; ++x) {
+            const uint32_t right = std::min(x + 1, level.width - 1), below = std::min(y + 1, level.height - 1);
+            const float corners[4]{opacity(x, y), opacity(right, y), opacity(x, below), opacity(right, below)};
+            for (uint32_t j = 0; j < steps; ++j)
+                for (uint32_t i = 0; i < steps; ++i) {
+                    const float u = float(i) / float(steps), v = float(j) / float(steps);
+                    count += std::lerp(std::lerp(corners[0], corners[1], u), std::lerp(corners[2], corners[3], u), v) >= cutoff;
+                }
+        }
+    return double(count) / (double(level.width) * level.height * steps * steps);
+}
+
+/// Scales opacities so that `cutoff` leaves `part`, as nearly as can be.
+void cover(Level& level, float cutoff, double part) {
+    if (part == 0 || part == 1) return;
+    double low = -4, high = 4;  // log2 of the scale
+    for (int step = 0; step < 12; ++step) {
+        const double middle = (low + high) / 2;
+        (covered(level, cutoff, float(std::exp2(middle))) < part ? low : high) = middle;
+    }
+    const auto scale = float(std::exp2(high));
+    for (size_t i = 3; i < level.rgba.size(); i += 4) level.rgba[i] = std::min(level.rgba[i] * scale, 1.0f);
 }
 
 // A luminance picture divided by `unit`.
@@ -109,17 +141,47 @@ Level half_size(const Level& level) {
     return half;
 }
 
+std::vector<Level> masked_levels(Level base, float cutoff) {
+    constexpr uint32_t kLeastSide = 8;
+    const double part = covered(base, cutoff);
+    for (size_t i = 0; i < base.rgba.size(); i += 4)
+        for (size_t c = 0; c < 3; ++c) base.rgba[i + c] *= base.rgba[i + 3];
+    std::vector<Level> levels = with_smaller(std::move(base));
+    // From the smallest up: where a texel has no opacity, the colour is that of the smaller level there.
+    for (size_t l = levels.size(); l-- > 0;) {
+        Level& level = levels[l];
+        for (uint32_t y = 0; y < level.height; ++y)
+            for (uint32_t x = 0; x < level.width; ++x) {
+                float* texel = &level.rgba[(size_t(y) * level.width + x) * 4];
+                if (texel[3] > 0) {
+                    for (int c = 0; c < 3; ++c) texel[c] /= texel[3];
+                } else if (l + 1 < levels.size()) {
+                    const Level& smaller = levels[l + 1];
+                    const float* there = &smaller.rgba[(size_t(std::min(y / 2, smaller.height - 1)) * smaller.width + std::min(x / 2, smaller.width - 1)) * 4];
+                    std::copy(there, there + 3, texel);
+                }
+            }
+    }
+    while (levels.size() > 1 && std::min(levels.back().width, levels.back().height) < kLeastSide) levels.pop_back();
+    for (size_t l = 1; l < levels.size(); ++l) cover(levels[l], cutoff, part);
+    constexpr double kWithin = 0.1;  // where opacities are all alike nothing is left to cut
+    while (levels.size() > 1 && std::abs(covered(levels.back(), cutoff) - part) > kWithin) levels.pop_back();
+    return levels;
+}
+
 TextureStore::TextureStore(const Device& device, Arena& arena, PictureFormat pictures)
     : device_(&device), arena_(&arena), picture_format_(filters_floats(device) ? pictures : PictureFormat::Half) {}
 
-VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& use, Decode decode) {
-    const auto key = std::pair(use.image, use.image == kNone ? Decode::Data : decode);
+VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& use, Decode decode, float cutoff) {
+    const auto key = std::tuple(use.image, use.image == kNone ? Decode::Data : decode, use.image == kNone ? 0.0f : cutoff);
     auto found = textures_.find(key);
     if (found == textures_.end()) {
         const Image white{"white", 1, 1, {255, 255, 255, 255}};
         const Image& image = use.image == kNone ? white : scene.images[use.image];
-        const auto levels = mip_chain(image, decode_table(key.second, scene.transfer), key.second != Decode::Data);
-        const VkFormat format = key.second == Decode::Data ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
+        const bool data = std::get<Decode>(key) == Decode::Data;
+        Level base = decoded(image, decode_table(std::get<Decode>(key), scene.transfer), !data);
+        const auto levels = std::get<float>(key) > 0 ? masked_levels(std::move(base), std::get<float>(key)) : with_smaller(std::move(base));
+        const VkFormat format = data ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
         found = textures_.emplace(key, upload(levels, format)).first;
     }
     return {sampler(use), found->second.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};

@@ -52,8 +52,11 @@ Light read_light(GltfReader& reader, const JsonValue& source) {
     }
     const auto colour = source.find("color");
     normalise(light, source.number_or("intensity", 1, 0), colour ? rgb_of(*colour) : glm::vec3(1), source);
-    if (light.kind == Light::Kind::Spot)
-        if (const auto spot = source.find("spot")) read_cones(light, *spot);
+    if (const auto spot = source.find("spot"); spot && light.kind == Light::Kind::Spot) {
+        read_cones(light, *spot);
+        constexpr double kNarrow = 0.5 * std::numbers::pi / 180;
+        if (light.outer_cone < kNarrow) reader.notes.add("a spot light of less than 0.5 degrees to either side gives more light than it says, and wider");
+    }
     if (source.find("range")) reader.notes.add("the range of a light is ignored: light follows the square law");
     return light;
 }

@@ -45,8 +45,9 @@ double luminous_flux(const Light& light) {
             return 4 * kPi * intensity;
         case Light::Kind::Spot: {
             // Full within the inner cone; between, the squared ramp in cos(angle), whose mean is a third.
-            const double inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
-            return 2 * kPi * intensity * ((1 - inner) + (inner - outer) / 3);
+            const auto cap = [](double angle) { return 2 * std::pow(std::sin(angle / 2), 2); };  // 1 - cos
+            const double outer = cap(light.outer_cone), inner = std::min(cap(light.inner_cone), outer);
+            return 2 * kPi * intensity * (inner + (outer - inner) / 3);
         }
         case Light::Kind::CosinePower:
             return 2 * kPi * intensity / (light.exponent + 1.0);

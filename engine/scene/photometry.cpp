@@ -65,7 +65,7 @@ void read_lobe(Light& light, const JsonValue& rule) {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
                          "opening", "aim", "inner_cone_deg", "outer_cone_deg"});
         light.kind = Light::Kind::Spot;
-        const double outer = rule.at("outer_cone_deg").number(0.1, 90);
+        const double outer = rule.at("outer_cone_deg").number(0.5, 90);
         const double inner = rule.number_or("inner_cone_deg", 0, 0, 90);
         if (inner > outer) rule.at("inner_cone_deg").fail("must not be more than outer_cone_deg");
         light.outer_cone = static_cast<float>(outer * kRadians);

@@ -60,10 +60,10 @@ inline Specular specular(dvec3 n, dvec3 l, dvec3 v, dvec3 f0, double roughness, 
     const double masking = 0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
     const double f90 = std::clamp(25 * std::max({f0.x, f0.y, f0.z}), 0.0, 1.0);
     const dvec3 fresnel = f0 + (f90 - f0) * std::pow(1 - vh, 5);
-    // d(1/q^2) = 2 dq / q with dq = 2 nh d(nh), and l + v is the shorter the more its direction is rounded; masking
-    // moves with n.l and n.v relative to their size.
+    // q = a2 nh^2 + |n x h|^2 as the shader has it, so d(1/q^2) = 2 dq / q with dq = 2 sqrt(q) d(n x h); l + v is the shorter the more its direction
+    // is rounded; masking moves with n.l and n.v relative to their size.
     const double half_rounding = epsilon * (1 + 1 / std::max(glm::length(l + v), 1e-9));
-    const double rounding = 4 * half_rounding / q + epsilon / std::max(nl, a) + epsilon / std::max(nv, a);
+    const double rounding = 4 * half_rounding / std::sqrt(q) + 2 * half_rounding * half_rounding / q + epsilon / std::max(nl, a) + epsilon / std::max(nv, a);
     return {distribution * masking * fresnel, std::min(rounding, 1.0)};
 }
 

@@ -46,6 +46,15 @@ TEST(Retroreflection, ASignInTheHeadlamps) {
     EXPECT_NEAR(retroreflected_luminance(ra2, 0.5, 5, 89.9, 1), 20 * retroreflection(ra2, 0.5, 5), 1e-9);
 }
 
+// Beyond the last entrance angle the factor falls with the cosine, to nothing at 90 degrees.
+TEST(Retroreflection, FallsBeyondItsEntranceAngles) {
+    const Retroreflector own{"own", {0.2, 1}, {100, 10}, {5, 30}, {1, 0.4}, false};
+    EXPECT_NEAR(retroreflection(own, 0.2, 30), 40, 1e-9);
+    EXPECT_NEAR(retroreflection(own, 0.2, 60), 40 * 0.5 / std::sqrt(0.75), 1e-9);
+    EXPECT_NEAR(retroreflection(own, 0.2, 90), 0, 1e-9);
+    EXPECT_EQ(retroreflection(own, 0.2, 120), 0);
+}
+
 // EN 1436: L = R_L E at the geometry of 30 m, 1.05 degrees; no cosine of the view.
 TEST(Retroreflection, AMarking) {
     const Retroreflector r3 = retroreflective_marking(150);

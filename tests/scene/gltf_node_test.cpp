@@ -121,6 +121,20 @@ TEST(GltfLight, KeepsTheProductOfIntensityAndColour) {
     EXPECT_EQ(loaded.scene.nodes[2].light, 2u);
 }
 
+TEST(GltfLight, WhatFloatsCannotHoldIsNoted) {
+    const auto notes = [](double cone, double far) {
+        GltfFile file;
+        file.root["extensions"] = lights({{{"type", "spot"}, {"spot", {{"outerConeAngle", cone}}}}});
+        file.root["nodes"] = {light(0), {{"name", "hill"}, {"translation", {1e5, 0, 0}}}};
+        file.root["nodes"][0]["translation"] = {far, 0, 0};
+        return file.read().notes;
+    };
+    EXPECT_FALSE(mentions(notes(0.01, 8000), "gives more light than it says"));
+    EXPECT_FALSE(mentions(notes(0.01, 8000), "from the origin")) << "what is far away may be so";
+    EXPECT_TRUE(mentions(notes(0.008, 0), "gives more light than it says"));
+    EXPECT_TRUE(mentions(notes(0.01, -447912), "lamps or cameras are 447.9 km from the origin, where places are exact to 31 mm only"));
+}
+
 TEST(GltfLight, LeavesOutTypesThatItDoesNotKnow) {
     GltfFile file;
     file.root["extensions"] = lights({{{"type", "area"}, {"intensity", 100}}, {{"type", "point"}, {"intensity", 7}}});

@@ -36,6 +36,9 @@ TEST(Light, FluxIsTheIntegralOfTheLobe) {
     light.kind = Light::Kind::Spot;
     light.inner_cone = 0.3f, light.outer_cone = 1.2f;
     EXPECT_NEAR(luminous_flux(light), integrated(light), 1e-4);
+    // Narrow cones: pi r^2 of the inner and a third of what is between, in small angles.
+    light.inner_cone = 0.006f, light.outer_cone = 0.01f;
+    EXPECT_NEAR(luminous_flux(light) / (100 * std::numbers::pi * (36e-6 + (100e-6 - 36e-6) / 3)), 1, 2e-5);
     light.kind = Light::Kind::CosinePower;
     for (const float exponent : {0.0f, 1.0f, 250.0f}) {
         light.exponent = exponent;

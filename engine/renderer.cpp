@@ -46,7 +46,7 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
                                      const LightList& lights, const SourceList& sources, const ChainInputs& given, const Outputs& outputs) const {
     const bool ldr = settings.tone_operator == Operator::Ldr;
     ClusterSettings clustering = settings.clusters;
-    clustering.far = scene_->resident.farthest_depth(frame, view.world_to_view);
+    clustering.far = scene_->resident.farthest_depth(frame, view);
     ShadeSettings shading{.all_lights = settings.all_lights};
     if (ldr || settings.paper_lambert) shading.lambert = 1;
     const AmbientLight ambient = frame.ambient.value_or(scene_->ambient);

@@ -106,7 +106,7 @@ std::vector<View> channel_views(const View& camera, uint32_t channels) {
     std::vector<View> views(channels, camera);
     for (uint32_t i = 0; i < channels; ++i) {
         const float turn = (float(i) - 0.5f * float(channels - 1)) * width;  // to the right
-        views[i].world_to_view = glm::rotate(glm::mat4(1), turn, glm::vec3(0, 1, 0)) * camera.world_to_view;
+        views[i].world_to_view = glm::rotate(glm::dmat4(1), double(turn), glm::dvec3(0, 1, 0)) * camera.world_to_view;
     }
     return views;
 }

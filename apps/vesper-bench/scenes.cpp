@@ -59,7 +59,7 @@ Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t triangles, 
 }
 
 void keep_nearest_lamps(Scene& scene, glm::vec3 eye, uint32_t count) {
-    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    const std::vector<glm::dmat4> world = world_transforms(scene, 0);
     std::vector<uint32_t> lamps;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].light != kNone) lamps.push_back(i);

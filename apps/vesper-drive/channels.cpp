@@ -81,7 +81,7 @@ Channels read_channels(const std::filesystem::path& file) {
 View channel_view(const ScreenChannel& c, const View& driver) {
     View view = driver;
     view.extent = c.extent;
-    view.world_to_view = glm::mat4(glm::inverse(turned(c)) * glm::dmat4(driver.world_to_view));
+    view.world_to_view = glm::inverse(turned(c)) * driver.world_to_view;
     view.tangent_low = {std::tan(c.left), std::tan(c.bottom)};
     view.tangent_high = {std::tan(c.right), std::tan(c.top)};
     return view;

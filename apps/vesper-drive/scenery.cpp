@@ -64,7 +64,7 @@ glm::dmat4 pose_of(const Actor& a) {
 WorldFile plain_world(const Scene& scene) {
     WorldFile file;
     glm::dvec3 eye(0, kEyeHeight, 0), ahead(0, 0, -1);
-    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    const std::vector<glm::dmat4> world = world_transforms(scene, 0);
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         if (scene.nodes[i].camera == kNone) continue;
         eye = glm::dvec3(world[i][3]), ahead = -glm::dvec3(world[i][2]);
@@ -208,7 +208,7 @@ SceneFrame Scenery::frame(const std::vector<Actor>& actors, double seconds, cons
     SceneFrame made{.world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
     std::vector<glm::dmat4> poses;
     for (const Actor& actor : actors) poses.push_back(pose_of(actor));
-    for (const Rider& r : riders_) made.world[r.node] = glm::mat4(poses[r.actor] * r.offset);
+    for (const Rider& r : riders_) made.world[r.node] = poses[r.actor] * r.offset;
 
     double outside = 0;
     if (settings.sun()) {

@@ -60,7 +60,7 @@ private:
     Scene scene_;
     std::shared_ptr<const WorldDescription> world_;
     std::vector<std::string> notes_;
-    std::vector<glm::mat4> rest_;     // of each node, in the world
+    std::vector<glm::dmat4> rest_;     // of each node, in the world
     struct Rider {
         uint32_t node, actor;
         glm::dmat4 offset;  // from the actor's pose

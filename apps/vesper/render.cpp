@@ -49,7 +49,7 @@ std::string file_of_frame(const std::string& pattern, unsigned index, unsigned f
 Header describe_frame(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, const GlareReport& glare, double seconds) {
     std::string pose;
     for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + digits(double(view.world_to_view[c][r]));
+        for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + format("%.15g", view.world_to_view[c][r]);
     Header header{{"vesper:version", VESPER_VERSION},
             {"vesper:scene", arguments.scene},
             {"vesper:options", arguments.options},

@@ -10,7 +10,7 @@ Resource add_daylight(FrameGraph& graph, const Kernels& kernels, const GBuffer& 
     for (const Tunnel& tunnel : tunnels) {
         const glm::vec3 way = tunnel.to - tunnel.from, along = glm::normalize(way);
         const glm::vec3 up = glm::normalize(glm::vec3(0, 1, 0) - along.y * along);
-        texels.emplace_back(glm::vec3(view.world_to_view * glm::vec4(tunnel.from, 1)), glm::length(way));
+        texels.emplace_back(glm::vec3(view.world_to_view * glm::dvec4(tunnel.from, 1)), glm::length(way));
         texels.emplace_back(turned * along, tunnel.width / 2);
         texels.emplace_back(turned * up, tunnel.height);
     }

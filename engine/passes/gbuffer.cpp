@@ -48,7 +48,7 @@ uint32_t layer_of(const Sphere& sphere) {
 std::vector<Drawn> cull(const ResidentScene& scene, const SceneFrame& frame, const View& view) {
     std::vector<Drawn> drawn;
     for (const ResidentScene::Placement& placement : scene.placements()) {
-        const glm::mat4 m = view.world_to_view * frame.world[placement.node];
+        const glm::mat4 m = view.from(frame.world[placement.node]);
         const bool mirrored = glm::determinant(glm::mat3(m)) < 0;
         const glm::mat4 rows = glm::transpose(m);
         for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i) {

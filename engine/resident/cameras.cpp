@@ -20,7 +20,7 @@ Bounds world_bounds(const Scene& scene, const SceneFrame& frame) {
                 const glm::vec3 c(corner & 1 ? primitive.bounds.high.x : primitive.bounds.low.x,
                                   corner & 2 ? primitive.bounds.high.y : primitive.bounds.low.y,
                                   corner & 4 ? primitive.bounds.high.z : primitive.bounds.low.z);
-                bounds.add(glm::vec3(frame.world[i] * glm::vec4(c, 1)));
+                bounds.add(glm::vec3(frame.world[i] * glm::dvec4(c, 1)));
             }
         }
     }
@@ -40,12 +40,12 @@ View framing_view(const Scene& scene, const SceneFrame& frame, VkExtent2D extent
 }
 
 // World to the frame of a node, without its scale.
-glm::mat4 view_from(const glm::mat4& world) {
-    glm::mat4 pose(1);
-    const glm::vec3 back(world[2]), up(world[1]);
-    pose[2] = glm::vec4(glm::normalize(back), 0);
-    pose[0] = glm::vec4(glm::normalize(glm::cross(up, back)), 0);
-    pose[1] = glm::vec4(glm::cross(glm::vec3(pose[2]), glm::vec3(pose[0])), 0);
+glm::dmat4 view_from(const glm::dmat4& world) {
+    glm::dmat4 pose(1);
+    const glm::dvec3 back(world[2]), up(world[1]);
+    pose[2] = glm::dvec4(glm::normalize(back), 0);
+    pose[0] = glm::dvec4(glm::normalize(glm::cross(up, back)), 0);
+    pose[1] = glm::dvec4(glm::cross(glm::dvec3(pose[2]), glm::dvec3(pose[0])), 0);
     pose[3] = world[3];
     return glm::inverse(pose);
 }

@@ -59,7 +59,7 @@ LightList light_list(const std::vector<PlacedLight>& lights, const LightMaps& ma
         const bool measured = light.kind == Light::Kind::Measured;
         const float intensity = light.intensity * frame.dimming_of(placed.node);
         if (!(intensity > 0) || (measured && !(maps.intensities.at(light.distribution).largest > 0))) continue;
-        const glm::mat4 m = view.world_to_view * frame.world[placed.node];
+        const glm::mat4 m = view.from(frame.world[placed.node]);
         const glm::vec3 x = unit(m[0], {1, 0, 0}), y = unit(m[1], {0, 0, -1}), z = unit(m[2], {0, 1, 0});
         const bool power = light.kind == Light::Kind::CosinePower;
         const glm::vec2 lobe = power ? glm::vec2(light.exponent, 0) : glm::vec2(cone_ramp(light));

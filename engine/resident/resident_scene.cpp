@@ -241,10 +241,10 @@ void ResidentScene::make_pipelines(const Device& device) {
     }
 }
 
-float ResidentScene::farthest_depth(const SceneFrame& frame, const glm::mat4& world_to_view) const {
+float ResidentScene::farthest_depth(const SceneFrame& frame, const View& view) const {
     float farthest = 0;
     for (const Placement& placement : placements_) {
-        const glm::mat4 m = world_to_view * frame.world[placement.node];
+        const glm::mat4 m = view.from(frame.world[placement.node]);
         for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i) {
             const Sphere sphere = sphere_of(parts_[i], m);
             farthest = std::max(farthest, sphere.radius - sphere.centre.z);

@@ -8,6 +8,7 @@
 #include "gpu/kernel.h"
 #include "gpu/memory.h"
 #include "resident/textures.h"
+#include "resident/view.h"
 #include "scene/scene.h"
 #include "scene/tunnel.h"
 
@@ -21,7 +22,7 @@ struct AmbientLight {
 
 /// Where everything in a scene stands at one moment, and how it is lit.
 struct SceneFrame {
-    std::vector<glm::mat4> world;         ///< per node, see world_transforms
+    std::vector<glm::dmat4> world;         ///< per node, see world_transforms
     std::vector<float> dimming;           ///< per node, factor on the intensity of its lamp, >= 0; empty: 1 everywhere
     std::optional<AmbientLight> ambient;  ///< in place of the scene's
     std::vector<Tunnel> tunnels;          ///< that it does not reach into
@@ -65,7 +66,7 @@ public:
     VkPipeline pipeline(uint32_t variant) const { return pipelines_.at(variant).get(); }
     PFN_vkCmdPushDescriptorSetKHR push_descriptors() const { return push_descriptors_; }
     /// Depth of the farthest point of any instance along the view axis, m; at least 0.
-    float farthest_depth(const SceneFrame& frame, const glm::mat4& world_to_view) const;
+    float farthest_depth(const SceneFrame& frame, const View& view) const;
     uint64_t triangles() const { return triangles_; }  ///< of all placements
     uint64_t bytes() const { return arena_.bytes(); }  ///< of device memory
 

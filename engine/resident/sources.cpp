@@ -182,7 +182,7 @@ SourceList source_list(const SourceSet& set, const SceneFrame& frame, const View
     for (const PlacedLight& placed : set.lamps) {
         const Light& light = placed.light;
         const uint32_t node = placed.node;
-        const std::optional<Aim> aim = aim_of(light, frame.dimming_of(node), set.distributions, view.world_to_view * frame.world[node], view);
+        const std::optional<Aim> aim = aim_of(light, frame.dimming_of(node), set.distributions, view.from(frame.world[node]), view);
         if (!aim) continue;
         const auto dazzles = [&](double inside) {
             if (aim->to_eye.z > 0) list.dazzling.push_back({node, -aim->to_eye, aim->distance, aim->candela, aim->candela / (aim->distance * aim->distance) * dvec3(light.colour), inside});

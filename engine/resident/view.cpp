@@ -4,7 +4,7 @@
 
 namespace vesper {
 
-View View::symmetric(VkExtent2D extent, float vertical_fov, const glm::mat4& world_to_view, float near) {
+View View::symmetric(VkExtent2D extent, float vertical_fov, const glm::dmat4& world_to_view, float near) {
     const float y = std::tan(vertical_fov / 2), x = y * float(extent.width) / float(extent.height);
     return {extent, world_to_view, {-x, -y}, {x, y}, near};
 }

@@ -9,13 +9,16 @@ namespace vesper {
 /// Where an eye stands and what its image covers. The view frame: x right, y up, looking along -z, m.
 struct View {
     VkExtent2D extent{1680, 1050};        ///< px
-    glm::mat4 world_to_view{1};
+    glm::dmat4 world_to_view{1};          ///< in double, as what is seen may be far from the origin
     glm::vec2 tangent_low{-0.8f, -0.5f};  ///< tangents of the left and bottom edge of the image
     glm::vec2 tangent_high{0.8f, 0.5f};   ///< and of the right and top edge
     float near = 0.1f;                    ///< nothing nearer is drawn, m
 
     /// A symmetric view of square pixels. `vertical_fov` in rad.
-    static View symmetric(VkExtent2D extent, float vertical_fov, const glm::mat4& world_to_view, float near = 0.1f);
+    static View symmetric(VkExtent2D extent, float vertical_fov, const glm::dmat4& world_to_view, float near = 0.1f);
+
+    /// To the view's frame, from one that has this place in the world.
+    glm::mat4 from(const glm::dmat4& to_world) const { return glm::mat4(world_to_view * to_world); }
 
     /// A pixel (x, y), y down, sees along (ray_scale * (pixel + 0.5) + ray_offset, -1).
     glm::vec2 ray_scale() const;

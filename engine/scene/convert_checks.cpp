@@ -45,7 +45,7 @@ void check_lamps(Conversion& conversion) {
 
 void check_size(Conversion& conversion) {
     const Scene& scene = conversion.original.scene;
-    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    const std::vector<glm::dmat4> world = world_transforms(scene, 0);
     Bounds bounds;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         if (scene.nodes[i].mesh == kNone) continue;
@@ -54,7 +54,7 @@ void check_size(Conversion& conversion) {
                 const Bounds& b = primitive.bounds;
                 const glm::vec4 point(corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y,
                                       corner & 4 ? b.high.z : b.low.z, 1);
-                bounds.add(glm::vec3(world[i] * point));
+                bounds.add(glm::vec3(world[i] * glm::dvec4(point)));
             }
     }
     if (bounds.empty()) return;

@@ -77,10 +77,10 @@ json light_of(const LampRule& rule) {
 }
 
 /// How long the node's axes are in the world: offsets are given in metres, whatever scale lies above.
-glm::dvec3 axis_lengths(const Conversion& conversion, const std::vector<glm::mat4>& world, uint32_t node) {
+glm::dvec3 axis_lengths(const Conversion& conversion, const std::vector<glm::dmat4>& world, uint32_t node) {
     const uint32_t placed = conversion.original.node_of[node];
     if (placed == kNone) return glm::dvec3(1);
-    const glm::mat4& m = world[placed];
+    const glm::dmat4& m = world[placed];
     glm::dvec3 lengths;
     for (int axis = 0; axis < 3; ++axis) {
         const double length = glm::length(glm::dvec3(m[axis][0], m[axis][1], m[axis][2]));
@@ -224,7 +224,7 @@ bool is_symmetric(const Distribution& d) {
 }
 
 /// A scale of negative determinant turns a beam for right-hand traffic into one for left-hand, which no lamp does.
-void warn_of_mirrors(Conversion& conversion, const LampRule& rule, const std::vector<uint32_t>& nodes, const std::vector<glm::mat4>& world) {
+void warn_of_mirrors(Conversion& conversion, const LampRule& rule, const std::vector<uint32_t>& nodes, const std::vector<glm::dmat4>& world) {
     if (rule.light.kind != Light::Kind::Measured) return;
     const MeasuredLamp& lamp = conversion.photometry.measured[rule.light.distribution];
     if (lamp.mirror || is_symmetric(lamp.distribution)) return;
@@ -250,7 +250,7 @@ void convert_lamps(Conversion& conversion) {
             depth = std::max(depth, static_cast<size_t>(std::count(pattern.begin(), pattern.end(), '/')) + 1);
 
     const size_t count = conversion.original.node_of.size();
-    const std::vector<glm::mat4> world = world_transforms(conversion.original.scene, 0);
+    const std::vector<glm::dmat4> world = world_transforms(conversion.original.scene, 0);
     std::vector<std::vector<uint32_t>> matched(conversion.photometry.lamps.size());
     std::set<size_t> lamp_nodes;
     {

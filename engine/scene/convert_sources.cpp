@@ -32,7 +32,7 @@ double axis_intensity(const Conversion& conversion, const LampRule& rule) {
     return luminous_intensity(light, {&distribution, 1}, {0, 0, -1});
 }
 
-std::vector<Placed> placed_lamps(const Conversion& conversion, const std::vector<glm::mat4>& world, size_t rule_index) {
+std::vector<Placed> placed_lamps(const Conversion& conversion, const std::vector<glm::dmat4>& world, size_t rule_index) {
     const LampRule& rule = conversion.photometry.lamps[rule_index];
     const dvec3 aim = rule.turn ? *rule.turn * dvec3(0, 0, -1) : rule.aim.value_or(dvec3(0, 0, -1));
     std::vector<Placed> lamps;
@@ -119,7 +119,7 @@ void check_named(Conversion& conversion, const EmitterRule& emitter) {
 }
 
 /// Boxes, in the world, around what hangs together in a primitive: triangles with corners at the same place.
-std::vector<Bounds> pieces_of(const Primitive& primitive, const glm::mat4& world) {
+std::vector<Bounds> pieces_of(const Primitive& primitive, const glm::dmat4& world) {
     std::vector<uint32_t> first(primitive.vertices.size());  // of each vertex's piece, by way of others
     const auto root = [&](uint32_t v) {
         while (first[v] != v) v = first[v] = first[first[v]];
@@ -133,14 +133,14 @@ std::vector<Bounds> pieces_of(const Primitive& primitive, const glm::mat4& world
     for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
         for (const size_t c : {i + 1, i + 2}) first[root(primitive.indices[c])] = root(primitive.indices[i]);
     std::map<uint32_t, Bounds> boxes;
-    for (const uint32_t v : primitive.indices) boxes[root(v)].add(glm::vec3(world * glm::vec4(primitive.vertices[v].position, 1)));
+    for (const uint32_t v : primitive.indices) boxes[root(v)].add(glm::vec3(world * glm::dvec4(primitive.vertices[v].position, 1)));
     std::vector<Bounds> pieces;
     for (const auto& [_, box] : boxes) pieces.push_back(box);
     return pieces;
 }
 
 /// Glass whose lamps are to show in it, but where none is: it is dark.
-void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining, const std::vector<glm::mat4>& world) {
+void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining, const std::vector<glm::dmat4>& world) {
     const Scene& scene = conversion.original.scene;
     std::vector<dvec3> lamps;
     for (size_t r = 0; r < conversion.photometry.lamps.size(); ++r)
@@ -168,7 +168,7 @@ void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::ve
 
 /// One emitter against one lamp rule, by the meshes beside its lamps; one line for all nodes.
 void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining,
-                size_t rule_index, const std::vector<glm::mat4>& world) {
+                size_t rule_index, const std::vector<glm::dmat4>& world) {
     const Scene& scene = conversion.original.scene;
     const LampRule& rule = conversion.photometry.lamps[rule_index];
     const auto shines = [&](const Primitive& p) {
@@ -219,7 +219,7 @@ std::string deviation(double factor) {
 
 void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_t>>& emitting) {
     const Photometry& photometry = conversion.photometry;
-    const std::vector<glm::mat4> world = world_transforms(conversion.original.scene, 0);
+    const std::vector<glm::dmat4> world = world_transforms(conversion.original.scene, 0);
     for (size_t e = 0; e < photometry.emitters.size(); ++e) {
         const EmitterRule& emitter = photometry.emitters[e];
         if (!emitter.lamps.empty()) {

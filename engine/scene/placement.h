@@ -12,6 +12,6 @@ namespace vesper {
 glm::dmat4 local_transform(const Node&);
 
 /// world_transforms() with some nodes, and what hangs on them, put somewhere: node frame to world, by node.
-std::vector<glm::mat4> placed_transforms(const Scene&, double seconds, const std::map<uint32_t, glm::mat4>& places);
+std::vector<glm::dmat4> placed_transforms(const Scene&, double seconds, const std::map<uint32_t, glm::mat4>& places);
 
 }  // namespace vesper

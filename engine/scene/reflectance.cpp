@@ -95,7 +95,7 @@ glm::dvec4 mean_texel(const Image& image, const Transfer& transfer, const Textur
 
 std::vector<MaterialUse> material_uses(const Scene& scene) {
     std::vector<double> shown(scene.meshes.size());  // m^2 of the world to one of the mesh's, of all nodes together
-    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    const std::vector<glm::dmat4> world = world_transforms(scene, 0);
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         if (scene.nodes[i].mesh == kNone) continue;
         const glm::dmat3 m(world[i]);

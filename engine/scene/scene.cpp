@@ -75,9 +75,9 @@ glm::dmat4 local_transform(const Node& node) {
             glm::dvec4(node.translation, 1)};
 }
 
-std::vector<glm::mat4> world_transforms(const Scene& scene, double seconds) { return placed_transforms(scene, seconds, {}); }
+std::vector<glm::dmat4> world_transforms(const Scene& scene, double seconds) { return placed_transforms(scene, seconds, {}); }
 
-std::vector<glm::mat4> placed_transforms(const Scene& scene, double seconds, const std::map<uint32_t, glm::mat4>& places) {
+std::vector<glm::dmat4> placed_transforms(const Scene& scene, double seconds, const std::map<uint32_t, glm::mat4>& places) {
     std::vector<glm::dmat4> world(scene.nodes.size());
     for (size_t i = 0; i < scene.nodes.size(); ++i) world[i] = local_transform(scene.nodes[i]);
 
@@ -101,7 +101,7 @@ std::vector<glm::mat4> placed_transforms(const Scene& scene, double seconds, con
         else if (scene.nodes[i].parent != kNone)
             world[i] = world[scene.nodes[i].parent] * world[i];
     }
-    return {world.begin(), world.end()};
+    return world;
 }
 
 double animation_length(const Scene& scene) {

@@ -169,7 +169,7 @@ struct Scene {
 
 /// Where every node stands at a time: node frame to world, one matrix per node. Channels hold their first and last
 /// values outside their keys. `seconds` >= 0. Multiplied in double.
-std::vector<glm::mat4> world_transforms(const Scene& scene, double seconds);
+std::vector<glm::dmat4> world_transforms(const Scene& scene, double seconds);
 
 /// Duration of the longest channel, s; 0 without animation.
 double animation_length(const Scene& scene);

@@ -50,7 +50,7 @@ double largest_luminance(glm::vec3 colour, const Image& image) {
     return largest;
 }
 
-std::vector<PlacedLamp> placed_lamps(const Scene& scene, const std::vector<glm::mat4>& world, SceneReport& report) {
+std::vector<PlacedLamp> placed_lamps(const Scene& scene, const std::vector<glm::dmat4>& world, SceneReport& report) {
     std::vector<PlacedLamp> lamps;
     std::map<decltype(group_of({})), size_t> place;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -202,7 +202,7 @@ void report_heights(const std::vector<PlacedLamp>& lamps, SceneReport& report) {
 
 SceneReport report_scene(const Scene& scene) {
     SceneReport report;
-    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    const std::vector<glm::dmat4> world = world_transforms(scene, 0);
     std::vector<PlacedLamp> lamps = placed_lamps(scene, world, report);
     Measure measure(scene, lamps);
     for (size_t i = 0; i < scene.nodes.size(); ++i) {

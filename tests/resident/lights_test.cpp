@@ -51,7 +51,7 @@ TEST(Lights, KindsFollowOneAnotherAndDarkLampsAreLeftOut) {
         scene.nodes.emplace_back();
         scene.nodes.back().light = i;
     }
-    const SceneFrame four{std::vector<glm::mat4>(4, glm::mat4(1))};
+    const SceneFrame four{std::vector<glm::dmat4>(4, glm::dmat4(1))};
     const LightList list = light_list(placed_lights(scene), {}, four, View());
     ASSERT_EQ(list.lights.size(), 3u);
     EXPECT_EQ(list.counts.cones, 1u);
@@ -82,7 +82,7 @@ TEST(Lights, TheFrameOfAMapIsOrthonormal) {
 
 TEST(Lights, AreDimmedNodeByNode) {
     const Light point{.name = {}, .kind = Light::Kind::Point, .intensity = 10};
-    const SceneFrame frame{.world = std::vector<glm::mat4>(3, glm::mat4(1)), .dimming = {0.5f, 0, 1}};
+    const SceneFrame frame{.world = std::vector<glm::dmat4>(3, glm::dmat4(1)), .dimming = {0.5f, 0, 1}};
     const LightList list = light_list({{point, 0}, {point, 1}, {point, 2}}, {}, frame, View());
     ASSERT_EQ(list.lights.size(), 2u);
     EXPECT_EQ(list.counts.cones, 2u);

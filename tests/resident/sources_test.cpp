@@ -55,7 +55,7 @@ TEST(Source, LuminanceIsIntensityOverArea) {
 TEST(Source, IsDimmedWithItsNode) {
     SourceSet set;
     for (uint32_t node = 0; node < 3; ++node) set.lamps.push_back({lamp_with_opening(900, 0.3, 0.2), node});
-    SceneFrame frame{.world = std::vector<glm::mat4>(3, aimed({0, 0, -5}, {0, 0, 1})), .dimming = {1, 0.25f, 0}};
+    SceneFrame frame{.world = std::vector<glm::dmat4>(3, aimed({0, 0, -5}, {0, 0, 1})), .dimming = {1, 0.25f, 0}};
     const SourceList list = source_list(set, frame, kView);
     ASSERT_EQ(list.sources.size(), 2u);
     ASSERT_EQ(list.dazzling.size(), 2u);

@@ -104,7 +104,7 @@ TEST_F(ConvertSky, TheMoon) {
     EXPECT_EQ(scene.lights[0].kind, Light::Kind::Directional);
     EXPECT_NEAR(scene.lights[0].intensity, 0.25, 1e-6);
     EXPECT_NEAR(scene.lights[0].colour.b, colour_of_temperature(4100).b, 1e-5);
-    const std::vector<glm::mat4> world = world_transforms(scene, 0);
+    const std::vector<glm::dmat4> world = world_transforms(scene, 0);
     std::vector<glm::vec3> ways;
     for (size_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].light != kNone) ways.push_back(-glm::vec3(world[i][2]));

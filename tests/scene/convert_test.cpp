@@ -114,7 +114,7 @@ TEST_F(ConvertTest, PutsLampsOnNodes) {
         if (scene.nodes[i].light != kNone) lit.push_back(i);
     ASSERT_EQ(lit.size(), 3u);
     EXPECT_EQ(scene.nodes[lit[0]].name, "light");
-    EXPECT_EQ(world[lit[0]][3], glm::vec4(0, 6.5, 0, 1));
+    EXPECT_EQ(world[lit[0]][3], glm::dvec4(0, 6.5, 0, 1));
     const glm::vec3 axis = -glm::vec3(world[lit[1]][2]);
     EXPECT_NEAR(glm::normalize(axis).x, 1, 1e-6);
     EXPECT_NEAR(world[lit[1]][3].z, 0.5, 1e-6);

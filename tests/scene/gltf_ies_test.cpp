@@ -77,7 +77,7 @@ TEST(GltfIes, ANodeMayHoldBothKindsOfLight) {
     EXPECT_EQ(scene.nodes[1].name, "lantern");
     EXPECT_EQ(scene.nodes[1].parent, 0u);
     EXPECT_EQ(scene.lights[scene.nodes[1].light].kind, Light::Kind::Measured);
-    EXPECT_EQ(world_transforms(scene, 0)[1][3], glm::vec4(1, 2, 3, 1));
+    EXPECT_EQ(world_transforms(scene, 0)[1][3], glm::dvec4(1, 2, 3, 1));
     // The index of a punctual light does not reach into the measured ones.
     file.root["nodes"][1]["extensions"]["KHR_lights_punctual"] = {{"light", 1}};
     EXPECT_TRUE(contains(file.complaint(), "KHR_lights_punctual/light"));

@@ -151,7 +151,7 @@ TEST(GltfMesh, ExpandsInstances) {
     EXPECT_EQ(scene.nodes[0].mesh, kNone);
     EXPECT_EQ(scene.nodes[1].mesh, 0u);
     const auto world = world_transforms(scene, 0);
-    EXPECT_EQ(world[1][3], glm::vec4(11, 0, 0, 1));
+    EXPECT_EQ(world[1][3], glm::dvec4(11, 0, 0, 1));
     EXPECT_NEAR(world[2][0].x, -1, 1e-6);  // half a turn about Y
 }
 

@@ -45,8 +45,8 @@ TEST(GltfNode, KeepsNegativeScaleAndMatrices) {
     file.root["nodes"] = {{{"scale", {-1, 2, 3}}}, {{"matrix", {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}}};
     const auto world = world_transforms(file.read().scene, 0);
     EXPECT_EQ(world[0][0].x, -1);
-    EXPECT_EQ(world[1][0], glm::vec4(0, 1, 0, 0));
-    EXPECT_EQ(world[1][3], glm::vec4(4, 5, 6, 1));
+    EXPECT_EQ(world[1][0], glm::dvec4(0, 1, 0, 0));
+    EXPECT_EQ(world[1][3], glm::dvec4(4, 5, 6, 1));
 }
 
 // A database at UTM coordinates that a node above brings back: floats would be 0.2 m off.
@@ -122,17 +122,14 @@ TEST(GltfLight, KeepsTheProductOfIntensityAndColour) {
 }
 
 TEST(GltfLight, WhatFloatsCannotHoldIsNoted) {
-    const auto notes = [](double cone, double far) {
+    const auto notes = [](double cone) {
         GltfFile file;
         file.root["extensions"] = lights({{{"type", "spot"}, {"spot", {{"outerConeAngle", cone}}}}});
-        file.root["nodes"] = {light(0), {{"name", "hill"}, {"translation", {1e5, 0, 0}}}};
-        file.root["nodes"][0]["translation"] = {far, 0, 0};
+        file.root["nodes"] = {light(0)};
         return file.read().notes;
     };
-    EXPECT_FALSE(mentions(notes(0.01, 8000), "gives more light than it says"));
-    EXPECT_FALSE(mentions(notes(0.01, 8000), "from the origin")) << "what is far away may be so";
-    EXPECT_TRUE(mentions(notes(0.008, 0), "gives more light than it says"));
-    EXPECT_TRUE(mentions(notes(0.01, -447912), "lamps or cameras are 447.9 km from the origin, where places are exact to 31 mm only"));
+    EXPECT_FALSE(mentions(notes(0.01), "gives more light than it says"));
+    EXPECT_TRUE(mentions(notes(0.008), "gives more light than it says"));
 }
 
 TEST(GltfLight, LeavesOutTypesThatItDoesNotKnow) {
@@ -190,7 +187,7 @@ TEST(GltfAnimation, InterpolatesStepAndLinear) {
     const std::vector<float> times = {1, 3}, values = {0, 0, 0, 8, 0, 0};
     const Scene linear = animated("translation", "LINEAR", times, values, 3),
                 step = animated("translation", "STEP", times, values, 3), unknown = animated("translation", "WAVY", times, values, 3);
-    const auto x = [](const Scene& scene, double seconds) { return world_transforms(scene, seconds)[0][3].x; };
+    const auto x = [](const Scene& scene, double seconds) { return float(world_transforms(scene, seconds)[0][3].x); };
     EXPECT_EQ(animation_length(linear), 3);
     for (const auto& [seconds, expected] :
          std::vector<std::pair<double, float>>{{0, 0}, {1, 0}, {1.5, 2}, {2, 4}, {3, 8}, {9, 8}})

@@ -50,10 +50,10 @@ struct Seen {
 };
 
 /// A vertex of a node in the world.
-Seen seen(const Scene& scene, const std::string& name, size_t vertex, const std::vector<glm::mat4>& world) {
+Seen seen(const Scene& scene, const std::string& name, size_t vertex, const std::vector<glm::dmat4>& world) {
     const size_t node = drawn(scene, name);
     const Vertex& v = scene.meshes.at(scene.nodes.at(node).mesh).primitives.at(0).vertices.at(vertex);
-    return {glm::vec3(world[node] * glm::vec4(v.position, 1)), glm::normalize(glm::transpose(glm::inverse(glm::mat3(world[node]))) * v.normal)};
+    return {glm::vec3(world[node] * glm::dvec4(v.position, 1)), glm::normalize(glm::transpose(glm::inverse(glm::mat3(glm::mat4(world[node])))) * v.normal)};
 }
 Seen seen(const Scene& scene, const std::string& name, size_t vertex) { return seen(scene, name, vertex, world_transforms(scene, 0)); }
 

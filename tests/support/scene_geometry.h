@@ -50,8 +50,8 @@ inline std::optional<reference::Texture> picture_of(const Scene& scene, TextureU
 }
 
 /// Every triangle of every node, in the order of nodes.
-inline reference::Geometry geometry_of(const Scene& scene, const std::vector<glm::mat4>& world,
-                                       const glm::mat4& world_to_view) {
+inline reference::Geometry geometry_of(const Scene& scene, const std::vector<glm::dmat4>& world,
+                                       const glm::dmat4& world_to_view) {
     reference::Geometry g;
     const Transfer srgb{};
     for (const Material& m : scene.materials) {

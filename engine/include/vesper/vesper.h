@@ -237,7 +237,7 @@ VesperResult vesper_tone_mapper_set_eye(VesperToneMapper *mapper, const void *by
 /** @name Scenes
  * A scene may change between two frames of its renderers, which take over what is new with the next: geometry is then uploaded
  * again, and for that moment both scenes are on the device. What only moves, dims or is switched off is told the renderer, which costs nothing.
- * Nodes keep their number for ever; those that are gone still cost some 25 ns of the host in every frame, each. Places are of single precision: keep what is
+ * Nodes keep their number for ever; those that are gone still cost some 25 ns of the host in every frame, each. Places that a host gives are of single precision: keep what is
  * seen within some 50 km of the origin.
  * @{ */
 

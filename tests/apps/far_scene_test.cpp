@@ -17,7 +17,7 @@ protected:
         scene.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}}};
         scene.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
         scene.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"intensity", 1000}, {"spot", {{"outerConeAngle", 0.6}}}}};
-        scene.root["extensionsUsed"] = {"KHR_lights_punctual"};
+        scene.root["extensionsUsed"] = nlohmann::json::array({"KHR_lights_punctual"});
         for (nlohmann::json& node : scene.root["nodes"]) node["translation"] = at(0, 0, 0);
         scene.root["nodes"].push_back({{"translation", at(0, 1.2, 5)}, {"camera", 0}, {"rotation", {-0.0998334, 0, 0, 0.9950042}}});
         scene.root["nodes"].push_back({{"translation", at(0.31, 0.6512, -0.123)}, {"rotation", {-0.0499792, 0, 0, 0.9987503}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});

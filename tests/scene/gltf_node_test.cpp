@@ -125,7 +125,7 @@ TEST(GltfLight, WhatFloatsCannotHoldIsNoted) {
     const auto notes = [](double cone) {
         GltfFile file;
         file.root["extensions"] = lights({{{"type", "spot"}, {"spot", {{"outerConeAngle", cone}}}}});
-        file.root["nodes"] = {light(0)};
+        file.root["nodes"] = json::array({light(0)});
         return file.read().notes;
     };
     EXPECT_FALSE(mentions(notes(0.01), "gives more light than it says"));

@@ -30,12 +30,15 @@ void Files::writes(const std::string& option, const std::string& file) {
     if (!folder.empty() && !std::filesystem::is_directory(folder, failed)) throw Error(place + "there is no folder " + one_line(folder.string()));
     const std::string name = true_name(file);
     if (read_.contains(name)) throw Error(place + "would replace what is read");
-    if (!written_.emplace(name, place).second) throw Error(place + "would be written twice");
+    if (!written_.try_emplace(name, option, file).second) throw Error(place + "would be written twice");
 }
 
 void Files::spare(const FilesRead& read) const {
-    for (const auto& [name, place] : written_)
-        if (read.contains(name)) throw Error(place + "would replace what is read");
+    for (const auto& [name, written] : written_) vesper::spare(read, written.first, written.second);
+}
+
+void spare(const FilesRead& read, const std::string& option, const std::string& file) {
+    if (!file.empty() && read.contains(file)) throw Error(option + " " + one_line(file) + ": would replace what is read");
 }
 
 std::string in_shell(const std::string& value) {

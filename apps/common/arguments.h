@@ -4,12 +4,16 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include "io/files_read.h"
 
 namespace vesper {
+
+/// Throws Error if the file that an option names was read.
+void spare(const FilesRead&, const std::string& option, const std::string& file);
 
 /// The files of a command: no output may replace an input or another output.
 class Files {
@@ -23,7 +27,7 @@ public:
 
 private:
     std::set<std::string> read_;
-    std::map<std::string, std::string> written_;  // and what the message begins with
+    std::map<std::string, std::pair<std::string, std::string>> written_;  // by their true names: option and file
 };
 /// A number in a range; not-a-number is in none.
 CLI::Validator between(double low, double high);

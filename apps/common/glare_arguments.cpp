@@ -41,8 +41,8 @@ bool is_heading(const std::vector<std::string_view>& cells) {
 /// Headings name the columns, or their units, and nothing else.
 void check_heading(const LineReader& lines, const std::vector<std::string_view>& cells) {
     static const std::set<std::string> kColumns[]{{"azimuth", "az", "right", "horizontal", "h", "deg", "degree", "degrees"},
-                                                {"elevation", "el", "up", "vertical", "v", "deg", "degree", "degrees"},
-                                                {"illuminance", "e", "ev", "lx", "lux"}};
+                                                  {"elevation", "el", "up", "vertical", "v", "deg", "degree", "degrees"},
+                                                  {"illuminance", "e", "ev", "lx", "lux"}};
     static const std::set<std::string> kOthers{"angle", "to", "the", "of", "at", "in", "eye", "lamp", "light", "source", "glare", "direction", "position", "intensity", "v"};
     constexpr const char* kWanted = "the columns are azimuth (to the right, degrees), elevation (up, degrees) and illuminance at the eye (lx)";
     if (cells.size() != 3) lines.fail(kWanted);

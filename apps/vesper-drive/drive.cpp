@@ -53,8 +53,7 @@ std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArgu
 }
 
 void check_outputs(const DriveArguments& a, const FilesRead& read) {
-    for (const auto& [option, file] : growing_outputs(a))
-        if (!file.empty() && read.contains(file)) throw Error(option + " " + one_line(file) + ": would replace what is read");
+    for (const auto& [option, file] : growing_outputs(a)) spare(read, option, file);
 }
 
 DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {

@@ -133,7 +133,7 @@ private:
         Files others;
         for (const auto& [option, other] : growing_outputs(arguments_)) others.writes(option, other);
         others.writes("--video", file);
-        if (read.contains(file)) throw Error("--video " + one_line(file) + ": would replace what is read");
+        spare(read, "--video", file);
     }
     Header header(const Session& session, const ToneMapped& frame, uint32_t lights) const {
         std::string options;  // settings other than the defaults

@@ -38,7 +38,7 @@ double distance_to(const dvec3& a, const dvec3& b, const dvec3& c, const Ray& ra
 }  // namespace
 
 std::optional<SurfacePoint> surface_at(const Scene& scene, const SceneFrame& frame, const View& view, glm::uvec2 pixel) {
-    const glm::dmat4 view_to_world = glm::inverse(glm::dmat4(view.world_to_view));
+    const glm::dmat4 view_to_world = glm::inverse(view.world_to_view);
     const glm::vec2 tangents = view.ray_scale() * (glm::vec2(pixel) + 0.5f) + view.ray_offset();
     const Ray world{dvec3(view_to_world[3]), dvec3(view_to_world * glm::dvec4(double(tangents.x), double(tangents.y), -1, 0))};
     double nearest = HUGE_VAL;

@@ -93,29 +93,28 @@ Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scen
         RoadWorld roads = road_world(file, run, scenario);
         scene_ = std::move(roads.scene), notes_ = std::move(roads.notes), lenses_ = std::move(roads.lenses);
         scene_.name = file.string();
-        adopt(std::move(roads.world));
+        adopt(roads.world);
     } else if (extension == ".json") {
         WorldFile world = read_world(file);
         LoadedScene loaded = load(world.scene, world.photometry);
         notes_ = notes_of(loaded, world.scene.string()), scene_ = std::move(loaded.scene);
         scene_.name = world.scene.string();
-        const LampRoles roles = world.roles;
-        const std::vector<std::string> by_day = world.by_day;
-        adopt(std::move(world));
-        for (const auto& [place, names] : {std::pair("/lamps/low", &roles.low), std::pair("/lamps/high", &roles.high), std::pair("/lamps/tail", &roles.tail), std::pair("/lamps/brake", &roles.brake),
-                                           std::pair("/lamps/left", &roles.left), std::pair("/lamps/right", &roles.right), std::pair("/lit_by_day", &by_day)})
-            for (size_t i = 0; i < names->size(); ++i) require_lamp((*names)[i], one_line(file.string()) + ": " + place + "/" + std::to_string(i));
+        adopt(world);
+        const std::string at = one_line(file.string()) + ": ";
+        for (const auto& [role, names] : kLampRoles) require_lamps(world.roles.*names, at + "/lamps/" + role);
+        require_lamps(world.by_day, at + "/lit_by_day");
     } else if (extension == ".gltf" || extension == ".glb") {
         LoadedScene loaded = load(file, {});
         notes_ = notes_of(loaded, file.string()), scene_ = std::move(loaded.scene);
         scene_.name = file.string();
-        adopt(plain_world(scene_));
+        WorldFile plain = plain_world(scene_);
+        adopt(plain);
     } else {
         throw Error(one_line(file.string()) + ": a world (.json), roads (.xodr) or a scene (.gltf, .glb) is expected");
     }
 }
 
-void Scenery::adopt(WorldFile file) {
+void Scenery::adopt(WorldFile& file) {
     scene_.channels.clear();
     rest_ = world_transforms(scene_, 0);
     night_ = {scene_.ambient_illuminance * scene_.ambient_colour, scene_.sky_luminance * scene_.sky_colour};
@@ -139,7 +138,7 @@ void Scenery::adopt(WorldFile file) {
         if (root[i] == kNone) continue;
         const uint32_t who = actors.at(scene_.nodes[root[i]].name);
         found.insert(who);
-        riders_.push_back({i, who, glm::inverse(rigid(glm::dmat4(rest_[root[i]]))) * glm::dmat4(rest_[i])});
+        riders_.push_back({i, who, glm::inverse(rigid(rest_[root[i]])) * rest_[i]});
     }
     for (const auto& [name, index] : actors)
         if (!found.contains(index)) throw Error(one_line(scene_.name) + ": there is no node " + one_line(name) + " to move");
@@ -151,13 +150,12 @@ void Scenery::find_lamps(const LampRoles& roles, const std::vector<std::string>&
     for (const Rider& r : riders_) rider[r.node] = r.actor;
     std::vector<uint32_t> lens(scene_.nodes.size(), kNone);
     for (uint32_t i = 0; i < lenses_.size(); ++i) lens[lenses_[i].node] = i;
-    const std::pair<const std::vector<std::string>*, Role> lists[]{{&roles.low, kLow}, {&roles.high, kHigh}, {&roles.tail, kTail}, {&roles.brake, kBrake}, {&roles.left, kLeft}, {&roles.right, kRight}};
     for (uint32_t i = 0; i < scene_.nodes.size(); ++i) {
         if (scene_.nodes[i].light == kNone) continue;
         Lamp lamp{i, rider[i], kFixed, true, lens[i], lamp_name(scene_, i)};
         if (lamp.actor != kNone)
-            for (const auto& [names, role] : lists)
-                if (contains(*names, lamp.name)) lamp.role = role;
+            for (size_t r = 0; r < kLampRoles.size(); ++r)
+                if (contains(roles.*kLampRoles[r].second, lamp.name)) lamp.role = Role(kLow + r);
         if (lamp.role == kFixed) lamp.by_day = by_day.empty() || contains(by_day, lamp.name);
         lamps_.push_back(std::move(lamp));
     }
@@ -182,6 +180,10 @@ std::vector<LampGroup> Scenery::lamp_groups() const {
 const DriveSettings& Scenery::check(const DriveSettings& settings) const {
     for (const auto& dimmed : settings.lamps()) require_lamp(dimmed.first, "--lamp " + one_line(dimmed.first));
     return settings;
+}
+
+void Scenery::require_lamps(const std::vector<std::string>& names, const std::string& place) const {
+    for (size_t i = 0; i < names.size(); ++i) require_lamp(names[i], place + "/" + std::to_string(i));
 }
 
 void Scenery::require_lamp(const std::string& name, const std::string& place) const {

@@ -42,7 +42,7 @@ public:
     View view(const SceneFrame&, const std::vector<Actor>&, const DriveSettings&, VkExtent2D) const;
 
 private:
-    enum Role : uint8_t { kFixed, kLow, kHigh, kTail, kBrake, kLeft, kRight };
+    enum Role : uint8_t { kFixed, kLow, kHigh, kTail, kBrake, kLeft, kRight };  // in the order of kLampRoles
     struct Lamp {
         uint32_t node;
         uint32_t actor;  // index, kNone: fixed
@@ -51,9 +51,11 @@ private:
         uint32_t lens;   // index, kNone: nobody switches it
         std::string name;
     };
-    void adopt(WorldFile);
+    /// Takes its world; names stay.
+    void adopt(WorldFile&);
     /// Throws Error, which begins with `place`, where no lamp of the scene has that name.
     void require_lamp(const std::string& name, const std::string& place) const;
+    void require_lamps(const std::vector<std::string>& names, const std::string& place) const;
     void find_lamps(const LampRoles&, const std::vector<std::string>& by_day);
     bool shines(const Lamp&, const std::vector<Actor>&, bool bright) const;
 

@@ -106,12 +106,6 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
     }
 }
 
-// Of many frames only the first has a name that is looked at before anything is rendered.
-void spare_numbered(const RenderArguments& arguments, unsigned index, const FilesRead& read) {
-    for (const std::string& output : arguments.outputs)
-        if (const std::string file = file_of_frame(output, index, arguments.frames); read.contains(file)) throw Error("-o " + one_line(file) + ": would replace what is read");
-}
-
 // Everything that can be wrong with the arguments alone, and what follows from them. What is read and written.
 Files check_arguments(RenderArguments& arguments) {
     RenderSettings& settings = arguments.settings;
@@ -225,7 +219,8 @@ void run(RenderArguments& arguments) {
         if (const std::string note = photometry_note(loaded, arguments.scene); index == 0 && !note.empty()) std::fprintf(stderr, "note: %s\n", note.c_str());
         GlareReport glare;
         if (outputs.scene && !ldr) glare = glare_of(arguments.glare, arguments.settings, frame, angles_of(view), frame.outside);
-        if (arguments.frames > 1) spare_numbered(arguments, index, read);
+        // Of the names of many frames only the first was looked at before.
+        for (size_t o = 0; o < arguments.outputs.size() && index > 0; ++o) spare(read, "-o", file_of_frame(arguments.outputs[o], index, arguments.frames));
         write_outputs(arguments, device, view, frame, glare, index, seconds);
         if (log) log->append(log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display, glare));
         if (sources) sources->append(glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));

@@ -32,9 +32,9 @@ struct VesperToneMapper {
 
 struct VesperScene {
     vesper::Scene scene;
-    uint64_t version = 0;                           // of what a renderer takes to the device
+    uint64_t version = 0;    // of what a renderer takes to the device
     std::map<std::pair<std::string, std::vector<uint8_t>>, uint32_t> distributions;  // of the scene, by their files and what was in those
-    std::vector<bool> gone;                         // by node; shorter than those, or of as many
+    std::vector<bool> gone;  // by node; shorter than those, or of as many
 };
 
 struct VesperRenderer {

@@ -86,7 +86,7 @@ View road_glare_view(glm::dvec3 eye) {
 }
 
 glm::dvec2 project(const View& view, glm::dvec3 road_point) {
-    const glm::dvec4 seen = glm::dmat4(view.world_to_view) * glm::dvec4(road_to_world(road_point), 1);
+    const glm::dvec4 seen = view.world_to_view * glm::dvec4(road_to_world(road_point), 1);
     const glm::dvec2 tangent = glm::dvec2(seen) / -seen.z;
     const glm::dvec2 low(view.tangent_low), high(view.tangent_high);
     return glm::dvec2(view.extent.width, view.extent.height) *

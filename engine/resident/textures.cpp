@@ -58,6 +58,11 @@ double covered(const Level& level, float cutoff, float scale = 1) {
         for (uint32_t x = 0; x < level.width; ++x) {
             const uint32_t right = std::min(x + 1, level.width - 1), below = std::min(y + 1, level.height - 1);
             const float corners[4]{opacity(x, y), opacity(right, y), opacity(x, below), opacity(right, below)};
+            const auto left = std::count_if(corners, corners + 4, [&](float corner) { return corner >= cutoff; });
+            if (left == 0 || left == 4) {  // and so is everything between them
+                count += left > 0 ? steps * steps : 0;
+                continue;
+            }
             for (uint32_t j = 0; j < steps; ++j)
                 for (uint32_t i = 0; i < steps; ++i) {
                     const float u = float(i) / float(steps), v = float(j) / float(steps);

@@ -39,7 +39,7 @@ std::vector<Placed> placed_lamps(const Conversion& conversion, const std::vector
     for (const uint32_t file_node : conversion.lamp_nodes[rule_index]) {
         const uint32_t node = conversion.original.node_of[file_node];
         if (node == kNone) continue;
-        const glm::dmat4 m(world[node]);
+        const glm::dmat4& m = world[node];
         dvec3 position(m[3]);
         for (int axis = 0; axis < 3; ++axis)
             if (glm::length(dvec3(m[axis])) > 0) position += rule.offset[axis] * glm::normalize(dvec3(m[axis]));
@@ -186,7 +186,7 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
         if (beside.empty()) continue;
         for (const Primitive& p : primitives)
             if (shines(p))
-                add_area(p, glm::dmat4(world[node]), scene.materials[p.material].double_sided, emitter,
+                add_area(p, world[node], scene.materials[p.material].double_sided, emitter,
                          means ? &*means : nullptr, beside);
     }
     const double intensity = axis_intensity(conversion, rule);

@@ -208,7 +208,7 @@ SceneReport report_scene(const Scene& scene) {
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         if (node.mesh != kNone)
-            for (const Primitive& primitive : scene.meshes[node.mesh].primitives) measure.add(primitive, glm::dmat4(world[i]));
+            for (const Primitive& primitive : scene.meshes[node.mesh].primitives) measure.add(primitive, world[i]);
         if (node.camera == kNone) continue;
         const std::string& name = scene.cameras[node.camera].name;
         report.cameras.push_back(name.empty() ? node.name : name);

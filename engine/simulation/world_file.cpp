@@ -134,7 +134,7 @@ WorldFile read_world(const std::filesystem::path& path) {
     read_driver(root.at("driver"), file);
     if (const auto lamps = root.find("lamps")) {
         lamps->allow_only({"low", "high", "tail", "brake", "left", "right"});
-        file.roles = {names_of(*lamps, "low"), names_of(*lamps, "high"), names_of(*lamps, "tail"), names_of(*lamps, "brake"), names_of(*lamps, "left"), names_of(*lamps, "right")};
+        for (const auto& [role, names] : kLampRoles) file.roles.*names = names_of(*lamps, role);
     }
     file.by_day = names_of(root, "lit_by_day");
     for (const JsonValue& tunnel : root.elements_of("tunnels")) {

@@ -1,8 +1,10 @@
 // Worlds to drive in, as files (docs/simulator.md). SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/tunnel.h"
@@ -14,6 +16,9 @@ namespace vesper {
 struct LampRoles {
     std::vector<std::string> low, high, tail, brake, left, right;
 };
+/// As files call them.
+constexpr std::array<std::pair<const char*, std::vector<std::string> LampRoles::*>, 6> kLampRoles{
+    {{"low", &LampRoles::low}, {"high", &LampRoles::high}, {"tail", &LampRoles::tail}, {"brake", &LampRoles::brake}, {"left", &LampRoles::left}, {"right", &LampRoles::right}}};
 
 struct WorldFile {
     std::filesystem::path scene;       ///< a glTF file

@@ -10,7 +10,8 @@ constexpr uint32_t kMaxRadius = 256;  // texels
 
 // Weights 0 .. radius of a Gaussian that sums to one over -radius .. radius.
 std::vector<float> gaussian(double sigma) {
-    const uint32_t radius = std::min(kMaxRadius, uint32_t(std::ceil(3 * sigma)));
+    // In double: the sigma of a view of hardly any angle is beyond integers.
+    const uint32_t radius = uint32_t(std::min(double(kMaxRadius), std::ceil(3 * sigma)));
     std::vector<float> weights;
     double sum = 0;
     for (uint32_t i = 0; i <= radius; ++i) {

@@ -125,6 +125,20 @@ TEST(LdrGlare, SpreadsTheLampsLightAndMakesNone) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// A field of view of hardly any angle is narrower than the Gaussian, whose radius stays at 256 texels: weights of 1/513.
+TEST(LdrGlare, ViewsOfHardlyAnyAngleGlareEvenly) {
+    PassRig rig;
+    Inputs in = lamp({240, 200}, {0, 0}, {240, 200}, 1e6f);
+    for (float angle : {1e-4f, 1e-36f}) {
+        in.view = View::symmetric(in.view.extent, angle, glm::mat4(1));
+        const Picture got = glare(rig, in, shared::kToneReinhard);
+        const double want = 60 * 50 / (513.0 * 513.0);
+        // At 1e-4 rad the weights fall by 0.35 % towards the radius; three roundings as above.
+        for (const auto value : got.values) EXPECT_NEAR(value, want, want * 0.005) << angle;
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 // Against the definition: every pixel of the full image, a round Gaussian, no blocks. The bound is the approximation's
 // own, see glare_reference_test: 6 % of the peak at 9 px; and three roundings of 16-bit floats.
 TEST(LdrGlare, IsNearTheFullResolutionConvolution) {

@@ -46,7 +46,7 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
                                                  op.chromatic ? add_colours(graph, kernels, scene, view.extent) : Colours{});
     Resource seen = settings.tone.acuity_loss ? add_acuity(graph, kernels, scene, luminance, level, view) : scene;
     if (op.bands) {
-        seen = add_bands(graph, kernels, seen, luminance, level, adaptation.curve, tone, parameters.cone_break, view.extent);
+        seen = add_bands(graph, kernels, seen, luminance, level, adaptation.curve, tone, parameters, view.extent);
         tone = shared::kToneLinear;
     }
     Resource glare;

@@ -29,6 +29,7 @@ layout(binding = 7, rgba32f) readonly uniform image2D colours;  // mean colours 
 #include "chroma.glsl"
 
 shared float percentile[2];
+shared float share_of[kMaxBins];  // of the votes, bin by bin
 
 const float kBrightest = 1e6;  // cd/m^2 to which an eye adapts
 const float kLeash = 0.1;      // ln of display luminance by which a curve that is smoothed over time lags behind at most
@@ -125,7 +126,7 @@ void main() {
     float left_over = 0.0;
     const float ln_display_low = log(parameters.display_low), steps_per_ln = parameters.bins_per_ln * float(parameters.steps_per_bin);
     float lowest = ln_display_low, here = ln_display_low;
-    if (kModel == kModelHistogram && !empty) here = adjust(h, eye, adaptation, lowest, under_full, left_over);
+    if (kModel == kModelHistogram && !empty) here = adjust(h, eye, lowest, under_full, left_over);
     if (kModel == kModelTrimmed && !empty) here = trim(share, h, eye, adaptation, lowest, under_full);
     // Over time every node follows, in ln Ld; what is empty, and a pause, leave it as it was.
     const float kept = empty ? 1.0 : parameters.smoothing_seconds > 0.0 ? exp(-parameters.seconds / parameters.smoothing_seconds) : 0.0;

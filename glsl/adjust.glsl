@@ -1,19 +1,22 @@
-// Histogram adjustment after Ward Larson, Rushmeier and Piatko 1997: slopes of the curve (d ln Ld / d ln L) follow the
-// histogram but stay under a ceiling, so that nothing becomes visible on the display that is invisible in the scene: no more
-// just noticeable differences, dJ = dL / T, on the display than in the scene. The slopes are min(lambda h, c(Ld)), the fixed
-// point of Ward's trimming. For a given lambda the curve is climbed from the display's darkest luminance, step by step;
-// invocations try different lambdas, until the curve ends at the brightest. For adapt.comp.
+// Histogram adjustment (Ward Larson, Rushmeier and Piatko 1997) that is anchored at what the eye is adapted to. For adapt.comp.
+//
+// All is counted in just noticeable differences: of the scene, dL / T(L), as the eye in its state sees them; of the display,
+// dR / viewer_step, as a viewer adapted to half of its white sees them, R = L / (L + viewer_sigma). The curve goes through the anchor: what
+// the eye is adapted to is as visible on the display as in the scene. Below it the curve depends on the eye alone. Above it a
+// step has min(n, b base + l votes): n differences of the scene are the ceiling, `base` fills the rest of the display without any votes,
+// and votes add contrast where they are. l is fixed, so that a share of the votes moves a grey by no more than that share of all codes; b
+// fills the display.
 
-const float kSpread = 1e-5;      // share of the votes spread over all steps, so that no part of the curve is flat
-const float kSteepest = 64.0;    // lambda goes no higher than this times plain equalization: tiny shares fade in and out
-const float kCounts = 1e-4;      // share of the votes that opens a gap as far as may be
-const uint kCandidates = 32u;    // a round of the search tries so many, and the next is between two of them
-const uint kRounds = 5u;
+const float kClaim = 1.0;      // lightness, relative, that all votes together may claim (l)
+const float kLeastBase = 0.5;  // part of the base curve that votes leave (the least b)
+const float kLightness = 1.0 / 2.2;  // lightness is relative luminance to this power: proportional to codes of common displays
+const float kGauss = 0.2886751346;     // 1 / (2 sqrt 3)
+const uint kHalvings = 30u;    // of an interval of ln luminance
+const uint kRounds = 3u;       // of the search; each tries kMaxBins candidates, and the next is between two of them
 
-shared float share_of[kMaxBins];        // h, times the width of a step
-shared float differences_in[kMaxBins];  // just noticeable differences of the scene in a step
-shared vec2 gap_at[kMaxBins];           // part of its ceiling that a step with few votes or none may have, on the way up and down
-shared float shown_at[kMaxBins + 1u];   // cd/m^2 at the edges of the steps
+shared float ceiling_of[kMaxBins];  // n, above the anchor
+shared float base_of[kMaxBins];
+shared float votes_of[kMaxBins];    // l times the votes, in differences
 shared uint best;
 
 struct Thresholds {
@@ -30,123 +33,128 @@ float scene_threshold(Thresholds eye, float luminance) {
     return parameters.use_rods != 0u ? min(cones, rods) : cones;
 }
 
-// Threshold on the display, for somebody adapted to that very luminance.
-float display_threshold(float luminance) {
-    const float l = log10_of(luminance);
-    if (parameters.ceiling == kCeilingLinear) return luminance;
-    return power_of_ten(parameters.ceiling == kCeilingHuman ? human_log_threshold(l, parameters.cone_break, parameters.rod_break)
-                                                            : cone_log_threshold(l, parameters.cone_break));
-}
-
-// A part of step i, negative on the way down; `open` of what the votes leave of the ceiling. That is the midpoint rule for dL
-// and, twice, for d ln L: exact where T is constant, and of fourth order where it is proportional to L.
-float advance(float from, uint i, float part, float lambda, float open) {
-    const float least = 0.5 * parameters.display_low;
-    const float seen = part * differences_in[i], half_way = max(from + 0.5 * seen * display_threshold(from), least);
-    const float rise = seen * display_threshold(half_way);
-    const float most = max(from + rise / 3.0 * (1.0 + 2.0 * from / max(half_way - 0.5 * rise, 0.25 * from)), least);
-    const float wanted = from * exp(lambda * share_of[i] * part);
-    const float base = part > 0.0 ? min(wanted, most) : max(wanted, most);
-    return base + open * (most - base);
-}
-
 uint steps() { return parameters.bins * parameters.steps_per_bin; }
 
-// From a position to another one, in steps. `counted`: gaps that nobody is on the other side of stay closed. `keeps`: the edges passed.
-float up(float at, float from, float until, float lambda, float open, bool counted, bool keeps) {
-    for (uint i = uint(at); i < steps() && float(i) < until; ++i) {
-        from = advance(from, i, min(until, float(i) + 1.0) - max(at, float(i)), lambda, counted ? open * gap_at[i].x : open);
-        if (keeps) shown_at[i + 1u] = from;
-    }
-    return from;
+float viewer_response(float luminance) { return luminance / (luminance + parameters.viewer_sigma); }
+float luminance_of_response(float response) { return parameters.viewer_sigma * response / (1.0 - response); }
+
+// Differences between the display's darkest luminance and another one; with kCeilingLinear, ln of their ratio.
+float differences_at(float luminance) {
+    if (parameters.ceiling == kCeilingLinear) return log(luminance / parameters.display_low);
+    return (viewer_response(luminance) - viewer_response(parameters.display_low)) / parameters.viewer_step;
 }
 
-float down(float at, float from, float lambda, float open, bool counted, bool keeps) {
-    for (uint i = uint(ceil(at)); i > 0u; --i) {
-        from = advance(from, i - 1u, float(i - 1u) - min(at, float(i)), lambda, counted ? open * gap_at[i - 1u].y : open);
-        if (keeps) shown_at[i - 1u] = from;
-    }
-    return from;
+// The luminance that many differences above the darkest, cd/m^2.
+float luminance_at(float differences) {
+    if (parameters.ceiling == kCeilingLinear) return parameters.display_low * exp(differences);
+    return luminance_of_response(differences * parameters.viewer_step + viewer_response(parameters.display_low));
 }
 
-struct Placing {
-    float limit;  // of lambda
-    float at;     // position of what the eye looks at
-    float want;   // luminance it should be shown with
-    float there;  // that it is shown with
+// d lightness / d differences.
+float lightness_slope(float differences) {
+    const float luminance = luminance_at(differences), range = parameters.display_high - parameters.display_low;
+    const float reach = luminance + parameters.viewer_sigma;
+    const float rise = parameters.ceiling == kCeilingLinear ? luminance : parameters.viewer_step * reach * (reach / parameters.viewer_sigma);
+    return kLightness * pow(max((luminance - parameters.display_low) / range, 1e-6), kLightness - 1.0) * rise / range;
+}
+
+// `differences` from the anchor, of which there are `all`, with slope 1 at the anchor and `room` for all of them.
+float compressed(float differences, float all, float room) {
+    return room > 0.0 ? differences / (1.0 + (all > room ? differences * (1.0 / room - 1.0 / all) : 0.0)) : 0.0;
+}
+
+// The same seen from the other end: `climbed` of all differences from the darkest, which is 0, to the anchor, at `room`.
+float climbed(float differences, float all, float room) {
+    return all > room ? differences * (room / all) / (1.0 + (all - differences) * (1.0 / room - 1.0 / all)) : room - all + differences;
+}
+
+// The luminance to which cones of that half saturation are adapted: where their threshold is that of adapted ones, below half saturation.
+float adapted_luminance(float sigma) {
+    float low = log(kLuminanceFloor), high = max(log(sigma), low);
+    for (uint i = 0u; i < kHalvings; ++i) {
+        const float middle = 0.5 * (low + high), luminance = exp(middle);
+        const float adapted = power_of_ten(cone_log_threshold(log10_of(luminance), parameters.cone_break)) * parameters.cones.factor;
+        if (adapted > mal_adapted_threshold(parameters.cones, luminance, sigma)) high = middle;
+        else low = middle;
+    }
+    return exp(low);
+}
+
+// Where the display shows what the eye is adapted to, in differences: L / T(L) is that of the scene, up to half of white.
+float anchor_of(Thresholds eye, float adapted) {
+    const float threshold = parameters.ceiling == kCeilingLinear ? power_of_ten(cone_log_threshold(log10_of(adapted), parameters.cone_break)) : scene_threshold(eye, adapted);
+    const float x = min(parameters.viewer_step * adapted / threshold, 0.25);  // R (1 - R) of the viewer
+    const float response = x / (0.5 + sqrt(0.25 - x)) + viewer_response(parameters.display_low);
+    const float half_white = differences_at(max(0.5 * parameters.display_high, parameters.display_low));
+    return response < 0.5 ? min(differences_at(luminance_of_response(response)), half_white) : half_white;
+}
+
+// Differences that the eye sees in a step of the curve whose middle is at `ln_middle` (Gauss's rule of two points).
+float differences_in(Thresholds eye, float ln_middle, float width) {
+    const float low = exp(ln_middle - kGauss * width), high = exp(ln_middle + kGauss * width);
+    return 0.5 * width * (low / scene_threshold(eye, low) + high / scene_threshold(eye, high));
+}
+
+// Shares of votes and base, at a place x from 0 (none, and the least base) to 1 (all that ceilings allow).
+struct Mix {
+    float votes, base;
 };
 
-const uint kOverLambda = 0u;  // ln lambda; the curve should end at the display's brightest
-const uint kOverStart = 1u;   // ln of the luminance that the curve starts with
-const uint kOverAbove = 2u;   // what is open above and below
-const uint kOverBelow = 3u;
-
-bool is_beyond(uint over, float x, Placing p) {
-    const float last = float(steps()), low = parameters.display_low, high = parameters.display_high;
-    if (over == kOverLambda) return up(0.0, low, last, exp(x), 0.0, true, false) > high;
-    if (over == kOverAbove) return up(p.at, p.there, last, p.limit, x, true, false) > high;
-    if (over == kOverBelow) return down(p.at, p.there, p.limit, x, true, false) < low;
-    const float there = up(0.0, exp(x), p.at, p.limit, 0.0, true, false);
-    return there > p.want || up(p.at, there, last, p.limit, 0.0, true, false) > high;
+Mix mix_at(float x, float most_base) {
+    return Mix(min(2.0 * x, 1.0), kLeastBase * pow(most_base / kLeastBase, max(2.0 * x - 1.0, 0.0)));
 }
 
-// The last x from a to b from which on is_beyond.
-float search(uint over, float a, float b, Placing p) {
+float rise(uint i, Mix m) { return min(ceiling_of[i], m.base * base_of[i] + m.votes * votes_of[i]); }
+
+// The largest mix whose steps have `room`.
+Mix fill(float room, float most_base) {
     const uint mine = gl_LocalInvocationIndex;
-    const float last = float(kCandidates) - 1.0;
+    const float last = float(kMaxBins - 1u);
+    float a = 0.0, b = 1.0;
     for (uint round = 0u; round < kRounds; ++round) {
         if (mine == 0u) best = 0u;
         barrier();
-        if (mine < kCandidates)
-            if (!is_beyond(over, mix(a, b, float(mine) / last), p)) atomicMax(best, mine);
+        const Mix tried = mix_at(mix(a, b, float(mine) / last), most_base);
+        float sum = 0.0;
+        for (uint i = 0u; i < steps(); ++i) sum += rise(i, tried);
+        if (sum <= room) atomicMax(best, mine);
         barrier();
         const float from = float(best);
         const float low = mix(a, b, from / last), high = mix(a, b, min(from + 1.0, last) / last);
         a = low, b = high;
         barrier();
     }
-    return a;
+    return mix_at(a, most_base);
 }
 
-// ln Ld at the upper edge of this invocation's step; `lowest`: at the lower edge of the first. `h`: share of the votes. `left_over`:
-// what of the range is not used by votes. It first places the curve: what the eye looks at is as visible as on a display
-// half as bright as white (Ferwerda et al. 1996), if what there is fits; and then opens what has few votes or none between there
-// and the farthest votes, above and below, up to the ceilings.
-float adjust(float h, Thresholds eye, float adaptation, out float lowest, out bool under_full, out float left_over) {
+// ln Ld at the upper edge of this invocation's step; `lowest`: at the lower edge of the first. `h`: share of the votes.
+// `under_full`: the ceilings do not fill the display. `left_over`: ln of the part of its range above the curve.
+float adjust(float h, Thresholds eye, out float lowest, out bool under_full, out float left_over) {
     const uint mine = gl_LocalInvocationIndex, count = steps();
-    const float low = parameters.display_low, high = parameters.display_high, last = float(count);
+    const float low = parameters.display_low, high = parameters.display_high;
     const float width = 1.0 / (parameters.bins_per_ln * float(parameters.steps_per_bin));
-    const float luminance = exp(parameters.ln_low + (float(min(mine, count - 1u)) + 0.5) * width);
-    const float below = running_sum(h), all = sum_of(h);
-    share_of[mine] = width * (h + kSpread / float(count)) / (1.0 + kSpread);
-    differences_in[mine] = width * luminance / scene_threshold(eye, luminance);
-    gap_at[mine] = min(vec2(all - below + h, below) / kCounts, 1.0);
+    const float seen = mine < count ? differences_in(eye, parameters.ln_low + (float(mine) + 0.5) * width, width) : 0.0;
+    // Between no light and the first step, in which thresholds are constant.
+    const float first = exp(parameters.ln_low), darker = parameters.ceiling == kCeilingLinear ? 0.0 : first / scene_threshold(eye, first);
+    const float adapted = adapted_luminance(eye.cone_sigma);
+    const float at = clamp((log(adapted) - parameters.ln_low) / width, 0.0, float(count));  // of the anchor, in steps
+    const float part_above = clamp(float(mine) + 1.0 - at, 0.0, 1.0);
+    const float anchor = anchor_of(eye, adapted), room = differences_at(high) - anchor;
+
+    const float above = part_above * seen, to_above = running_sum(above), all_above = sum_of(above);
+    const float below = seen - above, to_below = running_sum(below), sum_below = sum_of(below), all_below = sum_below + darker;
+    const float base_from = compressed(max(to_above - above, 0.0), all_above, room), base_to = compressed(to_above, all_above, room);
+    ceiling_of[mine] = above;
+    base_of[mine] = base_to - base_from;
+    // The steepest place of lightness from here on is here or at white.
+    votes_of[mine] = kClaim * part_above * h / max(lightness_slope(anchor + 0.5 * (base_from + base_to)), lightness_slope(anchor + room));
     barrier();
 
-    Placing p;
-    const float plain = log(high / low) / width;
-    p.limit = kSteepest * plain;
-    p.at = clamp((log(adaptation) - parameters.ln_low) / width, 0.0, last);
-    p.want = adaptation * display_threshold(0.5 * high) / scene_threshold(eye, adaptation);
-    p.there = low;
-    const float highest = up(0.0, low, last, p.limit, 0.0, true, false);
-    under_full = highest <= high;
-    left_over = under_full ? log(high / highest) : 0.0;
-    if (mine == 0u) shown_at[0] = low;
-    if (!under_full) {
-        const float lambda = exp(search(kOverLambda, log(plain), log(p.limit), p));
-        if (mine == 0u) up(0.0, low, last, lambda, 0.0, false, true);
-    } else {
-        const float start = exp(search(kOverStart, log(low), log(high), p));
-        p.there = up(0.0, start, p.at, p.limit, 0.0, true, false);
-        const float above = search(kOverAbove, 0.0, 1.0, p), below_ = search(kOverBelow, 0.0, 1.0, p);
-        if (mine == 0u) {
-            up(p.at, p.there, last, p.limit, above, false, true);
-            down(p.at, p.there, p.limit, below_, false, true);
-            if (p.at == floor(p.at)) shown_at[uint(p.at)] = p.there;
-        }
-    }
-    barrier();
-    lowest = log(clamp(shown_at[0], low, high));
-    return log(clamp(shown_at[min(mine, count - 1u) + 1u], low, high));
+    under_full = all_above <= room;
+    const Mix m = fill(room, max(all_above * all_above / (room * room), 1.0));
+    const float from_anchor = running_sum(mine < count ? rise(mine, m) : 0.0), all_risen = sum_of(mine < count ? rise(mine, m) : 0.0);
+    left_over = under_full ? log(high / luminance_at(min(anchor + all_risen, anchor + room))) : 0.0;
+    lowest = log(clamp(luminance_at(climbed(darker, all_below, anchor)), low, high));
+    const float here = part_above > 0.0 ? min(anchor + from_anchor, anchor + room) : climbed(darker + to_below, all_below, anchor);
+    return log(clamp(luminance_at(here), low, high));
 }

@@ -4,10 +4,11 @@
 #extension GL_EXT_control_flow_attributes : require
 
 // One band of contrast, in the way of Grave and Bremond 2008 (reconstructed): contrast to a texel of the level above, a log
-// average La shown at L'a, has the same visibility level there, the multiple of the contrast C = T(L) / L that an eye adapted to La just
-// sees: ln L' = ln L'a + s (ln L - ln La), s = C(curve(La)) / C(La). So a texel hands three numbers down, ln s, ln La and ln L'a, which are
-// linear between texels: mixing s itself would let the darker side of an edge rule, and the brighter one glow. The topmost are shown as
-// the tone curve has them. The finest band gives pixels.
+// average La shown at L'a, has the same visibility level there, the multiple of the contrast C = T(L) / L that is just seen: of an eye
+// adapted to La in the scene, to half of white on the display; but no more contrast than in the scene. ln L' = ln L'a + s (ln L - ln La),
+// s = min(C_display(curve(La)) / C(La), 1). So a texel hands three numbers down, ln s, ln La and ln L'a, which are linear between texels:
+// mixing s itself would let the darker side of an edge rule, and the brighter one glow. The topmost are shown as the tone curve has them.
+// The finest band gives pixels.
 
 #include "shared/bands.h"
 #include "threshold.glsl"
@@ -24,12 +25,16 @@ layout(push_constant, scalar) uniform Push { BandsPush push; };
 
 const float kLnBrightest = 13.8155106;  // 1e6 cd/m^2 on the display: no display shows more
 
-// ln of the contrast that is just seen.
+// ln of the contrast that is just seen: in the scene, and on the display.
 float ln_contrast(float ln_luminance) { return cone_log_threshold(ln_luminance / kLn10, push.cone_break) * kLn10 - ln_luminance; }
+float ln_contrast_shown(float ln_luminance) {
+    const float luminance = exp(ln_luminance), reach = luminance + push.viewer_sigma;
+    return log(push.viewer_step * (reach / push.viewer_sigma) * (reach / luminance));
+}
 
 // What a texel hands down: of log average luminance `ln_luminance`, shown at `ln_shown`.
 vec4 handed_down(float ln_luminance, float ln_shown, float ln_curve) {
-    return vec4(ln_contrast(ln_curve) - ln_contrast(ln_luminance), ln_luminance, ln_shown, 1.0);
+    return vec4(min(ln_contrast_shown(ln_curve) - ln_contrast(ln_luminance), 0.0), ln_luminance, ln_shown, 1.0);
 }
 
 // ln of display luminance of what is seen under texels that hand down `above`.

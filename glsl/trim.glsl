@@ -5,6 +5,14 @@ const float kTolerance = 0.025;  // of the total: what may still be clipped, and
 
 shared float trimmed_node[kMaxBins + 1u];
 
+// Threshold on the display, for somebody adapted to that very luminance.
+float display_threshold(float luminance) {
+    const float l = log10_of(luminance);
+    if (parameters.ceiling == kCeilingLinear) return luminance;
+    return power_of_ten(parameters.ceiling == kCeilingHuman ? human_log_threshold(l, parameters.cone_break, parameters.rod_break)
+                                                            : cone_log_threshold(l, parameters.cone_break));
+}
+
 // Threshold over luminance on the display.
 float display_contrast(float ln_luminance) {
     const float luminance = exp(ln_luminance);

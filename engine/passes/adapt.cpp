@@ -24,6 +24,7 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
     const uint32_t ceiling = tone.ceiling.value_or(op.ceiling);
     // What others have computed with the published curves is to be met; an eye that adapts needs continuous ones.
     const ThresholdBreaks breaks = ceiling == shared::kCeilingEye || op.bands ? ThresholdBreaks::continuous() : ThresholdBreaks::published();
+    const ReceptorModel viewer(ReceptorKind::Cones, Receptors::cones());
     const float texel = float(1u << fovea.level);
     return {.bins = bins.bins,
             .steps_per_bin = bins.steps_per_bin(),
@@ -50,6 +51,9 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
             .automatic = tone.automatic ? 1u : 0u,
             .rod_tint = op.rod_tint[0] > 0 ? glm::vec3(op.rod_tint[0], op.rod_tint[1], op.rod_tint[2]) : glm::vec3(1),
             .scotopic = tone.photopic_rods ? 1 : shared::kScotopicOfWhite,
+            .colour_tiles = {},
+            .viewer_sigma = float(viewer.adapted_sigma(double(display.high()) / 2)),
+            .viewer_step = float(viewer.response_step()),
             .cones = receptors_of(ReceptorKind::Cones, tone.observer.observed_cones(), breaks),
             .rods = receptors_of(ReceptorKind::Rods, tone.observer.observed_rods(), breaks)};
 }

@@ -217,11 +217,12 @@ Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource 
                           uint32_t foveal_level, const shared::EyeState* remembered = nullptr, const Colours& colours = {});
 
 /// The scene as bands of contrast between the levels of the pyramid (log averages), up to the foveal one, each with the visibility
-/// level it has in the scene: contrast over what cones adapted to a texel of the level above just see (Ferwerda et al. 1996; Grave and
-/// Bremond 2008, reconstructed), linear between such texels. What is above is mapped by `curve`. rgba32f, cd/m^2 on the display, before its limits.
-/// `tone`: kToneCurve and how dim light is perceived. `cone_break`: as ToneParameters has it.
-Resource add_bands(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, uint32_t foveal_level, Resource curve, uint32_t tone, float cone_break,
-                   VkExtent2D extent);
+/// level it has in the scene: contrast over what is just seen by cones adapted to a texel of the level above, and on the display by cones
+/// adapted to half of its white (Ferwerda et al. 1996; Grave and Bremond 2008, reconstructed), linear between such texels; never more
+/// contrast than in the scene. What is above is mapped by `curve`. rgba32f, cd/m^2 on the display, before its limits. `tone`: kToneCurve
+/// and how dim light is perceived.
+Resource add_bands(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, uint32_t foveal_level, Resource curve, uint32_t tone,
+                   const shared::ToneParameters&, VkExtent2D extent);
 
 /// The scene as it falls on the retina: every pixel keeps a part of its light and scatters the rest, as `fit` has it, and lamps
 /// outside of the picture scatter theirs into it, and what other pictures of the eye have, `beyond`. rgba32f, cd/m^2. What a picture loses is

@@ -20,16 +20,17 @@ const uint kTonePhotopicRods = 0x400u;  // and without: rods take luminance for 
 
 // What makes the parameters of a frame (specialization of adapt.comp).
 const uint kModelFixed = 0u;      // the statistics of the frame: Reinhard, linear
-const uint kModelHistogram = 1u;  // histogram adjustment, solved: Irawan et al. 2005
+const uint kModelHistogram = 1u;  // histogram adjustment, anchored at what the eye is adapted to: Irawan et al. 2005
 const uint kModelTrimmed = 2u;    // histogram adjustment by trimming: Ward et al. 1997
 const uint kModelLagging = 3u;    // Pattanaik et al. 2000
 const uint kModelGains = 4u;      // two linear gains: Ferwerda et al. 1996; of the eye in its state: Durand and Dorsey 2000
 const uint kModels = 5u;
 
-// Histogram adjustment: the threshold T that bounds the slope, d Ld / d L <= T_display(Ld) / T_scene(L).
-const uint kCeilingEye = 0u;     // scene: the eye in its present state; display: adapted cones
-const uint kCeilingHuman = 1u;   // both: adapted cones and rods merged (Ward et al. 1997)
-const uint kCeilingCones = 2u;   // both: adapted cones
+// Histogram adjustment: the threshold T that bounds the slope, d Ld / d L <= T_display(Ld) / T_scene(L). T_display is that of
+// cones adapted to half of white; of kModelTrimmed, that of cones (with kCeilingHuman: cones and rods) adapted to Ld.
+const uint kCeilingEye = 0u;     // scene: the eye in its present state
+const uint kCeilingHuman = 1u;   // adapted cones and rods merged (Ward et al. 1997)
+const uint kCeilingCones = 2u;   // adapted cones
 const uint kCeilingLinear = 3u;  // none beyond the contrast of the scene: d ln Ld / d ln L <= 1
 
 // What the eye adapts to.
@@ -77,10 +78,12 @@ struct ToneParameters {
     vec3 rod_tint;             // colour of what rods see, for kModelGains
     float scotopic;            // scotopic luminance over luminance of what the eye adapts to
     uvec2 colour_tiles;        // of the colours that the eye adapts to; 0: it does not
+    float viewer_sigma;        // half saturation of an eye adapted to half of the display's white, cd/m^2
+    float viewer_step;         // just noticeable difference of its response
     ReceptorParameters cones;
     ReceptorParameters rods;
 };
-SHARED_SIZE(ToneParameters, 184)
+SHARED_SIZE(ToneParameters, 192)
 
 const uint kMaxNodes = 1024u;
 const float kResponsePower = 0.73f;  // Pattanaik et al. 2000, after Hunt

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "passes/adjust_reference.h"
+#include "passes/anchor_reference.h"
 #include "passes/pyramid_reference.h"
 #include "perception/eye.h"
 #include "perception/pattanaik.h"
@@ -124,7 +124,7 @@ inline Adapted adapt(const AdaptInputs& in) {
 
     out.share = shares(in.histogram, p.bins);
     if (in.model == shared::kModelHistogram)
-        out.adjusted = adjust(per_step(out.share, p), adaptation, thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
+        out.adjusted = adjust(per_step(out.share, p), adapted_luminance(cone_sigma, cones), thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
     else if (in.model == shared::kModelTrimmed)
         out.adjusted = trim(out.share, adaptation, thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
     else

@@ -180,30 +180,8 @@ TEST(AdaptReference, TimeIsWhatCountsAndNotFrames) {
     for (uint32_t i = 0; i <= kBins; ++i) EXPECT_EQ(paused.node[i], many.node[i]);
 }
 
-// More and more of the picture goes dark while the rest stays: what is bright is shown brighter and brighter, and never pops:
-// 5 % fewer bright pixels are at most 8 % more light. (Below a tenth of the picture, where lambda may be at its limit, what is
-// left of their share of the range goes, by at most 1 % of light a step.)
-TEST(AdaptReference, DarkPixelsMakeTheRestBrighterAndNeverPop) {
-    for (uint32_t ceiling : {shared::kCeilingEye, shared::kCeilingCones, shared::kCeilingHuman})
-        for (double adaptation : {0.1, 3.0, 30.0}) {
-            const auto p = parameters_of(0.5, 200, ceiling);
-            const Thresholds t = thresholds_of(p, kCones, kCones.adapted_sigma(adaptation), kRods, kRods.adapted_sigma(adaptation));
-            double before = -1e9;
-            for (double bright = 1; bright > 0.03; bright *= 0.95) {
-                std::vector<double> share(kBins, 0.0);
-                for (uint32_t i = 50; i <= 60; ++i) share[i] = bright / 11;
-                share[25] = 1 - bright;
-                const double shown = adjust(share, adaptation, t, p).curve.at(std::log(20));
-                if (bright < 1) {
-                    EXPECT_GE(shown, before - (bright > 0.1 ? 1e-6 : 0.012)) << bright << " ceiling " << ceiling << " at " << adaptation;
-                    EXPECT_LE(shown, before + 0.08) << bright << " ceiling " << ceiling << " at " << adaptation;
-                }
-                before = shown;
-            }
-        }
-}
-
-// A uniform field that steps from one luminance to another: what is shown is the eye's recovery, and nothing comes back of what was before.
+// A uniform field that steps from one luminance to another: what is shown is the eye's recovery, from darkness after a darker
+// field, from glare after a brighter one, and nothing comes back of what was before.
 TEST(AdaptReference, RecoversMonotonicallyFromAStep) {
     const double fields[][2]{{50, 5000}, {5000, 50}, {1, 5000}, {5000, 1}, {100, 0.1}};
     for (const auto& [from, to] : fields)
@@ -225,10 +203,15 @@ TEST(AdaptReference, RecoversMonotonicallyFromAStep) {
                 next.previous = eye;
                 const Adapted a = adapt(next);
                 const double shown = std::exp(a.adjusted.curve.at(std::log(to)));
-                // 0.1 s: what is left of the curve before, a tenth at most, is gone.
-                EXPECT_GE(shown, before * (now < 0.1 ? 0.95 : 0.999)) << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
+                // 0.2 s: what is left of the curve before, a tenth at most, is gone.
+                if (before > 0 && to < from) {
+                    EXPECT_GE(shown, before * (now < 0.2 ? 0.95 : 0.999)) << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
+                }
+                if (before > 0 && to > from) {
+                    EXPECT_LE(shown, before * (now < 0.2 ? 1.05 : 1.001)) << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
+                }
                 if (now > 0.5) {
-                    EXPECT_LE(shown, before * (1 + 1.5 * step)) << "faster than the eye, " << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
+                    EXPECT_NEAR(shown, before, before * 1.5 * step) << "faster than the eye, " << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
                 }
                 before = shown, eye = a.eye;
             }

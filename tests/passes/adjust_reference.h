@@ -1,4 +1,4 @@
-// The tone curve of histogram adjustment: shares, ceilings, filling, trimming; in double. SPDX-License-Identifier: MIT
+// Histogram adjustment by trimming, and what the anchored one shares with it; in double. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,6 @@
 #include "shared/tone.h"
 
 namespace vesper::reference {
-
-/// Shares of the votes with 1e-5 of them spread evenly over all bins, so that no part of the curve is flat.
-inline std::vector<double> with_spread(std::vector<double> share) {
-    constexpr double kSpread = 1e-5;
-    if (std::accumulate(share.begin(), share.end(), 0.0) == 0) return share;
-    for (double& s : share) s = (s + kSpread / double(share.size())) / (1 + kSpread);
-    return share;
-}
 
 inline std::vector<double> shares(const shared::Histogram& histogram, uint32_t bins) {
     std::vector<double> h(bins, 0.0);
@@ -93,11 +85,11 @@ struct Curve {
     }
 };
 
-/// The tone curve of a steady-state viewer and what it was left with.
+/// A tone curve, and what is left of the display.
 struct Adjusted {
     Curve curve;
-    double slack = 0;
-    bool under = false;
+    double slack = 0;    ///< ln of the part of the display's range above the curve
+    bool under = false;  ///< the ceilings do not fill the display; of trim(): the curve is linear
 };
 
 /// Thresholds on both sides of the ceiling, cd/m^2.
@@ -120,85 +112,6 @@ inline Thresholds thresholds_of(const shared::ToneParameters& p, const ReceptorM
         case shared::kCeilingCones: return {adapted, adapted};
         default: return {eye, adapted};
     }
-}
-
-/// Histogram adjustment, Ward et al. 1997: slopes min(lambda h, c), so that dLd / dL <= T_display(Ld) / T_scene(L). In just
-/// noticeable differences, dJ = dL / T, that is no more of them on the display than in the scene. The curve is climbed step
-/// by step, from the display's darkest luminance, and lambda found by bisection, so that it fills the display; up to a limit. What is then left over
-/// first places the curve: `adaptation` is as visible as on a display half as bright as white (Ferwerda et al. 1996), if what
-/// there is fits; and then opens what has few votes or none between there and the farthest votes, above and below, up to the ceilings.
-inline Adjusted adjust(const std::vector<double>& share, double adaptation, const Thresholds& threshold, const shared::ToneParameters& p) {
-    constexpr double kSteepest = 64;  // times plain equalization
-    constexpr double kCounts = 1e-4;  // share of the votes that opens a gap as far as may be
-    const double delta = 1 / (double(p.bins_per_ln) * p.steps_per_bin), low = p.display_low, high = p.display_high;
-    const size_t steps = share.size();
-    Adjusted out{{p.ln_low, 1 / delta, std::vector<double>(steps + 1, std::log(low))}, 0, false};
-    if (std::accumulate(share.begin(), share.end(), 0.0) == 0) return out;
-
-    const std::vector<double> h = with_spread(share);
-    std::vector<double> differences, gap_below, gap_above(steps);
-    double sum = 0;
-    for (size_t i = 0; i < steps; ++i) {
-        const double scene = std::exp(p.ln_low + (double(i) + 0.5) * delta);
-        differences.push_back(delta * scene / threshold.scene(scene));
-        gap_below.push_back(std::min((sum += share[i]) / kCounts, 1.0));
-    }
-    sum = 0;
-    for (size_t i = steps; i-- > 0;) gap_above[i] = std::min((sum += share[i]) / kCounts, 1.0);
-
-    // A part of step i, negative on the way down; `open` of what the votes leave of the ceiling. That is the midpoint rule for dL
-    // and, twice, for d ln L: exact where T is constant, and of fourth order where it is proportional to L.
-    const auto advance = [&](double from, size_t i, double part, double lambda, double open) {
-        const double seen = part * differences[i], half = std::max(from + seen / 2 * threshold.display(from), low / 2), rise = seen * threshold.display(half);
-        const double most = std::max(from + rise / 3 * (1 + 2 * from / std::max(half - rise / 2, from / 4)), low / 2), wanted = from * std::exp(lambda * h[i] * delta * part);
-        const double base = part > 0 ? std::min(wanted, most) : std::max(wanted, most);
-        return base + open * (most - base);
-    };
-    // From one position to another one, in steps. Where the luminances at the edges are not kept, gaps that nobody is on the other side of stay closed.
-    const auto up = [&](double at, double from, double until, double lambda, double open, std::vector<double>* node = nullptr) {
-        for (size_t i = size_t(at); i < steps && double(i) < until; ++i) {
-            from = advance(from, i, std::min(until, double(i) + 1) - std::max(at, double(i)), lambda, node ? open : open * gap_above[i]);
-            if (node) (*node)[i + 1] = from;
-        }
-        return from;
-    };
-    const auto down = [&](double at, double from, double lambda, double open, std::vector<double>* node = nullptr) {
-        for (size_t i = size_t(std::ceil(at)); i-- > 0;) {
-            from = advance(from, i, double(i) - std::min(at, double(i) + 1), lambda, node ? open : open * gap_below[i]);
-            if (node) (*node)[i] = from;
-        }
-        return from;
-    };
-    // The last x from a to b from which on is_beyond.
-    const auto bisect = [](double a, double b, const auto& is_beyond) {
-        if (!is_beyond(b)) return b;
-        for (int k = 0; k < 60; ++k) (is_beyond((a + b) / 2) ? b : a) = (a + b) / 2;
-        return a;
-    };
-    const double last = double(steps), plain = std::log(high / low) / delta, limit = kSteepest * plain;
-    std::vector<double> node(steps + 1, low);
-    const double highest = up(0, low, last, limit, 0);
-    out.under = highest <= high;
-    if (!out.under) {
-        const double lambda = std::exp(bisect(std::log(plain), std::log(limit), [&](double x) { return up(0, low, last, std::exp(x), 0) > high; }));
-        up(0, low, last, lambda, 0, &node);
-    } else {
-        out.slack = std::log(high / highest);
-        const double at = std::clamp((std::log(adaptation) - p.ln_low) / delta, 0.0, last);
-        const double want = adaptation * threshold.display(high / 2) / threshold.scene(adaptation);
-        const double start = std::exp(bisect(std::log(low), std::log(high), [&](double x) {
-            const double there = up(0, std::exp(x), at, limit, 0);
-            return there > want || up(at, there, last, limit, 0) > high;
-        }));
-        const double there = up(0, start, at, limit, 0);
-        const double above = bisect(0, 1, [&](double open) { return up(at, there, last, limit, open) > high; });
-        const double below = bisect(0, 1, [&](double open) { return down(at, there, limit, open) < low; });
-        up(at, there, last, limit, above, &node);
-        down(at, there, limit, below, &node);
-        if (at == std::floor(at)) node[size_t(at)] = there;
-    }
-    for (size_t i = 0; i <= steps; ++i) out.curve.node[i] = std::log(std::clamp(node[i], low, high));
-    return out;
 }
 
 /// Ward's own way, as pcond of Radiance has it (tone-mapping.md, section 3): clip counts to their ceilings, again with the new

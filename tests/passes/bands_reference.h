@@ -1,10 +1,11 @@
 // Bands of contrast of equal visibility level. SPDX-License-Identifier: MIT
 // In the way of Grave and Bremond 2008, reconstructed: a Laplacian pyramid (Burt and Adelson 1983) of ln luminance, its contrasts
-// shown at the same multiple of what is just seen (Ferwerda et al. 1996) as in the scene.
+// shown at the same multiple of what is just seen (Ferwerda et al. 1996; on the display, adapted to half of white) as in the scene.
 #pragma once
 
 #include "passes/composite_reference.h"
 #include "perception/thresholds.h"
+#include "shared/tone.h"
 
 namespace vesper::reference {
 
@@ -27,15 +28,17 @@ double expanded(const PyramidLevel& level, uint32_t x, uint32_t y, const Value& 
     return weights > 0 ? sum / weights : 0;
 }
 
-/// ln of the contrast just seen where the curve shows log average `adapted`, over that just seen there.
-inline double ln_steepness(double adapted, const shared::ToneCurve& curve, ThresholdBreaks breaks) {
-    const auto just_seen = [&](double l) { return cone_threshold(std::exp(l), breaks) / std::exp(l); };
-    return std::log(just_seen(node_at(std::exp(adapted), curve).x) / just_seen(adapted));
+/// ln of the contrast that a viewer adapted to half of white just sees where the curve shows log average `adapted`, over that which
+/// cones adapted to it just see there; at most 0, the contrast of the scene.
+inline double ln_steepness(double adapted, const shared::ToneCurve& curve, const shared::ToneParameters& p) {
+    const double scene = std::exp(adapted), shown = std::exp(node_at(scene, curve).x), sigma = p.viewer_sigma;
+    const double on_display = double(p.viewer_step) * (shown + sigma) * (shown + sigma) / sigma;
+    return std::min(std::log(on_display / shown / (cone_threshold(scene, {p.cone_break, p.rod_break}) / scene)), 0.0);
 }
 
 /// Of pixels with `luminance`, of which `levels` is the pyramid; bands up to level `top`, 1-based.
 inline Bands bands(const std::vector<double>& luminance, uint32_t width, uint32_t height, const std::vector<PyramidLevel>& levels, uint32_t top,
-                   const shared::ToneCurve& curve, ThresholdBreaks breaks) {
+                   const shared::ToneCurve& curve, const shared::ToneParameters& p) {
     Bands above;
     for (const dvec4& texel : levels[top - 1].texels) above.shown.push_back(node_at(std::exp(texel.z), curve).x), above.terms.push_back(std::abs(above.shown.back()));
     for (uint32_t k = top; k-- > 0;) {
@@ -46,7 +49,7 @@ inline Bands bands(const std::vector<double>& luminance, uint32_t width, uint32_
             for (uint32_t x = 0; x < w; ++x) {
                 const double ln = k > 0 ? levels[k - 1].at(x, y).z : std::log(std::max(luminance[size_t(y) * w + x], kFloor));
                 const double adapted = expanded(coarse, x, y, [&](size_t i) { return coarse.texels[i].z; });
-                const double steepness = std::exp(expanded(coarse, x, y, [&](size_t i) { return ln_steepness(coarse.texels[i].z, curve, breaks); }));
+                const double steepness = std::exp(expanded(coarse, x, y, [&](size_t i) { return ln_steepness(coarse.texels[i].z, curve, p); }));
                 here.shown.push_back(std::min(expanded(coarse, x, y, [&](size_t i) { return above.shown[i]; }) + (ln - adapted) * steepness, std::log(1e6)));
                 here.terms.push_back(expanded(coarse, x, y, [&](size_t i) { return above.terms[i]; }) + (1 + std::abs(ln) + std::abs(adapted)) * steepness);
             }

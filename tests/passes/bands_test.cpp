@@ -10,14 +10,19 @@ namespace vesper::test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kBreak = 1.9176f;
+
+shared::ToneParameters display_parameters() {
+    shared::ToneParameters p{};
+    p.cone_break = 1.9176f, p.rod_break = -1.205f, p.viewer_sigma = 130, p.viewer_step = 0.012f;
+    return p;
+}
 
 std::vector<glm::vec4> bands(PassRig& rig, VkExtent2D extent, const std::vector<glm::vec4>& scene, uint32_t top, uint32_t tone, const shared::ToneCurve& curve) {
     FrameGraph graph;
     const Resource image = rig.image(graph, "scene", kSceneFormat, extent, scene);
     const Pyramid pyramid = add_pyramid(graph, rig.kernels(), image, extent);
     const Resource table = graph.upload("curve", std::vector{curve}, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource kept = keep<glm::vec4>(graph, add_bands(graph, rig.kernels(), image, pyramid, top, table, tone, kBreak, extent));
+    const Resource kept = keep<glm::vec4>(graph, add_bands(graph, rig.kernels(), image, pyramid, top, table, tone, display_parameters(), extent));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -28,7 +33,7 @@ void expect_reference(PassRig& rig, VkExtent2D extent, const std::vector<glm::ve
     if (top > levels.size()) return;
     std::vector<double> luminance;
     for (const glm::vec4& p : scene) luminance.push_back(reference::luminance(glm::dvec3(p)));
-    const auto want = reference::bands(luminance, extent.width, extent.height, levels, top, curve, {double(kBreak), -1.205});
+    const auto want = reference::bands(luminance, extent.width, extent.height, levels, top, curve, display_parameters());
     const auto got = bands(rig, extent, scene, top, tone, curve);
     for (size_t i = 0; i < got.size(); ++i) {
         const glm::dvec3 rgb(scene[i]);

@@ -3,12 +3,14 @@
 
 #include <random>
 
-#include "passes/adjust_reference.h"
+#include "passes/anchor_reference.h"
 #include "passes/passes.h"
 
 namespace vesper::reference {
 
 constexpr uint32_t kBins = 100;
+
+inline const ReceptorModel kCones(ReceptorKind::Cones, Receptors::cones()), kRods(ReceptorKind::Rods, Receptors::rods());
 
 inline shared::ToneParameters parameters_of(double low = 0.5, double high = 200, uint32_t ceiling = shared::kCeilingCones) {
     shared::ToneParameters p{};
@@ -18,12 +20,11 @@ inline shared::ToneParameters parameters_of(double low = 0.5, double high = 200,
     p.bins = kBins, p.steps_per_bin = 1;
     p.ln_low = float(std::log(1e-4)), p.bins_per_ln = float(10 / std::log(10.0));  // tenths of a decade
     p.display_low = float(low), p.display_high = float(high);
+    p.viewer_sigma = float(kCones.adapted_sigma(high / 2)), p.viewer_step = float(kCones.response_step());
     p.key = 0.18f;
     p.scotopic = 1;
     return p;
 }
-
-inline const ReceptorModel kCones(ReceptorKind::Cones, Receptors::cones()), kRods(ReceptorKind::Rods, Receptors::rods());
 
 /// The curve for an eye adapted to `adaptation`.
 inline Adjusted curve_of(const shared::Histogram& histogram, double adaptation, const shared::ToneParameters& p) {

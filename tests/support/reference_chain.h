@@ -37,7 +37,7 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
     if (op.bands) {
         std::vector<double> luminance;
         for (const glm::vec4& p : scene) luminance.push_back(reference::luminance(glm::dvec3(p)));
-        const auto bands = reference::bands(luminance, extent.width, extent.height, levels, foveal_level, adapted.tone, {parameters.cone_break, parameters.rod_break});
+        const auto bands = reference::bands(luminance, extent.width, extent.height, levels, foveal_level, adapted.tone, parameters);
         for (size_t i = 0; i < banded.size(); ++i)
             if (reference::finite(glm::dvec3(scene[i]))) banded[i] = glm::vec4(glm::vec3(reference::banded(glm::dvec3(scene[i]), std::exp(bands.shown[i]), tone, adapted.tone)), 1);
         tone = shared::kToneLinear;

@@ -60,15 +60,19 @@ glm::dmat4 pose_of(const Actor& a) {
     return glm::rotate(m, -a.roll, glm::dvec3(0, 0, 1));  // left side up
 }
 
-// A scene alone: straight on from where its first camera stands.
-WorldFile plain_world(const Scene& scene) {
+uint32_t first_camera(const Scene& scene) {
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].camera != kNone) return i;
+    return kNone;
+}
+
+// A scene alone: straight on from where the camera on that node stands, if there is one.
+WorldFile plain_world(const Scene& scene, uint32_t camera) {
     WorldFile file;
     glm::dvec3 eye(0, kEyeHeight, 0), ahead(0, 0, -1);
-    const std::vector<glm::dmat4> world = world_transforms(scene, 0);
-    for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].camera == kNone) continue;
-        eye = glm::dvec3(world[i][3]), ahead = -glm::dvec3(world[i][2]);
-        break;
+    if (camera != kNone) {
+        const glm::dmat4 stands = world_transforms(scene, 0)[camera];
+        eye = glm::dvec3(stands[3]), ahead = -glm::dvec3(stands[2]);
     }
     ahead.y = 0;
     ahead = glm::length(ahead) > 1e-6 ? glm::normalize(ahead) : glm::dvec3(0, 0, -1);
@@ -107,14 +111,15 @@ Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scen
         LoadedScene loaded = load(file, {});
         notes_ = notes_of(loaded, file.string()), scene_ = std::move(loaded.scene);
         scene_.name = file.string();
-        WorldFile plain = plain_world(scene_);
-        adopt(plain);
+        const uint32_t camera = first_camera(scene_);
+        WorldFile plain = plain_world(scene_, camera);
+        adopt(plain, camera);
     } else {
         throw Error(one_line(file.string()) + ": a world (.json), roads (.xodr) or a scene (.gltf, .glb) is expected");
     }
 }
 
-void Scenery::adopt(WorldFile& file) {
+void Scenery::adopt(WorldFile& file, uint32_t eye) {
     scene_.channels.clear();
     rest_ = world_transforms(scene_, 0);
     night_ = {scene_.ambient_illuminance * scene_.ambient_colour, scene_.sky_luminance * scene_.sky_colour};
@@ -134,8 +139,14 @@ void Scenery::adopt(WorldFile& file) {
         const uint32_t parent = scene_.nodes[i].parent;
         if (parent != kNone) root[i] = root[parent];
         const auto actor = actors.find(scene_.nodes[i].name);
-        if (root[i] == kNone && actor != actors.end()) root[i] = i;
+        if (root[i] == kNone && (actor != actors.end() || i == eye)) root[i] = i;
         if (root[i] == kNone) continue;
+        if (root[i] == eye) {
+            Actor below = start.front();  // of the eye, not quite where the car begins
+            below.position = glm::dvec3(rest_[eye][3]) - glm::dvec3(0, kEyeHeight, 0);
+            riders_.push_back({i, 0, glm::inverse(pose_of(below)) * rest_[i]});
+            continue;
+        }
         const uint32_t who = actors.at(scene_.nodes[root[i]].name);
         found.insert(who);
         riders_.push_back({i, who, glm::inverse(rigid(rest_[root[i]])) * rest_[i]});

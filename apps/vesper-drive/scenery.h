@@ -23,8 +23,8 @@ struct LampGroup {
 class Scenery {
 public:
     /// Reads a world (.json), roads (.xodr), or a scene alone (.gltf, .glb), in which one drives straight on over a plane from the
-    /// first camera. `run`: a run that esmini recorded on these roads, and its scenario (.xosc) where there is one; instead of
-    /// traffic. Throws Error.
+    /// first camera; what is below that camera goes along. `run`: a run that esmini recorded on these roads, and its scenario (.xosc)
+    /// where there is one; instead of traffic. Throws Error.
     explicit Scenery(const std::filesystem::path& file, const std::filesystem::path& run = {}, const std::filesystem::path& scenario = {});
 
     const Scene& scene() const { return scene_; }
@@ -51,8 +51,8 @@ private:
         uint32_t lens;   // index, kNone: nobody switches it
         std::string name;
     };
-    /// Takes its world; names stay.
-    void adopt(WorldFile&);
+    /// Takes its world; names stay. `eye`: a node that goes with the driver's car from where it stands, with all that is below it.
+    void adopt(WorldFile&, uint32_t eye = kNone);
     /// Throws Error, which begins with `place`, where no lamp of the scene has that name.
     void require_lamp(const std::string& name, const std::string& place) const;
     void require_lamps(const std::vector<std::string>& names, const std::string& place) const;

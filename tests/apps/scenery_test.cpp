@@ -1,0 +1,120 @@
+// What goes with the car. SPDX-License-Identifier: MIT
+#include "scenery.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "base/luminance.h"
+#include "scene/scene_files.h"
+#include "session.h"
+#include "simulation/world.h"
+
+namespace vesper::test {
+namespace {
+
+constexpr VkExtent2D kSize{80, 50};
+
+// A plain with a camera that looks west and slightly down from a lorry, two headlamps and a mount with a third below
+// it, a lamp beside it.
+GltfFile plain_with_headlamps() {
+    GltfFile file;
+    const std::vector<float> square = {-1e4f, 0, 1e4f, 1e4f, 0, 1e4f, 1e4f, 0, -1e4f, -1e4f, 0, -1e4f};
+    file.show({{"attributes", {{"POSITION", file.vec3(square)}}}, {"indices", file.indices({0, 1, 2, 0, 2, 3})}},
+              {{"name", "plain"}});
+    const auto lamp = [](const char* name, double x, double y) {
+        return nlohmann::json{
+            {"name", name}, {"translation", {x, y, -0.5}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+    };
+    const glm::dquat look = glm::angleAxis(glm::radians(90.0), glm::dvec3(0, 1, 0)) *
+                            glm::angleAxis(glm::radians(-5.0), glm::dvec3(1, 0, 0));
+    file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"intensity", 20000}, {"spot", {{"outerConeAngle", 0.3}}}}};
+    file.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+    auto& nodes = file.root["nodes"];
+    nodes.push_back({{"name", "eye"},
+                     {"camera", 0},
+                     {"translation", {30, 2.4, 7}},
+                     {"rotation", {look.x, look.y, look.z, look.w}},
+                     {"children", {2, 3, 4}}});
+    nodes.push_back(lamp("left", -0.6, -1.5));
+    nodes.push_back(lamp("right", 0.6, -1.5));
+    nodes.push_back({{"name", "mount"}, {"translation", {0, 0.5, 0}}, {"children", {5}}});
+    nodes.push_back(lamp("roof lamp", 0, 0));
+    nodes.push_back(lamp("street lamp", 25, 6));
+    file.root["scenes"] = {{{"nodes", {0, 1, 6}}}};
+    file.root["scene"] = 0;
+    return file;
+}
+
+uint32_t node_of(const Scene& scene, const std::string& name) {
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].name == name) return i;
+    ADD_FAILURE() << "no node " << name;
+    return 0;
+}
+
+double largest_difference(const glm::dmat4& a, const glm::dmat4& b) {
+    double most = 0;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) most = std::max(most, std::abs(a[c][r] - b[c][r]));
+    return most;
+}
+
+TEST(Scenery, LampsBelowTheCameraOfASceneGoWithTheCar) {
+    const TempFolder folder;
+    const Scenery scenery(folder.write("s.gltf", plain_with_headlamps().text()));
+    const std::vector<glm::dmat4> rest = world_transforms(scenery.scene(), 0);
+    World world(scenery.world(), 1);
+    const DriveSettings settings;
+    const auto eye = [&] {
+        return glm::dmat4(
+            scenery.view(scenery.frame(world.actors(), 0, settings), world.actors(), settings, kSize).world_to_view);
+    };
+    // To the driver's eye, which looks level, all that is below the camera stands as the file has it, at the start and when the car
+    // has turned. The view is of floats: 30 m to 2e-6.
+    const glm::dvec3 place(rest[node_of(scenery.scene(), "eye")][3]);
+    const glm::dmat4 level = glm::inverse(glm::rotate(glm::translate(glm::dmat4(1), place), glm::radians(90.0), {0, 1, 0}));
+    const auto expect_along = [&] {
+        const SceneFrame frame = scenery.frame(world.actors(), 0, settings);
+        for (const char* name : {"eye", "left", "right", "mount", "roof lamp"}) {
+            const uint32_t node = node_of(scenery.scene(), name);
+            EXPECT_LT(largest_difference(eye() * frame.world[node], level * rest[node]), 1e-4) << name;
+        }
+        return frame;
+    };
+    expect_along();
+    for (int i = 0; i < 240; ++i) world.step({.steering = 0.2, .throttle = 0.6}, 1.0 / 60);
+    ASSERT_GT(std::abs(world.driver().yaw - glm::radians(90.0)), 0.1) << "it has turned";
+    const SceneFrame after = expect_along();
+    EXPECT_GT(glm::distance(glm::dvec3(after.world[node_of(scenery.scene(), "left")][3]), place), 5);
+    for (const char* name : {"street lamp", "plain"})
+        EXPECT_EQ(after.world[node_of(scenery.scene(), name)], rest[node_of(scenery.scene(), name)]) << name;
+}
+
+// The road before the car is lit after a minute as it was at the start: by nothing else, on this plain.
+TEST(Scenery, HeadlampsOfASceneLightTheRoadAhead) {
+    const TempFolder folder;
+    Device device({.select = ""});
+    Session session(device, {.scene = folder.write("s.gltf", plain_with_headlamps().text()),
+                             .settings = {{"lamp:street lamp", "0"}}});
+    const auto mean = [&] {
+        const Frame frame = session.render(kSize, {.display = false, .scene = true});
+        double sum = 0;
+        for (size_t i = 0; i < frame.scene.size(); i += 4)
+            sum += luminance(glm::dvec3(frame.scene[i], frame.scene[i + 1], frame.scene[i + 2]));
+        return sum / double(frame.scene.size() / 4);
+    };
+    const double start = mean();
+    EXPECT_GT(start, 0.1);
+    for (int i = 0; i < 3600; ++i) session.step({.autopilot = true});
+    EXPECT_GT(session.world().driver().position.x, -2000);
+    EXPECT_LT(session.world().driver().position.x, -500);
+    EXPECT_NEAR(mean(), start, 0.05 * start);  // the car may still lean back a little
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -147,9 +147,12 @@ void Scenery::adopt(WorldFile& file, uint32_t eye) {
             riders_.push_back({i, 0, glm::inverse(pose_of(below)) * rest_[i]});
             continue;
         }
-        const uint32_t who = actors.at(scene_.nodes[root[i]].name);
+        const std::string& name = scene_.nodes[root[i]].name;
+        const uint32_t who = actors.at(name);
         found.insert(who);
-        riders_.push_back({i, who, glm::inverse(rigid(rest_[root[i]])) * rest_[i]});
+        const auto turn = file.turns.find(name);
+        const glm::dmat4 turned = glm::rotate(glm::dmat4(1), turn == file.turns.end() ? 0 : turn->second, glm::dvec3(0, 1, 0));
+        riders_.push_back({i, who, turned * glm::inverse(rigid(rest_[root[i]])) * rest_[i]});
     }
     for (const auto& [name, index] : actors)
         if (!found.contains(index)) throw Error(one_line(scene_.name) + ": there is no node " + one_line(name) + " to move");

@@ -1,6 +1,7 @@
 #include "simulation/world_file.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "base/decimal.h"
 #include "base/error.h"
@@ -64,25 +65,41 @@ Beam beam_of(const JsonValue& car) {
     car.at("beam").fail("is none of off, low and high");
 }
 
-void read_cars(const JsonValue& root, WorldDescription& world) {
+void read_front(const JsonValue& mover, WorldFile& file) {
+    const auto front = mover.find("front");
+    if (!front) return;
+    const std::string node = mover.text_or("node", ""), side = front->text();
+    if (node.empty()) front->fail("of which node? there is none");
+    constexpr double kQuarter = std::numbers::pi / 2;
+    const std::map<std::string, double> turns{{"-z", 0}, {"+x", kQuarter}, {"+z", 2 * kQuarter}, {"-x", -kQuarter}};
+    const auto turn = turns.find(side);
+    if (turn == turns.end()) front->fail("is none of -z, +z, -x and +x");
+    file.turns[node] = turn->second;
+}
+
+void read_cars(const JsonValue& root, WorldFile& file) {
+    WorldDescription& world = file.world;
     for (const char* movers : {"cars", "walkers"})
         if (root.elements_of(movers).size() > kMostMovers) root.at(movers).fail("more than " + std::to_string(kMostMovers));
     for (const JsonValue& car : root.elements_of("cars")) {
-        car.allow_only({"node", "lane", "at_m", "speed_km_h", "length_m", "width_m", "beam", "wish"});
+        car.allow_only({"node", "front", "lane", "at_m", "speed_km_h", "length_m", "width_m", "beam", "wish"});
         world.cars.push_back({.node = car.at("node").text(), .lane = index_of(car.at("lane"), world.lanes), .s = car.number_or("at_m", 0, -kFar, kFar),
                               .speed = car.number_or("speed_km_h", 0, 0, 300) / 3.6, .length = car.number_or("length_m", 4.4, 0.5, 50), .width = car.number_or("width_m", 1.8, 0.3, 10),
                               .wish = car.number_or("wish", 0, 0.05, 2), .beam = beam_of(car)});
+        read_front(car, file);
     }
     for (const JsonValue& walker : root.elements_of("walkers")) {
-        walker.allow_only({"node", "path", "wait_s", "at_m"});
+        walker.allow_only({"node", "front", "path", "wait_s", "at_m"});
         world.walkers.push_back({walker.at("node").text(), index_of(walker.at("path"), world.paths), walker.number_or("wait_s", 5, 0, 1e6), walker.number_or("at_m", 0, 0, kFar)});
+        read_front(walker, file);
     }
 }
 
 void read_driver(const JsonValue& driver, WorldFile& file) {
-    driver.allow_only({"node", "camera", "lane", "at_m", "speed_km_h"});
+    driver.allow_only({"node", "front", "camera", "lane", "at_m", "speed_km_h"});
     file.camera = driver.text_or("camera", "");
     file.world.driver_node = driver.text_or("node", "");
+    read_front(driver, file);
     file.world.driver_lane = index_of(driver.at("lane"), file.world.lanes);
     file.world.driver_s = driver.number_or("at_m", 0, -kFar, kFar);
     const Course& lane = file.world.lanes[file.world.driver_lane];
@@ -130,7 +147,7 @@ WorldFile read_world(const std::filesystem::path& path) {
             file.world.barriers.back().line.emplace_back(xz[0].number(-kFar, kFar), xz[1].number(-kFar, kFar));
         }
     }
-    read_cars(root, file.world);
+    read_cars(root, file);
     read_driver(root.at("driver"), file);
     if (const auto lamps = root.find("lamps")) {
         lamps->allow_only({"low", "high", "tail", "brake", "left", "right"});

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@ struct WorldFile {
     std::filesystem::path photometry;  ///< applied to it when it is loaded; empty: the scene is photometric
     std::string camera;                ///< of the scene, in the driver's car; empty: 1.2 m above the middle of it
     WorldDescription world;
+    std::map<std::string, double> turns;  ///< rad about +Y that bring the front of what such a node carries to -Z; others face -Z
     LampRoles roles;
     std::vector<std::string> by_day;   ///< names of lamps that are lit by day, too; empty: all are
     std::vector<Tunnel> tunnels;

@@ -1,7 +1,8 @@
-// What goes with the car. SPDX-License-Identifier: MIT
+// What goes with the car, and how it stands on it. SPDX-License-Identifier: MIT
 #include "scenery.h"
 
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -114,6 +115,60 @@ TEST(Scenery, HeadlampsOfASceneLightTheRoadAhead) {
     EXPECT_GT(session.world().driver().position.x, -2000);
     EXPECT_LT(session.world().driver().position.x, -500);
     EXPECT_NEAR(mean(), start, 0.05 * start);  // the car may still lean back a little
+}
+
+// A model of which any side is the front: that side leads, whatever way the lane goes, and what it carries turns with
+// it.
+TEST(Scenery, TheFrontOfANodeLeads) {
+    const TempFolder folder;
+    folder.write("s.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 2, 3]}], "nodes": [
+        {"name": "me", "children": [1], "scale": [2, 2, 2], "translation": [5, 0, 5]}, {"name": "badge", "translation": [0.25, 0.5, 1]},
+        {"name": "van"}, {"name": "walker"}]})");
+    const auto world = [&](const std::string& front) {
+        return folder.write("w.json", R"({"version": 1, "scene": "s.gltf", "driver": {"node": "me", "lane": "a")" +
+                                          front + R"(}, "lanes": [{"name": "a", "points": [[0, 0, 0], [300, 0, 400]]}],
+            "paths": [{"name": "p", "points": [[0, 0, 50], [9, 0, 50]]}], "cars": [{"node": "van", "lane": "a", "at_m": 30)" +
+                                          front + R"(}], "walkers": [{"node": "walker", "path": "p")" + front + "}]}");
+    };
+    const glm::dvec3 lane(0.6, 0, 0.8), path(1, 0, 0);
+    const std::map<std::string, glm::dvec3> sides{{"", {0, 0, -1}},
+                                                  {R"(, "front": "-z")", {0, 0, -1}},
+                                                  {R"(, "front": "+z")", {0, 0, 1}},
+                                                  {R"(, "front": "+x")", {1, 0, 0}},
+                                                  {R"(, "front": "-x")", {-1, 0, 0}}};
+    for (const auto& [front, side] : sides) {
+        const Scenery scenery(world(front));
+        const std::vector<Actor> actors = World(scenery.world(), 1).actors();
+        const SceneFrame frame = scenery.frame(actors, 0, DriveSettings());
+        const auto leads = [&](const char* name) {
+            return glm::normalize(glm::dvec3(frame.world[node_of(scenery.scene(), name)] * glm::dvec4(side, 0)));
+        };
+        EXPECT_LT(glm::distance(leads("me"), lane), 1e-9) << front;
+        EXPECT_LT(glm::distance(leads("van"), lane), 1e-9) << front;
+        EXPECT_LT(glm::distance(leads("walker"), path), 1e-9) << front;
+        const glm::dmat4& me = frame.world[node_of(scenery.scene(), "me")];
+        EXPECT_LT(glm::distance(glm::dvec3(me[3]), actors.front().position), 1e-9)
+            << front << ": it turns about where it stands";
+        EXPECT_LT(glm::distance(glm::dvec3(me * glm::dvec4(0.25, 0.5, 1, 1)),
+                                glm::dvec3(frame.world[node_of(scenery.scene(), "badge")][3])),
+                  1e-9)
+            << front;
+    }
+    for (const char* wrong : {"\"+y\"", "\"z\"", "\"\"", "180", "null"})
+        EXPECT_TRUE(contains(complaint_of([&] { Scenery(world(R"(, "front": )" + std::string(wrong))); }),
+                             "w.json: /cars/0/front: "))
+            << wrong;
+    EXPECT_TRUE(contains(complaint_of([&] { Scenery(world(R"(, "front": "+y")")); }),
+                         "w.json: /cars/0/front: is none of -z, +z, -x and +x"));
+}
+
+TEST(Scenery, AFrontIsThatOfANode) {
+    const TempFolder folder;
+    const auto file = folder.write(
+        "w.json",
+        R"({"version": 1, "scene": "s.gltf", "driver": {"lane": "a", "front": "+z"},
+            "lanes": [{"name": "a", "points": [[0, 0, 0], [0, 0, 9]]}]})");
+    EXPECT_TRUE(contains(complaint_of([&] { Scenery scenery(file); }), "w.json: /driver/front: of which node?"));
 }
 
 }  // namespace

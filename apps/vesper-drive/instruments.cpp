@@ -7,6 +7,7 @@
 
 #include "arguments.h"
 #include "base/luminance.h"
+#include "panel_layout.h"
 #include "passes/operators.h"
 #include "plot.h"
 #include "tone_arguments.h"
@@ -40,8 +41,15 @@ bool Instruments::press(Action action) {
             focus_ = !focus_, clean_ = false;
             if (focus_ && !panels_) panels_ = kSwitches;  // something to go to
             return true;
+        case Action::Leave: return leave();
         default: return false;
     }
+}
+
+bool Instruments::leave() {
+    if (clean_ || !(focus_ || panels_ || false_colour_)) return false;
+    if (!std::exchange(focus_, false)) panels_ = 0, false_colour_ = false;
+    return true;
 }
 
 void Instruments::remember(const Session& session, const Frame& frame) {
@@ -68,6 +76,9 @@ std::vector<Change> Instruments::draw(const Moment& now) {
     std::vector<Change> changes;
     if (!now.message.empty() && (now.alarm || !clean_)) draw_message(now.message);
     if (clean_) return changes;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const glm::vec2 window(size.x, size.y);
+    arrange_ = std::exchange(window_, window) != window;
     draw_status(now);
     if (false_colour_) draw_scale();
     if (shows(kKeys)) draw_keys();
@@ -81,14 +92,12 @@ std::vector<Change> Instruments::draw(const Moment& now) {
     return changes;
 }
 
-bool Instruments::begin(Panel panel, const char* title, glm::vec2 place, glm::vec2 size) {
-    const ImVec2 window = ImGui::GetIO().DisplaySize;
-    // Negative places are from the right and lower edge.
-    const glm::vec2 corner(place.x < 0 ? window.x + place.x - size.x : place.x, place.y < 0 ? window.y + place.y - size.y : place.y);
-    ImGui::SetNextWindowPos({std::max(corner.x, 0.0f), std::max(corner.y, 0.0f)}, ImGuiCond_Appearing);
-    ImGui::SetNextWindowSize({size.x, size.y}, ImGuiCond_Appearing);
+bool Instruments::begin(Panel panel, const char* title, glm::vec2 place, glm::vec2 size, int flags) {
+    const PanelPlace at = panel_place(place, size, window_);
+    ImGui::SetNextWindowPos({at.corner.x, at.corner.y}, arrange_ ? ImGuiCond_Always : ImGuiCond_Appearing);
+    ImGui::SetNextWindowSize({at.size.x, at.size.y}, arrange_ ? ImGuiCond_Always : ImGuiCond_Appearing);
     bool open = true;
-    const bool drawn = ImGui::Begin(title, &open, ImGuiWindowFlags_NoCollapse);
+    const bool drawn = ImGui::Begin(title, &open, ImGuiWindowFlags_NoCollapse | flags);
     if (!open) panels_ &= ~unsigned(panel);
     return drawn;
 }
@@ -105,6 +114,7 @@ void Instruments::draw_status(const Moment& now) const {
     ImGui::SetNextWindowPos({8, ImGui::GetIO().DisplaySize.y - 8}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(0.55f);
     if (ImGui::Begin("status", nullptr, kPlain)) {
+        ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x - 32);
         const char* beam = input.beam == Beam::Low ? "low beam" : input.beam == Beam::High ? "high beam" : "no lights";
         ImGui::Text("%3.0f km/h  %s%s%s", std::abs(me.speed) * 3.6, beam, input.reverse ? "  reverse" : "", input.autopilot ? "  autopilot" : "");
         ImGui::TextUnformatted(format("%s  |  glare %s  |  display %s  |  observer of %.0f  |  adapted to %.3g cd/m²  |  %.1f pictures/s%s%s", name_of(settings.tone_operator).c_str(), value_or("glare", "none").c_str(),
@@ -113,6 +123,7 @@ void Instruments::draw_status(const Moment& now) const {
                                    .c_str());
         if (!now.recording.empty()) ImGui::TextColored({1, 0.35f, 0.3f, 1}, "recording %s", now.recording.c_str());
         if (now.session.world().seconds() < 8 && !shows(kKeys)) ImGui::TextDisabled("F1: keys");
+        ImGui::PopTextWrapPos();
     }
     ImGui::End();
 }
@@ -130,8 +141,7 @@ void Instruments::draw_message(const std::string& message) const {
 }
 
 void Instruments::draw_keys() {
-    const ImVec2 window = ImGui::GetIO().DisplaySize;
-    if (begin(kKeys, "Keys (F1)", {40, 20}, {std::min(620.0f, window.x - 60), std::min(740.0f, window.y - 60)}) && ImGui::BeginTable("keys", 2)) {
+    if (begin(kKeys, "Keys (F1)", {40, 20}, {620, 740}) && ImGui::BeginTable("keys", 2)) {
         ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 150);
         ImGui::TableSetupColumn("does");
         const auto row = [](const char* key, const char* does) {
@@ -177,7 +187,7 @@ void Instruments::draw_performance(const Moment& now) {
 }
 
 void Instruments::draw_controllers(const Moment& now) {
-    if (begin(kControllers, "Controllers (J)", {-8, -8}, {420, 300})) {
+    if (begin(kControllers, "Controllers (J)", {-8, -8}, {420, 300}, ImGuiWindowFlags_HorizontalScrollbar)) {
         if (now.hands.controllers().empty()) ImGui::TextDisabled("nothing is plugged in");
         for (const ControllerState& c : now.hands.controllers()) {
             const ControllerMapping* mapping = now.hands.mapping_of(c);

@@ -36,7 +36,8 @@ using Change = std::pair<std::string, std::string>;
 
 class Instruments {
 public:
-    /// Shows or hides; false: the action is none of theirs.
+    /// Shows or hides; false: the action is none of theirs. Action::Leave first gives the keyboard back, then closes all that is
+    /// visible, and is none of theirs where nothing is.
     bool press(Action);
     /// Keeps what is drawn over time.
     void remember(const Session&, const Frame&);
@@ -56,7 +57,9 @@ public:
 private:
     enum Panel : unsigned { kKeys = 1, kPerformance = 2, kLight = 4, kEye = 8, kSwitches = 16, kLamps = 32, kProbe = 64, kControllers = 128 };
     bool shows(Panel panel) const { return panels_ & panel; }
-    bool begin(Panel, const char* title, glm::vec2 place, glm::vec2 size);
+    /// Place and size as of panel_place().
+    bool begin(Panel, const char* title, glm::vec2 place, glm::vec2 size, int flags = 0);
+    bool leave();
 
     void draw_status(const Moment&) const;
     void draw_message(const std::string&) const;
@@ -75,6 +78,8 @@ private:
     };
     unsigned panels_ = 0;
     bool clean_ = false, focus_ = false, false_colour_ = false;
+    glm::vec2 window_{0};   // px, when they were last drawn
+    bool arrange_ = false;  // all panels go where they belong, in a window of another size
     ColourScale scale_{0.01, 1000};
     bool fit_scale_ = true;
     std::vector<uint8_t> coloured_;

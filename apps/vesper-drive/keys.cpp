@@ -58,6 +58,7 @@ constexpr std::array kBindings{
     KeyBinding{Action::NextScaling, GLFW_KEY_X, 0, "X", "next-scaling", "Fill the window, or repeat whole pixels", "Window"},
     KeyBinding{Action::FinerPicture, GLFW_KEY_EQUAL, 0, "=", "finer-picture", "More pixels are rendered", "Window"},
     KeyBinding{Action::CoarserPicture, GLFW_KEY_MINUS, 0, "-", "coarser-picture", "Fewer pixels are rendered", "Window"},
+    KeyBinding{Action::Leave, GLFW_KEY_ESCAPE, 0, "Esc", "leave", "Close the instruments; where none is open, end", "Window"},
     KeyBinding{Action::Quit, GLFW_KEY_Q, kControl, "Ctrl+Q", "quit", "End", "Window"},
 };
 

@@ -14,7 +14,7 @@ enum class Action : uint8_t {
     NextCamera, CameraDriver, CameraChase, CameraBird, CameraFree,
     NextOperator, PreviousOperator, NextGlare, NextDisplay, OlderObserver, YoungerObserver, SunUp, SunDown,
     Keys, Clean, Performance, Light, Eye, Switches, Lamps, Probe, FalseColour, Controllers, Focus,
-    RecordDrive, SavePicture, Reload, FullScreen, NextMonitor, NextVsync, NextScaling, FinerPicture, CoarserPicture, Quit,
+    RecordDrive, SavePicture, Reload, FullScreen, NextMonitor, NextVsync, NextScaling, FinerPicture, CoarserPicture, Leave, Quit,
 };
 
 struct KeyBinding {

@@ -7,6 +7,7 @@
 #include "base/luminance.h"
 #include "instruments.h"
 #include "light_probe.h"
+#include "panel_layout.h"
 #include "passes/operators.h"
 #include "plot.h"
 #include "shown.h"
@@ -21,7 +22,10 @@ void Instruments::draw_light(const Moment& now) {
         const double low = std::pow(10, double(bins.log10_low)), high = std::pow(10, double(bins.log10_high));
         const Display& display = settings.display;
         const ImVec2 room = ImGui::GetContentRegionAvail();
-        const PanelPlot plot("light", {room.x, std::max(room.y - ImGui::GetTextLineHeightWithSpacing(), 60.0f)}, {low, high, true, "scene, cd/m²"},
+        const std::string legend =
+            format("bars: votes; grey band: the display's own range, %.3g to %.4g cd/m²", double(display.low()), double(display.high()));
+        const float below = ImGui::CalcTextSize(legend.c_str(), nullptr, false, room.x).y + ImGui::GetStyle().ItemSpacing.y;
+        const PanelPlot plot("light", {room.x, std::max(room.y - below, 60.0f)}, {low, high, true, "scene, cd/m²"},
                              {double(display.low()), double(display.high()), true, "shown, cd/m² (curve)"});
         plot.band(double(display.low()), double(display.high()), colours::kDisplay);
 
@@ -44,7 +48,9 @@ void Instruments::draw_light(const Moment& now) {
         plot.upright(double(now.frame.curve.adaptation), colours::kAdaptation, "adapted to");
         plot.upright(double(now.frame.curve.log_average), colours::kAverage, "log average", 1);
         plot.upright(double(now.frame.curve.maximum), colours::kFaint, "maximum", 2);
-        ImGui::TextDisabled("bars: votes; grey band: the display's own range, %.3g to %.4g cd/m²", double(display.low()), double(display.high()));
+        ImGui::PushTextWrapPos(0);
+        ImGui::TextDisabled("%s", legend.c_str());
+        ImGui::PopTextWrapPos();
     }
     ImGui::End();
 }
@@ -84,7 +90,7 @@ void Instruments::draw_eye() {
 }
 
 void Instruments::draw_probe(const Moment& now) {
-    if (begin(kProbe, "Probe (F8)", {-8, 440}, {380, 200})) {
+    if (begin(kProbe, "Probe (F8)", {-8, 440}, {380, 200}, ImGuiWindowFlags_HorizontalScrollbar)) {
         const Frame& frame = now.frame;
         if (!now.pixel) {
             ImGui::TextDisabled("point at something in the picture");
@@ -114,9 +120,9 @@ void Instruments::draw_probe(const Moment& now) {
 }
 
 void Instruments::draw_scale() {
-    const ImVec2 window = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({window.x - 8, window.y - 8}, ImGuiCond_Appearing, {1, 1});
-    ImGui::SetNextWindowSize({std::min(460.0f, window.x - 16), 0}, ImGuiCond_Always);
+    const ImVec2 corner(window_.x - 8, std::max(window_.y - kStatusHeight, 0.0f));
+    ImGui::SetNextWindowPos(corner, arrange_ ? ImGuiCond_Always : ImGuiCond_Appearing, {1, 1});
+    ImGui::SetNextWindowSize({std::min(460.0f, window_.x - 16), 0}, ImGuiCond_Always);
     if (ImGui::Begin("Luminance, cd/m² (F)", nullptr, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float width = ImGui::GetContentRegionAvail().x;

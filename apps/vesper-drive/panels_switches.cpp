@@ -98,7 +98,7 @@ void Instruments::draw_switches(const Moment& now, std::vector<Change>& changes)
 }
 
 void Instruments::draw_lamps(const Moment& now, std::vector<Change>& changes) {
-    if (begin(kLamps, "Lamps (F7)", {-446, 8}, {430, 360})) {
+    if (begin(kLamps, "Lamps (F7)", {-446, 8}, {430, 360}, ImGuiWindowFlags_HorizontalScrollbar)) {
         const auto& factors = now.session.settings().lamps();
         for (const LampGroup& group : now.session.scenery().lamp_groups()) {
             const auto found = factors.find(group.name);

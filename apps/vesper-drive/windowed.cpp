@@ -66,11 +66,11 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
     if (a.autopilot) hands_.press(Action::Autopilot);
     if (!a.log.empty()) log_.emplace(a.log, probes_of(a.probes));
     window_.on_key = [this](int key, int modifiers) {
-        if (key == GLFW_KEY_ESCAPE && instruments_.has_keyboard()) return press(Action::Focus);
         const auto action = action_of(key, modifiers);
         if (!action || screen_->is_typing()) return;
         // Letters and the space bar belong to the instruments while they have the keyboard.
-        if (instruments_.has_keyboard() && key < GLFW_KEY_F1 && *action != Action::Focus && *action != Action::Quit) return;
+        const bool theirs = key < GLFW_KEY_F1 && *action != Action::Focus && *action != Action::Leave && *action != Action::Quit;
+        if (instruments_.has_keyboard() && theirs) return;
         press(*action);
     };
     window_.on_drop = [this](const std::string& file) { reload(file); };

@@ -106,6 +106,7 @@ void WindowedDrive::press(Action action) {
         case Action::RecordDrive: record(); break;
         case Action::SavePicture: save_picture(); break;
         case Action::Reload: reload(arguments_.scene); break;
+        case Action::Leave:
         case Action::Quit: window_.close(); break;
         default: press_view(action);
     }

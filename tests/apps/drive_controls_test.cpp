@@ -1,9 +1,11 @@
 // What keys, gamepads and wheels do, without any of them. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "hands.h"
+#include "panel_layout.h"
 #include "scene/scene_files.h"
 #include "support/complaints.h"
 
@@ -141,6 +143,35 @@ TEST(KeyboardWheel, TurnsWhileHeldReturnsAndTurnsLessAtSpeed) {
     for (int i = 0; i < 120; ++i) before = wheel.turn({.right = true}, 30, 1.0 / 60);
     EXPECT_LT(before, -0.1);
     EXPECT_GT(before, -0.2);
+}
+
+// Panels of any place and size lie within any window, above the line of state where there is room for both; in a large one they are
+// as they are meant.
+TEST(Panels, StayInTheWindow) {
+    const glm::vec2 large(1280, 800);
+    const PanelPlace left = panel_place({8, 320}, {520, 260}, large), right = panel_place({-8, -8}, {420, 300}, large);
+    EXPECT_EQ(left.corner, glm::vec2(8, 320));
+    EXPECT_EQ(left.size, glm::vec2(520, 260));
+    EXPECT_EQ(right.corner, glm::vec2(1280 - 8 - 420, 800 - kStatusHeight - 8 - 300));
+    EXPECT_EQ(right.size, glm::vec2(420, 300));
+    using V = glm::vec2;
+    for (const V window : {V(840, 525), V(1024, 600), V(400, 900), V(120, 80), V(3840, 2160)})
+        for (const V size : {V(520, 260), V(430, 560), V(620, 740), V(5000, 5000)})
+            for (const V place : {V(8, 8), V(8, 320), V(-8, 440), V(-446, 8), V(-8, -8)}) {
+                const PanelPlace at = panel_place(place, size, window);
+                const float low = std::max(window.y - kStatusHeight, window.y / 2);
+                EXPECT_GE(std::min(at.corner.x, at.corner.y), 0);
+                EXPECT_LE(at.corner.x + at.size.x, window.x + 0.01f);  // px, of floats
+                EXPECT_LE(at.corner.y + at.size.y, low + 0.01f);
+                EXPECT_GE(at.size.x, std::min({size.x, 200.0f, window.x - 16}));
+                EXPECT_GE(at.size.y, std::min({size.y, 120.0f, low - 16}));
+            }
+    // The two columns of panels do not hide each other in the smallest window that they are meant for.
+    const V small(840, 525);
+    const PanelPlace light = panel_place({8, 8}, {520, 300}, small), eye = panel_place({8, 320}, {520, 260}, small),
+                     passes = panel_place({-8, 8}, {380, 420}, small);
+    EXPECT_GE(eye.corner.y, light.corner.y + light.size.y);
+    EXPECT_GE(passes.corner.x, light.corner.x + light.size.x);
 }
 
 }  // namespace

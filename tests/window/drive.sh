@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Opens vesper-drive on a display of its own and drives it by keys, as somebody would: steers, resizes, minimises and fills the
 # screen, switches operators, breaks the scene's file, records. What the window shows is the headless picture of the same frame, and a replay of the recording, twice, gives
-# the same bytes. The validation layer watches. Waits for what the title says, never for a time. SPDX-License-Identifier: MIT
+# the same bytes. Panels fit a small window, and Escape closes them before it ends the program. The validation layer watches. Waits
+# for what the title says, never for a time. SPDX-License-Identifier: MIT
 #   tests/window/drive.sh VESPER_DRIVE WORLD LOSE_DEVICE (the built lose_device.cpp)
 set -euo pipefail
 
 program=$1 world=$2 lose=$3
-for tool in Xvfb xdotool import compare openbox; do
+for tool in Xvfb xdotool import compare convert openbox; do
     command -v "$tool" >/dev/null || { echo "skipped: $tool is missing (Debian, Ubuntu: apt install xvfb xdotool openbox imagemagick)"; exit 77; }
 done
 
@@ -32,7 +33,7 @@ fail() {
 
 # The X server says which display it took.
 mkfifo display
-Xvfb -displayfd 3 -screen 0 800x600x24 -nolisten tcp -noreset 3>display >/dev/null 2>&1 &
+Xvfb -displayfd 3 -screen 0 900x640x24 -nolisten tcp -noreset 3>display >/dev/null 2>&1 &
 started+=($!)
 read -r number <display
 export DISPLAY=:$number
@@ -58,12 +59,13 @@ until_true() {
 titled() { [[ $(title) == *"$1"* ]]; }
 untitled() { [[ $(title) != *"$1"* ]]; }
 key() { xdotool key --window "$window" "$1"; }
-# quit WHAT: the window may be gone before the keys are up again, which ends xdotool with an X error; and once in a hundred times they go astray.
+# quit WHAT [KEY]: the window may be gone before the keys are up again, which ends xdotool with an X error; and once in a hundred
+# times they go astray.
 quit() {
     local presses=0
     while kill -0 "$drive" 2>/dev/null; do
         ((++presses <= 20)) || fail "$1 does not end"
-        xdotool key --window "$window" ctrl+q 2>/dev/null || true
+        xdotool key --window "$window" "${2:-ctrl+q}" 2>/dev/null || true
         for ((i = 0; i < 50; ++i)); do kill -0 "$drive" 2>/dev/null || break; sleep 0.1; done
     done
     wait "$drive" || fail "$1 ended with $?"
@@ -105,7 +107,7 @@ until_true "the driver's camera" titled driver
 
 # Full screen and back, minimised and back, every way of waiting for the screen.
 key F11
-until_true "full screen" sized 800x600
+until_true "full screen" sized 900x640
 key m
 key m
 key F11
@@ -169,6 +171,46 @@ key BackSpace
 until_true "the replay from its start" untitled paused
 titled "grave, " || fail "starting again has not brought back the operator"
 quit "the replay"
+
+# In a window of 840 x 525 every panel is whole: none touches an edge of it. Escape gives the keyboard back to the drive, then closes
+# the panels, then ends the program.
+"$program" "$world" --size 84x53 --window 840x525 --device cpu >said.txt 2>&1 &
+drive=$!
+started+=("$drive")
+until_true "a window" find_window
+until_true "its size" sized 840x525
+until_true "time to pass" beyond 0.1
+key space
+until_true "a pause" titled paused
+import -silent -window "$window" plain.png
+# over HIDDEN: whether something lies over the plain picture beside that rectangle.
+over() {
+    import -silent -window "$window" now.png
+    [[ $(convert now.png plain.png -compose difference -composite -threshold 0 -fill black -draw "rectangle $1" -format '%[fx:maxima>0]' info:) == 1 ]]
+}
+opened() { over 0,449,839,524; }  # panels are above the line of state
+closed() { ! opened; }
+touching() { over 4,4,835,520; }
+for panel in F1 F3 F4 F5 F6 F7 F8 j; do
+    key $panel
+    until_true "the panel of $panel" opened
+    touching && fail "the panel of $panel is cut off"
+    key $panel
+    until_true "the panel of $panel to close" closed
+done
+key F5
+key Tab
+until_true "panels" opened
+key Escape
+key o
+until_true "the keyboard back at the drive" titled ward
+opened || fail "Escape has closed the panels with the keyboard in them"
+key shift+o
+until_true "the first operator" titled irawan
+key Escape
+until_true "the panels to close" closed
+kill -0 "$drive" || fail "Escape has ended the program before its panels"
+quit "vesper-drive by Escape" Escape
 
 # A device that is lost while driving is opened anew; the drive, and its recording, go on.
 LD_PRELOAD=$lose LOSE_DEVICE_AT=60 "$program" "$world" --size 64x40 --window 240x150 --device cpu --record lost.json --log lost.csv >said.txt 2>&1 &

@@ -63,7 +63,7 @@ def read_picture(file):
 class Comparison:
     def __init__(self, vesper, folder):
         self.vesper, self.folder, self.rows, self.broken = vesper, folder, [], False
-        self.help = run([vesper, "tonemap", "--help"]).decode()
+        self.help = run([vesper, "tonemap", "--help-all"]).decode()
 
     def add(self, what, picture, measured, limit, unit):
         good = measured <= limit
@@ -264,7 +264,7 @@ def main():
     folder = Path(tempfile.mkdtemp(prefix="vesper-compare-"))
     try:
         comparison = Comparison(arguments.vesper.resolve(), folder)
-        has_pattanaik = "pattanaik" in comparison.help.split("--operator", 1)[1].splitlines()[0]
+        has_pattanaik = "pattanaik" in comparison.help.split("--operator", 1)[1].split("\n  --", 1)[0]
         for picture in pictures:
             compare_reinhard(comparison, picture)
             if has_pattanaik:

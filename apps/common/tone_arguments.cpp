@@ -7,6 +7,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "help.h"
 #include "scene/display_file.h"
 #include "tone_log.h"
 
@@ -44,11 +45,21 @@ Display display_of(const ToneArguments& arguments) {
 
 void add_tone_options(CLI::App& command, ToneArguments& a) {
     add_eye_options(command, a.eye, a.histogram, a.tone);
-    command.add_option("--glare", a.glare, "Light scattered in the eye: cie (CIE 135/1 total glare function), spencer (1995; needles and halo), ward (the veil of 1997), temporal (cie with needles and halo that move, after Ritschel 2009), all in cd/m^2 before the operator; ldr: the paper's, on the tone-mapped image")->check(CLI::IsMember(glare_names()))->capture_default_str();
+    command.add_option("--glare", a.glare,
+                       "Light scattered in the eye\n"
+                       "  cie: CIE 135/1 total glare function\n"
+                       "  spencer: 1995, with needles and halo\n"
+                       "  ward: the veil of 1997\n"
+                       "  temporal: cie with needles and halo that move, after Ritschel 2009\n"
+                       "  ldr: the paper's, on the tone-mapped image; the others are in cd/m^2 before the operator")
+        ->check(CLI::IsMember(glare_names()))
+        ->capture_default_str();
+    help_group(command, "Glare");
     command.add_option("--iris", a.iris, "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")->check(between(0.0, 1.5))->capture_default_str();
     command.add_option("--pupil", a.pupil, "spencer: of what size, for the eye's adaptation")->check(CLI::IsMember({"photopic", "mesopic", "scotopic"}))->capture_default_str();
     command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: whose eye: what needles it has, and when it moves")->check(CLI::Range(0u, 0xffffffffu))->capture_default_str();
     command.add_flag("--lashes", a.lashes, "temporal: the eye squints, and lashes hang before its pupil");
+    help_group(command, "Operators and their curves");
     command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
     command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
     command.add_option("--key", a.tone.key, "Reinhard: what the log average is scaled to, relative to white, before compression")->check(between(1e-4, 10.0))->capture_default_str();
@@ -58,12 +69,15 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
     command.add_option("--white", a.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
     command.add_option("--linear-min", a.tone.linear_low, "linear: luminance shown as black, cd/m^2")->check(between(0.0, 1e9))->capture_default_str();
     command.add_option("--linear-max", a.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
+    help_group(command);
     command.add_option("--display", a.display, "NAME (" + known_display_names() + ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
+    help_group(command, "Display");
     command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2")->check(between(0.1, 1e5));
     command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2")->check(between(1e-6, 1e3));
     command.add_option("--display-gamma", a.gamma, "Display: exponent")->check(between(0.5, 5.0));
     command.add_option("--display-ambient", a.ambient, "Display: illuminance on the screen, lx")->check(between(0.0, 1e5));
     command.add_option("--display-reflection", a.reflection, "Display: diffuse reflectance")->check(between(0.0, 1.0));
+    help_group(command);
 }
 
 ToneChainSettings tone_settings(const ToneArguments& arguments) {

@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "help.h"
 #include "io/atomic_file.h"
 #include "tone_arguments.h"
 
@@ -26,14 +27,19 @@ struct SettingsArguments {
 };
 
 void add(CLI::App& command, SettingsArguments& a) {
-    command.option_defaults()->group("Settings that can change during a drive");
     add_tone_options(command, a.tone);
-    command.add_option("--camera", a.camera, "driver, chase, bird or free")->check(CLI::IsMember({"driver", "chase", "bird", "free"}))->capture_default_str();
+    command.add_option("--camera", a.camera, "Who sees the street: the driver, somebody behind, above, or free to go")
+        ->check(CLI::IsMember({"driver", "chase", "bird", "free"}))
+        ->capture_default_str();
+    help_group(command, "Cameras and lamps");
     command.add_option("--free", a.free, "Where the free camera stands and looks: X,Y,Z,YAW,PITCH, m and degrees")->delimiter(',')->expected(5);
     command.add_option("--fov", a.fov, "Angle of the picture's height, degrees (default: the camera's)")->check(between(0.0, 170.0));
-    command.add_option("--sun", a.sun, "Elevation of the sun under a closed cover of cloud, degrees (default: the night of the scene)")->check(between(-90.0, 90.0));
+    help_group(command);
+    command.add_option("--sun", a.sun, "Elevation of the sun under a closed cover of cloud, degrees\nDefault: the night of the scene")
+        ->check(between(-90.0, 90.0));
+    help_group(command, "Cameras and lamps");
     command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx")->check(between(1e-9, 1e3))->capture_default_str();
-    command.option_defaults()->group("Options");
+    help_group(command);
 }
 
 // Names of all settings but lamps, without dashes.
@@ -117,7 +123,9 @@ void DriveSettings::apply(const Values& values) {
 void DriveSettings::add_options(CLI::App& command) {
     const auto a = std::make_shared<SettingsArguments>();
     add(command, *a);
+    help_group(command, "Cameras and lamps");
     command.add_option("--lamp", "NAME=FACTOR on the intensity of lamps of that name; may be given several times")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    help_group(command);
     command.parse_complete_callback([a] {});  // keeps them as long as the command
 }
 

@@ -4,10 +4,12 @@
 
 #include "commands.h"
 #include "gpu/device.h"
+#include "help.h"
 #include "program.h"
 
 int main(int argc, char** argv) {
     CLI::App program{"What a driver sees at night, on the screen you have.", "vesper"};
+    vesper::add_help(program);
     program.set_version_flag("--version", VESPER_VERSION);
     program.require_subcommand(1);
     program.footer("Example:\n"

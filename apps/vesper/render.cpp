@@ -10,6 +10,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "glare_arguments.h"
+#include "help.h"
 #include "io/atomic_file.h"
 #include "io/growing_file.h"
 #include "io/image_file.h"
@@ -248,19 +249,27 @@ void add_render(CLI::App& program) {
     command->add_option("--size,-s", a->size, "WIDTHxHEIGHT, px")->capture_default_str();
     command->add_option("--frames", a->frames, "How many frames; files are numbered")->check(CLI::Range(1u, 1000000u))->capture_default_str();
     command->add_option("--dt", a->dt, "Time between frames, s")->check(between(1e-6, 3600.0))->capture_default_str();
+    help_group(*command, "Logs and replay");
     command->add_option("--log", a->log_file, "Write the state of the eye, the tone curve and what glare hides of every frame to a CSV file");
     command->add_option("--glare-sources", a->sources_file, "Write the lamps before the eye to a CSV file: direction in degrees, cd, lx at the eye and veil, as if nothing stood between");
     command->add_option("--replay", a->replay_file, "Take times and the state of the eye from such a log: the same frames to the last bit; --start and --frames choose from them");
     command->add_option("--start", a->start, "Time of the first frame, s")->check(between(0.0, 1e6))->capture_default_str();
+    help_group(*command);
     command->add_flag("--stats", a->statistics, "Print luminances and milliseconds of the last frame");
+    help_group(*command, "Logs and replay");
     command->add_option("--stats-json", a->statistics_file, "Write the luminances of the last frame to a JSON file");
     command->add_flag("--plan", a->plan, "Print the plan of the frame: passes, barriers, memory");
+    help_group(*command);
     command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    help_group(*command, "Light");
     command->add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")->check(CLI::IsMember({"physical", "paper"}))->capture_default_str();
     command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")->check(between(1e-9, 1e3))->capture_default_str();
+    help_group(*command);
     add_tone_options(*command, a->tone);
     add_glare_options(*command, a->glare);
+    help_group(*command, "Light");
     command->add_flag("--all-lights", a->settings.all_lights, "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what is below the threshold");
+    help_group(*command);
     command->footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"
                     "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");

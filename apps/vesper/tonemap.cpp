@@ -228,11 +228,17 @@ void add_tonemap(CLI::App& program) {
     CLI::App* command = program.add_subcommand("tonemap", "Show HDR pictures and films on a display (docs/tonemap.md)");
     const auto a = std::make_shared<TonemapArguments>();
     command->add_option("pictures", a->inputs, "OpenEXR or Radiance pictures, or frame.%04d.exr for a sequence")->required();
-    command->add_option("--output,-o", a->outputs, "OUT.png: codes; OUT.exr: cd/m^2 on the display; OUT.mp4; a folder or %04d for several; may be given more than once")->required();
+    command->add_option("--output,-o", a->outputs,
+                        "OUT.png: codes; OUT.exr: cd/m^2 on the display; OUT.mp4; or a folder\n"
+                        "A folder or %04d for several; may be given more than once")
+        ->required();
     command->add_option("--layer", a->layer, kLayerHelp);
     command->add_option("--scale", a->scale, "cd/m^2 of the picture's 1.0 (default: its whiteLuminance, 1 for XYZE, or 1)")->check(between(1e-12, 1e12));
     command->add_option("--fps", a->fps, "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for frame.%04d.exr: 30)")->check(between(0.001, 10000.0));
-    command->add_option("--fov", a->fov, "Angle the picture covers in height, degrees (default: what the picture says, if Vesper or Radiance made it, or 40)")->check(between(0.1, 170.0));
+    command->add_option("--fov", a->fov,
+                        "Angle the picture covers in height, degrees\n"
+                        "Default: what the picture says, if Vesper or Radiance made it, or 40")
+        ->check(between(0.1, 170.0));
     command->add_flag("--stats", a->statistics, "Print adaptation, glare and milliseconds of each picture");
     command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     add_tone_options(*command, a->tone);

@@ -1,13 +1,28 @@
-// What all programs say of themselves: text, whatever is asked. SPDX-License-Identifier: MIT
+// What all programs say of themselves: text, whatever is asked; a short first page, and everything on request.
+// SPDX-License-Identifier: MIT
+#include "help.h"
+
+#include <functional>
+#include <regex>
 #include <sstream>
 
+#include "commands.h"
+#include "drive.h"
 #include "support/program.h"
 
 namespace vesper::test {
 namespace {
 
 bool is_text(const std::string& lines) {
-    return std::none_of(lines.begin(), lines.end(), [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; });
+    return std::none_of(lines.begin(), lines.end(),
+                        [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; });
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
 }
 
 class Help : public ProgramTest, public testing::WithParamInterface<const char*> {
@@ -18,19 +33,30 @@ protected:
 
     /// That of a command and of those below it; what is said to a value that is none of a list.
     void look_at(const std::string& command) {
-        ASSERT_EQ(run(command + " --help"), 0) << said;
+        expect_text(command, " --help");
         ++commands;
-        EXPECT_TRUE(is_text(printed)) << command << ": " << nlohmann::json(printed).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-        std::istringstream help(printed);
-        bool below = false;
-        for (std::string line; std::getline(help, line);) {
+        bool below = false, alone = true;
+        for (const std::string& line : lines_of(printed)) {
             below = line == "Subcommands:" || (below && line.starts_with("  "));
-            if (below && line.size() > 2 && line[2] != ' ' && line != "Subcommands:") look_at(command + " " + line.substr(2, line.find(' ', 2) - 2));
-            if (line.starts_with("  --") && line.find(":{") != line.npos) refuse(command, line.substr(2, line.find_first_of(" ,", 2) - 2));
+            alone &= !below;
+            if (below && line.size() > 2 && line[2] != ' ' && line != "Subcommands:")
+                look_at(command + " " + line.substr(2, line.find(' ', 2) - 2));
         }
+        expect_text(command, " --help-all");
+        if (!alone) return;
+        for (const std::string& line : lines_of(printed))
+            if (line.starts_with("  --") && line.find(":{") != line.npos)
+                refuse(command, line.substr(2, line.find_first_of(" ,", 2) - 2));
     }
 
 private:
+    void expect_text(const std::string& command, const std::string& page) {
+        ASSERT_EQ(run(command + page), 0) << said;
+        EXPECT_TRUE(is_text(printed)) << command << ": "
+                                      << nlohmann::json(printed).dump(-1, ' ', false,
+                                                                      nlohmann::json::error_handler_t::replace);
+    }
+
     void refuse(const std::string& command, const std::string& option) {
         ++choices;
         expect_refused(command + " " + option + " 'none\x01\x1bof those'", {option});
@@ -45,6 +71,77 @@ TEST_P(Help, IsText) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, Help, testing::Values(VESPER_PROGRAM, VESPER_BENCH, VESPER_DRIVE));
+
+/// Calls back with the three commands that have most options.
+void for_large_commands(const std::function<void(const CLI::App&)>& look) {
+    CLI::App vesper{"", "vesper"}, drive{"", "vesper-drive"};
+    add_help(vesper), add_help(drive);
+    add_render(vesper), add_tonemap(vesper), add_drive(drive);
+    for (const CLI::App* command :
+         {static_cast<const CLI::App*>(vesper.get_subcommand("render")),
+          static_cast<const CLI::App*>(vesper.get_subcommand("tonemap")), static_cast<const CLI::App*>(&drive)})
+        look(*command);
+}
+
+bool lists(const std::string& page, const std::string& option) {
+    const std::vector<std::string> lines = lines_of(page);
+    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+        return line == "  " + option || line.starts_with("  " + option + " ");
+    });
+}
+
+TEST(HelpPages, TheFirstIsShort) {
+    for_large_commands([](const CLI::App& command) {
+        const std::string page = command.help();
+        EXPECT_LE(lines_of(page).size(), 40u) << page;
+        for (const std::string& line : lines_of(page)) EXPECT_LE(line.size(), 100u) << line;
+        for (const char* needed : {"--help", "--help-all", "--operator", "--glare", "--display", "Examples:"})
+            EXPECT_NE(page.find(needed), page.npos) << command.get_name() << " " << needed;
+    });
+}
+
+TEST(HelpPages, AllOptionsAreOnTheOther) {
+    for_large_commands([](const CLI::App& command) {
+        const std::string first = command.help(), all = command.help("", CLI::AppFormatMode::All);
+        const std::string unbroken = std::regex_replace(first, std::regex("\\s+"), " ");
+        size_t beyond = 0;
+        for (const CLI::Option* option : command.get_options()) {
+            const std::string name = option->get_name(option->get_positional(), !option->get_positional());
+            const bool on_first = option->get_positional() || option->get_group() == kFirstPage;
+            EXPECT_TRUE(lists(all, name)) << command.get_name() << " " << name;
+            EXPECT_EQ(lists(first, name), on_first) << command.get_name() << " " << name;
+            beyond += !on_first;
+            if (on_first) continue;
+            EXPECT_NE(all.find("\n" + option->get_group() + ":\n"), all.npos) << option->get_group();
+            EXPECT_NE(unbroken.find(option->get_group()), unbroken.npos)
+                << "the first page says that there is " << option->get_group();
+        }
+        EXPECT_GT(beyond, 20u) << command.get_name();
+        for (const std::string& line : lines_of(all)) EXPECT_LE(line.size(), 100u) << line;
+    });
+}
+
+// Where an option is declared says where it is listed, and what its page shows of it.
+TEST(HelpPages, AnOptionIsWhereItWasDeclared) {
+    CLI::App program{"Does things.", "program"};
+    add_help(program);
+    int number = 0;
+    program.add_option("--plain", number, "Said at once\nand at length")->check(CLI::Range(1, 7));
+    help_group(program, "Rare things");
+    program.add_option("--rare", number, "Seldom needed")->check(CLI::IsMember({1, 2}));
+    help_group(program);
+    bool last = false;
+    program.add_flag("--last", last, "A flag");
+    const std::string head = "Does things.\nUsage: program [OPTIONS]\n\nOptions:\n",
+                      help = "  -h,--help                 Print this page\n",
+                      all = "  --help-all                Print all options, with the ranges of numbers\n",
+                      flag = "  --last                    A flag\n", indent(28, ' ');
+    EXPECT_EQ(program.help(), head + help + all + "  --plain INT               Said at once\n" + flag +
+                                  "\nMore options with --help-all: Rare things.\n");
+    EXPECT_EQ(program.help("", CLI::AppFormatMode::All),
+              head + help + all + "  --plain INT:INT in [1 - 7]\n" + indent + "Said at once\n" + indent +
+                  "and at length\n" + flag + "\nRare things:\n  --rare INT:{1,2}          Seldom needed\n");
+}
 
 }  // namespace
 }  // namespace vesper::test

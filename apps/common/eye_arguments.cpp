@@ -53,7 +53,7 @@ void add_eye_options(CLI::App& command, EyeArguments& arguments, HistogramSettin
     command.add_flag("--purkinje", tone.purkinje, "Dim light is weighted as rods do: blue brighter, red darker");
     command.add_flag("--photopic-rods", tone.photopic_rods, "Rods take luminance for scotopic luminance (as pfstools); without: that of the colour");
     help_group(command);
-    command.add_option("--age", observer.age, "Observer: years")->check(between(1.0, 120.0))->capture_default_str();
+    command.add_option("--age", observer.age, "Age of the observer, years")->check(between(1.0, 120.0))->capture_default_str();
     help_group(command, "The eye");
     command.add_option("--low-vision", observer.low_vision, "Observer: factor of all thresholds")->check(between(0.1, 100.0))->capture_default_str();
     command.add_flag("--rods", observer.use_rods, "Observer: rods see too, not only cones");

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <new>
 #include <string>
+#include <vector>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -48,6 +49,9 @@ int run_program(CLI::App& program, int argc, char** argv) {
             return output_ended(name) ? 0 : kBadInput;
         }
         std::string message = error.what();
+        // What is missing may be missing only because this was meant for it.
+        const std::vector<std::string> unknown = program.remaining(true);
+        if (error.get_name() == "RequiredError" && !unknown.empty()) message = "there is no " + unknown.front();
         std::replace(message.begin(), message.end(), '\n', ' ');
         std::fprintf(stderr, "%s: %s (--help shows what is possible)\n", name.c_str(), one_line(message, 1000).c_str());
         return kBadInput;

@@ -91,7 +91,7 @@ void add_drive(CLI::App& program) {
     help_group(program, "Window");
     program.add_option("--channels", a->channels, "A file of views of the driver's eye, on screens side by side (docs/simulator.md)");
     help_group(program, "Roads and traffic");
-    program.add_option("--seed", a->seed, "Of everything that is drawn by lot")->capture_default_str();
+    program.add_option("--seed", a->seed, "Seed of all that is drawn by lot: when people walk, how cars are driven")->capture_default_str();
     help_group(program);
     program.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     help_group(program, "Window");

@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
     vesper::add_help(program);
     program.set_version_flag("--version", VESPER_VERSION);
     program.require_subcommand(1);
-    program.footer("Example:\n"
+    program.footer("vesper SUBCOMMAND --help says what each takes; vesper-drive is the simulator.\n"
+                   "Example:\n"
                    "  vesper convert street.gltf --photometry street.photometry.json -o night.gltf\n"
                    "  vesper render night.gltf --camera driver --stats -o night.png\n");
     vesper::add_convert(program);

@@ -72,6 +72,18 @@ TEST_P(Help, IsText) {
 
 INSTANTIATE_TEST_SUITE_P(Programs, Help, testing::Values(VESPER_PROGRAM, VESPER_BENCH, VESPER_DRIVE));
 
+// What nobody knows is named, also where something else is missing because of it.
+TEST_P(Help, NamesWhatIsUnknown) {
+    const bool has_commands = GetParam() == std::string(VESPER_PROGRAM);
+    expect_refused("--nonsense", {"--nonsense", "--help"});
+    if (!has_commands) return;
+    expect_refused("nonsense", {"there is no nonsense"});
+    expect_refused("render --nonsense", {"there is no --nonsense"});
+    expect_refused("display nonsense", {"there is no nonsense"});
+    expect_refused("", {"subcommand is required"});
+    expect_refused("render", {"scene is required"});
+}
+
 /// Calls back with the three commands that have most options.
 void for_large_commands(const std::function<void(const CLI::App&)>& look) {
     CLI::App vesper{"", "vesper"}, drive{"", "vesper-drive"};

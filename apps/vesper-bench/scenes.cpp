@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "own_data.h"
 #include "resident/cameras.h"
 #include "scene/convert.h"
 #include "street.h"
@@ -40,7 +41,7 @@ std::string Scenes::folder(const std::string& name) const {
 void Scenes::prepare(const std::string& name) {
     if (name == "street" || files_.contains(name)) return;
     if (name == "rivoli" || name == "rivoli-measured") {
-        const fs::path data = fs::path(VESPER_DATA_DIR) / "rivoli";
+        const fs::path data = own_data() / "rivoli";
         files_[name] = folder_ + "/" + name + ".glb";
         convert(data / "rivoli.gltf", data / (name == "rivoli" ? "rivoli.photometry.json" : "rivoli.measured.photometry.json"), files_[name]);
     } else if (name.ends_with(".gltf") || name.ends_with(".glb")) {

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "help.h"
 #include "io/atomic_file.h"
+#include "own_data.h"
 #include "picture_arguments.h"
 #include "windowed.h"
 
@@ -41,7 +42,7 @@ void refuse_idle(const CLI::App& program, const DriveArguments& a) {
 
 void check(const CLI::App& program, DriveArguments& a) {
     refuse_idle(program, a);
-    if (a.scene.empty() && a.replay.empty()) a.scene = VESPER_DATA_DIR "/rivoli/rivoli.world.json";
+    if (a.scene.empty() && a.replay.empty()) a.scene = (own_data() / "rivoli/rivoli.world.json").string();
     Files files;
     for (const std::string& file : {a.run, a.scenario, a.scene, a.replay, a.channels, a.controllers}) files.reads(file);
     for (const auto& [option, file] : growing_outputs(a)) files.writes(option, file);

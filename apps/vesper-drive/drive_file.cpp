@@ -10,6 +10,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "own_data.h"
 #include "scene/json_text.h"
 #include "scene/json_value.h"
 
@@ -61,9 +62,10 @@ std::string step_text(const DriveEvent& event, const DriverInput& before) {
     return "{\"step\":" + input_text(event.input, before) + format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]}", pose.x, pose.y, pose.z, pose.w);
 }
 
-// A path as seen from a folder.
+// A path as seen from a folder; what came with the program by a name that holds wherever either is moved.
 std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
     if (file.empty()) return "";
+    if (const std::string own = own_data_name(file); !own.empty() && own_data_name(folder).empty()) return own;
     std::error_code failed;
     const std::filesystem::path near = std::filesystem::proximate(std::filesystem::absolute(file, failed), folder, failed);
     return (near.empty() ? file : near).generic_string();
@@ -77,6 +79,17 @@ std::string heading(const DriveStart& start, const std::filesystem::path& folder
     std::string text = head.dump();
     text.pop_back();
     return text + ",\"events\":[\n";
+}
+
+// The file that a path of a drive means, empty if it names none.
+std::filesystem::path seen_path(const JsonValue& root, const char* key, const std::filesystem::path& folder) {
+    const std::string named = root.text_or(key, "");
+    try {
+        if (const auto own = own_data_file(named)) return *own;
+    } catch (const Error& error) {
+        root.at(key).fail(error.what());
+    }
+    return named.empty() ? "" : folder / named;  // which an absolute one replaces
 }
 
 DriveSettings::Values read_values(const JsonValue& object) {
@@ -173,10 +186,10 @@ Drive read_drive(const std::filesystem::path& file) {
     const JsonValue root(text);
     root.allow_only({"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "size_px", "settings", "events"});
     if (root.at("vesper_drive").integer() != 1) root.at("vesper_drive").fail("this version of Vesper reads drives of version 1");
-    root.at("events").elements();
-    const auto found = [&](const std::filesystem::path& named) { return named.empty() || named.is_absolute() ? named : file.parent_path() / named; };
-    drive.start.scene = found(root.at("scene").text());
-    drive.start.run = found(root.text_or("run", "")), drive.start.scenario = found(root.text_or("scenario", ""));
+    root.at("events").elements(), root.at("scene").text();
+    DriveStart& start = drive.start;
+    for (const auto& [key, found] : {std::pair("scene", &start.scene), std::pair("run", &start.run), std::pair("scenario", &start.scenario)})
+        *found = seen_path(root, key, file.parent_path());
     drive.start.seed = root.integer_or("seed", 1);
     drive.start.time_step = root.number_or("time_step_s", 1.0 / 60, 1e-4, 0.1);
     if (const auto size = root.find("size_px")) {

@@ -13,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
+#include "own_data.h"
 #include "picture_arguments.h"
 #include "playback.h"
 #include "progress.h"
@@ -138,8 +139,9 @@ private:
     Header header(const Session& session, const ToneMapped& frame, uint32_t lights) const {
         std::string options;  // settings other than the defaults
         for (const auto& [name, value] : session.settings().values()) options += (options.empty() ? "" : " ") + in_shell("--" + name) + " " + in_shell(value);
+        const std::string scene = session.scenery().scene().name, own = own_data_name(scene);
         Header made{{"vesper:version", VESPER_VERSION},
-                    {"vesper:scene", session.scenery().scene().name},
+                    {"vesper:scene", own.empty() ? scene : own},
                     {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
                     {"vesper:options", options},
                     {"vesper:seconds", digits(session.world().seconds())},

@@ -58,6 +58,18 @@ TEST_F(DriveProgram, DrivesRecordsAndReplays) {
     EXPECT_EQ(std::count(ldr.begin(), ldr.end(), ','), 7 * commas);
 }
 
+// The program's own scenes have names of their own in recordings; what is no such name is refused with its place.
+TEST_F(DriveProgram, RecordingsNameOwnScenes) {
+    ASSERT_EQ(run("'" VESPER_SOURCE_DIR "/data/rivoli/rivoli.world.json' --headless --seconds 0 --record d.json"), 0) << said;
+    EXPECT_NE(read_text(folder / "d.json").find(R"("scene":"vesper:rivoli/rivoli.world.json")"), std::string::npos);
+    for (const char* bad : {"vesper:", "vesper:..", "vesper:rivoli/../../x.gltf", "vesper:/x.gltf", "vesper:rivoli/none.json"}) {
+        const char* named = std::string(bad).ends_with("none.json") ? "rivoli/none.json" : "d.json: /scene";
+        folder.write("d.json", std::string(R"({"vesper_drive":1,"scene":")") + bad + R"(","events":[{"frame":true}]})");
+        expect_refused("--headless --size 16x10 --replay d.json --log l.csv", {named});
+    }
+    EXPECT_FALSE(exists("l.csv"));
+}
+
 // Options that would say nothing are named, with what they would need.
 TEST_F(DriveProgram, RefusesIdleOptions) {
     const std::string replay = "--headless --log l.csv --replay d.json ", drive = "--headless --log l.csv --seconds 0 ";

@@ -1,0 +1,41 @@
+# Writes the manual page of a program from what its --help says, with one section for each of its commands:
+#     cmake -DPROGRAM=PATH -DNAME=vesper -DVERSION=0.1.0 -DABOUT=TEXT -DPAGE=vesper.1 -P manual_page.cmake
+
+# Text as troff shows it character by character.
+function(as_troff text result)
+    string(REPLACE "\\" "\\e" text "${text}")
+    string(REPLACE "-" "\\-" text "${text}")
+    string(REGEX REPLACE "\n([.'])" "\n\\\\&\\1" text "\n${text}")
+    string(SUBSTRING "${text}" 1 -1 text)
+    set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+# Adds to `page` the help of a command, and of those below it. All options where --help shows the usual ones.
+function(add_command)
+    execute_process(COMMAND ${PROGRAM} ${ARGN} --help OUTPUT_VARIABLE help RESULT_VARIABLE failed)
+    if(failed)
+        message(FATAL_ERROR "${NAME} ${ARGN} --help: ${failed}")
+    endif()
+    if(help MATCHES "--help-all")
+        execute_process(COMMAND ${PROGRAM} ${ARGN} --help-all OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+    endif()
+    as_troff("${help}" text)
+    string(JOIN " " command ${NAME} ${ARGN})
+    as_troff("${command}" heading)
+    set(page "${page}.SH \"${heading}\"\n.nf\n${text}.fi\n")
+    if(help MATCHES "\nSubcommands:\n(.*)")
+        string(REGEX REPLACE "\n\n.*" "\n" below "${CMAKE_MATCH_1}")
+        string(REGEX MATCHALL "(^|\n)  [a-z][a-z-]*" names "${below}")
+        foreach(name IN LISTS names)
+            string(STRIP "${name}" name)
+            add_command(${ARGN} ${name})
+        endforeach()
+    endif()
+    set(page "${page}" PARENT_SCOPE)
+endfunction()
+
+string(TOUPPER ${NAME} title)
+as_troff("${NAME}" name)
+set(page ".TH ${title} 1 \"\" \"Vesper ${VERSION}\"\n.SH NAME\n${name} \\- ${ABOUT}\n")
+add_command()
+file(WRITE ${PAGE} "${page}")

@@ -55,6 +55,13 @@ grep -q "nothing.gltf" message
 echo "== own device: find_package"
 cmake -S examples/own-device -B built-own -DCMAKE_PREFIX_PATH="$work/installed" >/dev/null
 cmake --build built-own >/dev/null
+built-own/own_device --help >help.txt
+[[ $(grep -c "own_device OUT.ppm" help.txt) == 1 && ! -e ./--help ]]
+for wrong in "" "--size" "a.ppm b.ppm"; do
+    status=0
+    built-own/own_device $wrong 2>message || status=$?
+    [[ $status == 2 && $(wc -l <message) == 1 ]]
+done
 built-own/own_device own.ppm | tee own.txt
 [[ $(stat -c %s own.ppm) == 768015 ]]
 if grep "complaints" own.txt; then exit 1; fi

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <memory>
+#include <string_view>
 
 #include <vesper/vesper.hpp>
 #include <vesper/vulkan.h>
@@ -135,8 +136,22 @@ void run(const Instance& instance, const char* out) {
 }  // namespace
 
 int main(int count, char** arguments) {
-    if (count != 2) {
-        std::fprintf(stderr, "usage: own_device OUT.ppm\n");
+    const std::string_view argument = count == 2 ? arguments[1] : "";
+    if (argument == "--help" || argument == "-h") {
+        std::printf("Renders six frames of a street on a Vulkan device of its own, lets Vesper tone-map them there, and writes the last.\n"
+                    "Usage: own_device OUT.ppm\n"
+                    "\n"
+                    "  OUT.ppm    the picture, %u x %u px\n"
+                    "  -h,--help  this text\n"
+                    "\n"
+                    "The device is the first of Vulkan's list. Prints the eye's adaptation luminance, and whether the validation layer,\n"
+                    "where it is installed, complained.\n"
+                    "Ends with 0, 1 if something failed or the layer complained, 2 without a file to write.\n",
+                    kExtent.width, kExtent.height);
+        return 0;
+    }
+    if (argument.empty() || argument.front() == '-') {
+        std::fprintf(stderr, "own_device: one file to write is expected (own_device --help)\n");
         return 2;
     }
     try {

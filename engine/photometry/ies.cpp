@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "base/error.h"
@@ -43,6 +44,19 @@ public:
     /// Whether yet another number follows; text after the last one is nobody's concern.
     bool more() { return number_of(next_token(), decimal_comma_).has_value(); }
     size_t line() const { return lines_.line(); }
+    /// The numbers from here to the end, at most `most`; they are read again by next().
+    std::vector<double> rest(size_t most) const {
+        LineReader lines = lines_;
+        Numbers ahead(lines, decimal_comma_);
+        ahead.text_ = text_, ahead.at_ = at_;
+        std::vector<double> values;
+        while (values.size() < most) {
+            const auto value = number_of(ahead.next_token(), decimal_comma_);
+            if (!value) break;
+            values.push_back(*value);
+        }
+        return values;
+    }
 
 private:
     std::string_view next_token() {
@@ -190,6 +204,17 @@ LuminousOpening opening_of(double width, double length, double height, int year)
     return opening;
 }
 
+/// Refuses a file without the line of three numbers between the opening and the angles. As numbers are free-format, it is told by exactly
+/// so many following as angles and intensities need, the first of which ascend as vertical angles do.
+void check_electrical_line(const LineReader& lines, const Numbers& numbers, size_t verticals, size_t horizontals) {
+    const size_t wanted = verticals + horizontals + verticals * horizontals;
+    const std::vector<double> rest = numbers.rest(wanted + 1);
+    const auto end = rest.begin() + static_cast<ptrdiff_t>(std::min(verticals, rest.size()));
+    const bool ascends = std::adjacent_find(rest.begin(), end, std::greater_equal<>()) == end;
+    if (rest.empty() || (rest.size() == wanted && ascends))
+        lines.fail_at(numbers.line() + 1, "the electrical line is missing (ballast factor, ballast-lamp factor, input watts)");
+}
+
 void read_numbers(Distribution& made, LineReader lines, const Header& header, bool decimal_comma,
                   const std::optional<std::filesystem::path>& folder) {
     Numbers numbers(lines, decimal_comma);
@@ -220,6 +245,7 @@ void read_numbers(Distribution& made, LineReader lines, const Header& header, bo
     const double metres = units == 1 ? 0.3048 : 1;
     const double width = numbers.next("the width of the opening"), length = numbers.next("the length of the opening");
     made.opening = opening_of(width * metres, length * metres, numbers.next("the height of the opening") * metres, header.year);
+    check_electrical_line(lines, numbers, static_cast<size_t>(verticals), static_cast<size_t>(horizontals));
     factor *= positive("the ballast factor");
     const char* after = "the number after the ballast factor";
     const double second = header.has_ballast_lamp_factor() ? positive(after) : numbers.next(after);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "perception/relative_picture.h"
 
 namespace vesper {
 namespace {
@@ -62,7 +64,44 @@ double pixel_aspect_of(const Header& header) {
     return aspect;
 }
 
+/// Unit, source and notes of a picture for which no option gives a scale.
+void find_unit(PictureMeaning& meaning, const HdrImage& image, const PictureRequest& request) {
+    if (image.white_luminance > 0) {
+        meaning.unit = image.white_luminance, meaning.scale_source = "header";
+    } else if (request.to_white) {
+        meaning.scale_source = "none";
+    } else if (image.exposure != 1) {
+        meaning.scale_source = "header";
+        meaning.notes.emplace_back("its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are Radiance's watts)");
+    } else if (request.held > 0) {
+        meaning.unit = request.held, meaning.scale_source = "sequence";
+    } else if (const RelativeLuminance found = relative_luminance(image.rgb); found.log_average > 0) {
+        meaning.unit = plausible_scale(found), meaning.scale_source = "auto";
+        meaning.scale_note = format("its header names no unit: 1.0 is taken as %.6g cd/m^2, so that its log average is %.3g cd/m^2 "
+                                    "(--scale tells another)", meaning.unit, meaning.unit * found.log_average);
+    } else {
+        meaning.unit = 0, meaning.scale_source = "none";
+        meaning.notes.emplace_back("its header names no unit, and it has no light");
+    }
+}
+
 }  // namespace
+
+void add_scale_options(CLI::App& command, ScaleArguments& a) {
+    constexpr double kLeast = 1e-12, kMost = 1e12, kStops = 40;
+    const CLI::Validator scale([=](const std::string& given) {
+        char* end = nullptr;
+        const double value = std::strtod(given.c_str(), &end);
+        const bool sound = given == "auto" || (*end == 0 && value >= kLeast && value <= kMost);
+        return sound ? std::string() : given + format(" is neither auto nor a number from %g to %g", kLeast, kMost);
+    }, "auto|N");
+    command.add_option("--scale", a.scale, "cd/m^2 of a picture's 1.0; auto: as its header says, or, where it names no unit, as such a scene may have")
+        ->check(scale)
+        ->capture_default_str();
+    command.add_option("--exposure", a.exposure, "Stops by which pictures are brighter than by --scale: luminance times 2^EV")
+        ->check(between(-kStops, kStops))
+        ->capture_default_str();
+}
 
 VkExtent2D parse_size(const std::string& text, unsigned least, unsigned most) {
     unsigned width = 0, height = 0;
@@ -73,19 +112,20 @@ VkExtent2D parse_size(const std::string& text, unsigned least, unsigned most) {
     return {width, height};
 }
 
-PictureMeaning meaning_of(const HdrImage& image, double scale, double fov, bool angle_matters) {
+PictureMeaning meaning_of(const HdrImage& image, const PictureRequest& request) {
     PictureMeaning meaning;
-    const double told = image.white_luminance;
-    if (scale > 0)
-        meaning.scale = scale;
-    else if (told > 0)
-        meaning.scale = told;
-    else
-        meaning.notes.emplace_back("its header names no unit: taken as cd/m^2 (--scale tells another)");
-    if (scale > 0 && told > 0 && std::abs(scale - told) > 1e-6 * told) meaning.notes.push_back(format("its header says that 1.0 is %.6g cd/m^2: --scale %.6g is taken", told, scale));
-    if (const double angle = fov > 0 ? fov : angle_of(image.header); angle > 0)
+    if (const std::string& scale = request.scale.scale; scale == "auto") {
+        find_unit(meaning, image, request);
+    } else {
+        const double told = image.white_luminance;
+        meaning.unit = std::strtod(scale.c_str(), nullptr), meaning.scale_source = "option";
+        if (told > 0 && std::abs(meaning.unit - told) > 1e-6 * told)
+            meaning.notes.push_back(format("its header says that 1.0 is %.6g cd/m^2: --scale %.6g is taken", told, meaning.unit));
+    }
+    meaning.scale = (meaning.unit > 0 ? meaning.unit : 1) * std::exp2(request.scale.exposure);
+    if (const double angle = request.fov > 0 ? request.fov : angle_of(image.header); angle > 0)
         meaning.fov = angle;
-    else if (angle_matters)
+    else if (request.angle_matters)
         meaning.notes.push_back(format("its header names no angle of a perspective: taken as %g degrees high (--fov tells another)", meaning.fov));
     if (const double aspect = pixel_aspect_of(image.header); std::abs(aspect - 1) > 1e-3)
         meaning.notes.push_back(format("its pixels are not square (%.4g): shown and measured as if they were", aspect));

@@ -60,7 +60,7 @@ void add_pictures(CLI::App& command, StudyArguments& a) {
     command.add_option("--size,-s", a.source.size, "Of a scene: WIDTHxHEIGHT, px")->capture_default_str();
     command.add_option("--start", a.source.start, "Of a scene: its time, s")->check(between(0.0, 1e6))->capture_default_str();
     command.add_option("--layer", a.source.layer, kLayerHelp);
-    command.add_option("--scale", a.source.scale, "cd/m^2 of a picture's 1.0 (default: its whiteLuminance, or 1)")->check(between(1e-12, 1e12));
+    add_scale_options(command, a.source.scale);
     command.add_option("--fov", a.source.fov, "Angle a picture covers in height, degrees (default: what the picture says, if Vesper or Radiance made it, or 40)")->check(between(0.1, 170.0));
 }
 

@@ -37,7 +37,8 @@ StudyPicture rendered(const PictureSource& arguments, Device& device, const Tone
 
 StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
     HdrImage image = read_hdr_image(input, {}, arguments.layer);
-    const PictureMeaning meaning = meaning_of(image, arguments.scale, arguments.fov, arguments.angle_matters);
+    PictureMeaning meaning = meaning_of(image, {.scale = arguments.scale, .fov = arguments.fov, .angle_matters = arguments.angle_matters});
+    if (!meaning.scale_note.empty()) meaning.notes.push_back(meaning.scale_note);
     for (const std::string& note : meaning.notes) std::fprintf(stderr, "note: %s: %s\n", one_line(input).c_str(), note.c_str());
     return {.name = {},
             .extent = {image.width, image.height},

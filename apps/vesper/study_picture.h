@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "picture_arguments.h"
 #include "tone_mapper.h"
 
 namespace vesper {
@@ -28,7 +29,7 @@ struct PictureSource {
     std::string camera, size = "1680x1050";   ///< of a scene
     double start = 0;                         ///< s, of a scene
     std::string layer;                        ///< of OpenEXR files, see read_hdr_image
-    double scale = 0;                         ///< cd/m^2 of a picture's 1.0; 0: as its file says, or 1
+    ScaleArguments scale;                     ///< of a picture
     double fov = 0;                           ///< angle a picture covers in height, degrees; 0: as its file says, or 40
     bool angle_matters = false;               ///< to the study, so that a guess is noted
 };

@@ -31,7 +31,8 @@ struct TonemapArguments {
     std::string device, layer;
     ToneArguments tone;
     GlareArguments glare;
-    double scale = 0, fps = 0, fov = 0;
+    ScaleArguments scale;
+    double fps = 0, fov = 0;
     bool statistics = false;
     std::string options;  // as given
 };
@@ -112,10 +113,16 @@ struct Shown {
     GlareReport glare;
 };
 
-Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, const std::vector<OutsideLamp>& lamps, ToneMapper& mapper, const Job& job, bool wants_codes) {
+/// `held`: see PictureRequest.
+Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, const std::vector<OutsideLamp>& lamps, ToneMapper& mapper,
+           const Job& job, bool wants_codes, double held) {
     const HdrImage image = read_hdr_image(job.input, {}, arguments.layer);
     Shown shown;
-    shown.meaning = meaning_of(image, arguments.scale, arguments.fov, settings.glare == Glare::Scatter || !arguments.glare.target.empty());
+    shown.meaning = meaning_of(image, {.scale = arguments.scale,
+                                       .fov = arguments.fov,
+                                       .angle_matters = settings.glare == Glare::Scatter || !arguments.glare.target.empty(),
+                                       .to_white = settings.tone_operator == Operator::Ldr,
+                                       .held = held});
     Outputs outputs{.display = wants_codes, .scene = false, .light = false};
     for (const std::string& output : job.outputs) (output.ends_with(".png") ? outputs.display : outputs.light) = true;
     const double vertical = shown.meaning.fov * std::numbers::pi / 180;
@@ -133,6 +140,9 @@ Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings,
 
 void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& settings, const Device& device, const Job& job, const Shown& shown) {
     const ToneMapped& picture = shown.picture;
+    const Header scale{{"vesper:sourceScale", digits(shown.meaning.scale)},
+                       {"vesper:sourceScaleFrom", shown.meaning.scale_source},
+                       {"vesper:exposure", digits(arguments.scale.exposure)}};
     for (const std::string& output : job.outputs) {
         if (output.ends_with(".png")) {
             write_codes(output, picture, settings.display);
@@ -142,8 +152,8 @@ void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& s
                       {"vesper:source", one_line(job.input)},
                       {"vesper:options", arguments.options},
                       {"vesper:unit", "cd/m^2 on the display, linear Rec. 709 RGB"},
-                      {"vesper:sourceScale", digits(shown.meaning.scale)},
                       {"vesper:device", device.name() + ", " + device.driver()}};
+        header.insert(header.end(), scale.begin(), scale.end());
         const Header tone = describe_tone(settings, picture);
         header.insert(header.end(), tone.begin(), tone.end());
         const Header dazzled = describe_glare(settings, shown.glare);
@@ -152,21 +162,30 @@ void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& s
     }
 }
 
-/// Says once what holds for many pictures, and in a sequence where its unit changes.
+/// Says once what holds for many pictures, for each what holds for it alone, and in a sequence where its unit changes.
 class Notes {
 public:
     void tell(const Job& job, const PictureMeaning& meaning, bool sequence) {
         const std::string name = one_line(job.input);
         for (const std::string& note : meaning.notes)
-            if (told_.insert(note).second) std::fprintf(stderr, "note: %s: %s\n", name.c_str(), note.c_str());
-        if (sequence && scale_ > 0 && meaning.scale != scale_)
-            std::fprintf(stderr, "note: %s: 1.0 is %.6g cd/m^2 from here on, and was %.6g\n", name.c_str(), meaning.scale, scale_);
-        scale_ = meaning.scale;
+            if (told_.insert(note).second) tell(name, note);
+        if (!meaning.scale_note.empty()) tell(name, meaning.scale_note);
+        if (!sequence || meaning.unit == 0) return;
+        if (unit_ > 0 && meaning.unit != unit_)
+            tell(name, format("1.0 is %.6g cd/m^2 from here on, and was %.6g", meaning.unit, unit_));
+        else if (source_ == "header" && meaning.scale_source == "sequence")
+            tell(name, format("its header names no unit: 1.0 stays %.6g cd/m^2", unit_));
+        unit_ = meaning.unit, source_ = meaning.scale_source;
     }
 
 private:
+    static void tell(const std::string& name, const std::string& note) {
+        std::fprintf(stderr, "note: %s: %s\n", name.c_str(), note.c_str());
+    }
+
     std::set<std::string> told_;
-    double scale_ = 0;
+    double unit_ = 0;     // of the last picture that had one
+    std::string source_;  // of that unit
 };
 
 void report(const TonemapArguments& arguments, const Job& job, const Shown& shown) {
@@ -200,15 +219,17 @@ void run(const TonemapArguments& arguments) {
     Progress progress("tone mapping", unsigned(plan.jobs.size()));
     size_t failed = 0;
     Notes notes;
+    double held = 0;  // cd/m^2 of 1.0, of the first picture of a sequence that has a unit or light
     for (const Job& job : plan.jobs) {
         if (!plan.sequence) mapper.reset_adaptation();
         try {
-            const Shown shown = show(arguments, settings, lamps, mapper, job, !plan.film.empty());
+            const Shown shown = show(arguments, settings, lamps, mapper, job, !plan.film.empty(), held);
             const auto [width, height] = shown.picture.extent;
             if (!plan.film.empty() && !film) film = std::make_unique<Video>(plan.film, width, height, plan.fps, settings.display);
             write_outputs(arguments, settings, device, job, shown);
             if (film) film->add(shown.picture.display);
             notes.tell(job, shown.meaning, plan.sequence);
+            if (plan.sequence && held == 0) held = shown.meaning.unit;
             report(arguments, job, shown);
         } catch (const Error& error) {
             // Pictures that have nothing to do with each other do not wait for one that is damaged.
@@ -233,7 +254,7 @@ void add_tonemap(CLI::App& program) {
                         "A folder or %04d for several; may be given more than once")
         ->required();
     command->add_option("--layer", a->layer, kLayerHelp);
-    command->add_option("--scale", a->scale, "cd/m^2 of the picture's 1.0 (default: its whiteLuminance, 1 for XYZE, or 1)")->check(between(1e-12, 1e12));
+    add_scale_options(*command, a->scale);
     command->add_option("--fps", a->fps, "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for frame.%04d.exr: 30)")->check(between(0.001, 10000.0));
     command->add_option("--fov", a->fov,
                         "Angle the picture covers in height, degrees\n"
@@ -244,7 +265,7 @@ void add_tonemap(CLI::App& program) {
     add_tone_options(*command, a->tone);
     add_glare_options(*command, a->glare);
     command->footer("Examples:\n  vesper tonemap night.exr --display projector -o night.png\n"
-                    "  vesper tonemap *.hdr --scale 179 --operator reinhard -o shown/\n"
+                    "  vesper tonemap *.hdr --exposure 1 --operator reinhard -o shown/\n"
                     "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"
                     "  vesper tonemap night.exr --display hdr10 -o night-pq.png -o night-on-display.exr\n");
     command->callback([a, command] {

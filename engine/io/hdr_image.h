@@ -20,6 +20,7 @@ struct HdrImage {
     double white_luminance =
         0;          ///< cd/m^2 of (1, 1, 1) if the file says (OpenEXR's whiteLuminance; ours say 1; XYZE: 1); else 0
     Header header;  ///< texts and numbers of the file's header, in its order
+    double exposure = 1;  ///< of a Radiance file: what its values were multiplied by, and are not any more
 };
 
 /// What a picture may cost. Its pixels follow VESPER_LIMITS (base/limits.h).

@@ -217,6 +217,7 @@ HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits)
     transform(image, matrix);
     if (made.xyz) image.white_luminance = 1;  // lm/sr/m^2, where RGBE has W/sr/m^2
     image.header = std::move(made.header);
+    image.exposure = made.exposure;
     return image;
 }
 

@@ -178,7 +178,7 @@ TEST_F(StudyProgram, RefusesInOneLine) {
     write_layout(folder / "black.exr", black, {.white_luminance = 1});
     folder.write("text.hdr", "no picture");
     for (const char* arguments : {"", "nothing -o x", "bins -o x", "bins a.exr", "bins none.exr -o x", "bins a.exr b/a.exr -o x", "bins text.hdr -o x", "bins black.exr -o x", "bins a.exr -o none/x",
-                                  "bins a.exr -o a.exr", "bins a.exr -o x --operator reinhard", "bins a.exr -o x --scale 0", "bins a.exr -o x --size 5", "bins a.exr -o x --device nowhere",
+                                  "bins a.exr -o a.exr", "bins a.exr -o x --operator reinhard", "bins a.exr -o x --scale 0", "bins a.exr -o x --scale fog", "bins a.exr -o x --size 5", "bins a.exr -o x --device nowhere",
                                   "adaptation", "adaptation -o x --outside 0", "adaptation -o x --seconds -1", "adaptation -o x --operator ward", "adaptation a.exr -o x"})
         expect_refused(std::string("study ") + arguments);
     expect_refused("study bins a.exr -o x --operator reinhard", {"reinhard", "histogram"});

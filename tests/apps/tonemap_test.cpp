@@ -2,7 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include "arguments.h"
 #include "io/atomic_file.h"
+#include "perception/relative_picture.h"
 #include "support/exr_files.h"
 #include "support/program.h"
 
@@ -50,7 +52,7 @@ protected:
 TEST_F(TonemapProgram, OnePictureInEveryLayoutIsOnePicture) {
     const HdrImage image = street(100, 70);
     write_layout(folder / "plain.exr", image, {});
-    ASSERT_EQ(tonemap("plain.exr -o plain.png"), 0) << said;
+    ASSERT_EQ(tonemap("plain.exr --scale 1 -o plain.png"), 0) << said;
     // Lossless ones agree exactly. PXR24 keeps 16 bits of the mantissa; DWA is visually lossless, B44 leaves floats alone;
     // half precision and filtered chroma take up to some codes where luminance changes from pixel to pixel.
     using namespace Imf;
@@ -60,18 +62,18 @@ TEST_F(TonemapProgram, OnePictureInEveryLayoutIsOnePicture) {
                                               {{.tiles = true, .mipmap = true}, 0}, {{.multi_part = true}, 0}};
     for (const auto& [layout, codes] : layouts) {
         write_layout(folder / "other.exr", image, layout);
-        ASSERT_EQ(tonemap("other.exr -o other.png"), 0) << said;
+        ASSERT_EQ(tonemap("other.exr --scale 1 -o other.png"), 0) << said;
         EXPECT_LE(difference("plain.png", "other.png"), codes) << layout.compression << layout.tiles << layout.mipmap << layout.multi_part;
     }
     write_chroma(folder / "chroma.exr", image);
-    ASSERT_EQ(tonemap("chroma.exr -o chroma.png"), 0) << said;
+    ASSERT_EQ(tonemap("chroma.exr --scale 1 -o chroma.png"), 0) << said;
     EXPECT_LE(difference("plain.png", "chroma.png"), 8);
     write_layout(folder / "grey.exr", image, {.grey = true});
-    ASSERT_EQ(tonemap("grey.exr -o grey.png"), 0) << said;
+    ASSERT_EQ(tonemap("grey.exr --scale 1 -o grey.png"), 0) << said;
     const Image grey = png("grey.png");
     for (size_t i = 0; i < grey.rgba.size(); i += 4) ASSERT_TRUE(grey.rgba[i] == grey.rgba[i + 1] && grey.rgba[i] == grey.rgba[i + 2]);
     write_layout(folder / "window.exr", image, {.x0 = 30, .y0 = -20});
-    ASSERT_EQ(tonemap("window.exr -o window.png"), 0) << said;
+    ASSERT_EQ(tonemap("window.exr --scale 1 -o window.png"), 0) << said;
     const Image window = png("window.png");
     EXPECT_EQ(window.width, 100u);
     EXPECT_LE(window.rgba[4 * 10], 1) << "left of the data window";
@@ -82,34 +84,122 @@ TEST_F(TonemapProgram, TheUnitIsTheFilesOrTheOneGiven) {
     const HdrImage image = street(60, 40);
     write_layout(folder / "relative.exr", image, {});
     write_layout(folder / "absolute.exr", image, {.white_luminance = 250});
-    ASSERT_EQ(tonemap("relative.exr -o relative.png -o relative-on-display.exr"), 0) << said;
-    EXPECT_NE(said.find("names no unit"), std::string::npos) << said;
     ASSERT_EQ(tonemap("absolute.exr -o absolute.png -o on-display.exr"), 0);
     EXPECT_EQ(said, "");
-    ASSERT_EQ(tonemap("relative.exr --scale 250 -o scaled.png"), 0);
+    ASSERT_EQ(tonemap("relative.exr --scale 250 -o scaled.png -o scaled.exr"), 0);
     EXPECT_EQ(said, "");
     ASSERT_EQ(tonemap("absolute.exr --scale 1 -o unscaled.png"), 0);
     EXPECT_NE(said.find("says that 1.0 is 250 cd/m^2: --scale 1 is taken"), std::string::npos) << said;
     EXPECT_EQ(difference("absolute.png", "scaled.png"), 0);
-    EXPECT_EQ(difference("relative.png", "unscaled.png"), 0);
-    EXPECT_GT(difference("relative.png", "scaled.png"), 0);
+    EXPECT_GT(difference("absolute.png", "unscaled.png"), 0);
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScale"), "250");
+    EXPECT_EQ(header("on-display.exr", "vesper:sourceScaleFrom"), "header");
+    EXPECT_EQ(header("on-display.exr", "vesper:exposure"), "0");
     EXPECT_EQ(header("on-display.exr", "whiteLuminance"), "1");
+    EXPECT_EQ(header("scaled.exr", "vesper:sourceScaleFrom"), "option");
 }
 
-// Each is told once, by the first picture that lacks it; where a sequence changes its unit is told, too.
+// The number that is printed is the one that is used and kept, and gives the same picture again.
+TEST_F(TonemapProgram, PicturesWithoutAUnitAreScaled) {
+    const HdrImage image = street(60, 40);
+    const double scale = plausible_scale(relative_luminance(image.rgb));
+    const std::string number = format("%.6g", scale);
+    write_layout(folder / "a.exr", image, {});
+    ASSERT_EQ(tonemap("a.exr -o a.png -o on-display.exr"), 0) << said;
+    EXPECT_TRUE(said.starts_with("note: a.exr: its header names no unit: 1.0 is taken as " + number + " cd/m^2, so that its log average is ")) << said;
+    EXPECT_EQ(header("on-display.exr", "vesper:sourceScale"), number);
+    EXPECT_EQ(header("on-display.exr", "vesper:sourceScaleFrom"), "auto");
+    ASSERT_EQ(tonemap("a.exr --scale " + number + " -o same.png"), 0);
+    EXPECT_EQ(difference("a.png", "same.png"), 0);
+    ASSERT_EQ(tonemap("a.exr --scale auto -o same.png"), 0);
+    EXPECT_EQ(difference("a.png", "same.png"), 0);
+    // Any multiple of it is the same picture, but for the seventh digit.
+    HdrImage times = image;
+    for (float& value : times.rgb) value *= 3e-4f;
+    write_layout(folder / "times.exr", times, {});
+    ASSERT_EQ(tonemap("times.exr -o times.png"), 0);
+    EXPECT_LE(difference("a.png", "times.png"), 1);
+    // The ldr operator takes values relative to white: they stay.
+    ASSERT_EQ(tonemap("a.exr --operator ldr -o ldr.png"), 0);
+    EXPECT_EQ(said, "");
+    ASSERT_EQ(tonemap("a.exr --operator ldr --scale 1 -o one.png"), 0);
+    EXPECT_EQ(difference("ldr.png", "one.png"), 0);
+    write_layout(folder / "black.exr", uniform(20, 20, 0), {});
+    ASSERT_EQ(tonemap("black.exr -o black.png"), 0);
+    EXPECT_EQ(said, "note: black.exr: its header names no unit, and it has no light\n");
+}
+
+TEST_F(TonemapProgram, ExposureMultipliesEveryScale) {
+    write_layout(folder / "a.exr", street(60, 40), {});
+    write_layout(folder / "b.exr", street(60, 40), {.white_luminance = 40});
+    const double scale = plausible_scale(relative_luminance(street(60, 40).rgb));
+    const std::pair<std::string, double> all[]{{"a.exr --exposure -1.5", scale * std::exp2(-1.5)}, {"a.exr --scale 100 --exposure 2", 400}, {"b.exr --exposure 1", 80}, {"b.exr --scale auto --exposure -3", 5}};
+    for (const auto& [arguments, wanted] : all) {
+        ASSERT_EQ(tonemap(arguments + " -o out.exr -o out.png"), 0) << said;
+        EXPECT_NEAR(std::stod(header("out.exr", "vesper:sourceScale")) / wanted, 1, 1e-8) << arguments;
+        ASSERT_EQ(tonemap(arguments.substr(0, 5) + format(" --scale %.9g -o given.png", wanted)), 0) << said;
+        EXPECT_EQ(difference("out.png", "given.png"), 0) << arguments;
+    }
+    EXPECT_EQ(header("out.exr", "vesper:exposure"), "-3");
+}
+
+// EXPOSURE is divided out, so that the values are those of the scene; of 1, as many programs write it, it says nothing.
+TEST_F(TonemapProgram, RadiancePicturesWithExposureAndInXyzStayAbsolute) {
+    const auto scale_of = [&](const std::string& lines) {
+        folder.write("r.hdr", "#?RADIANCE\n" + lines + "\n-Y 1 +X 2\n" + std::string(4, char(128)) + std::string(4, char(129)));
+        EXPECT_EQ(tonemap("r.hdr -o r.exr"), 0) << said;
+        return header("r.exr", "vesper:sourceScale") + " " + header("r.exr", "vesper:sourceScaleFrom");
+    };
+    const std::string rgbe = "FORMAT=32-bit_rle_rgbe\n";
+    EXPECT_EQ(scale_of(rgbe + "EXPOSURE=0.5\n"), "1 header");
+    EXPECT_EQ(said, "note: r.hdr: its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are Radiance's watts)\n");
+    EXPECT_EQ(scale_of("FORMAT=32-bit_rle_xyze\n"), "1 header");
+    EXPECT_EQ(said, "");
+    EXPECT_EQ(scale_of("FORMAT=32-bit_rle_xyze\nEXPOSURE=2\n"), "1 header");
+    EXPECT_TRUE(scale_of(rgbe).ends_with(" auto"));
+    EXPECT_TRUE(scale_of(rgbe + "EXPOSURE=          1.0000000000000\n").ends_with(" auto"));
+}
+
+// What holds for all is told once, a scale that was found for each; where a sequence changes its unit is told, too.
 TEST_F(TonemapProgram, WhatPicturesDoNotSayIsNoted) {
     fs::create_directory(folder / "many");
     write_layout(folder / "a.exr", street(30, 20), {.white_luminance = 10});
     for (const char* name : {"b.exr", "c.exr"}) write_layout(folder / name, street(30, 20), {});
     ASSERT_EQ(tonemap("a.exr b.exr c.exr -o many/"), 0);
-    EXPECT_EQ(said, "note: b.exr: its header names no unit: taken as cd/m^2 (--scale tells another)\n");
-    ASSERT_EQ(tonemap("a.exr b.exr c.exr --fps 30 -o many/"), 0);
-    EXPECT_NE(said.find("note: b.exr: 1.0 is 1 cd/m^2 from here on, and was 10\n"), std::string::npos) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
+    for (const char* name : {"note: b.exr: ", "note: c.exr: "}) EXPECT_NE(said.find(std::string(name) + "its header names no unit: 1.0 is taken as "), std::string::npos) << said;
     ASSERT_EQ(tonemap("a.exr --glare cie -o a.png"), 0);
     EXPECT_EQ(said, "note: a.exr: its header names no angle of a perspective: taken as 40 degrees high (--fov tells another)\n");
     ASSERT_EQ(tonemap("a.exr --glare cie --fov 30 -o a.png"), 0);
     EXPECT_EQ(said, "");
+}
+
+// One scale holds for a sequence, which would flicker with its own for each: that of the first picture with a unit or light.
+TEST_F(TonemapProgram, TheScaleOfASequenceStays) {
+    const auto scale_of = [&](const std::string& name) { return header(name, "vesper:sourceScale"); };
+    write_layout(folder / "f0.exr", uniform(30, 20, 0), {});
+    write_layout(folder / "f1.exr", street(30, 20), {});
+    HdrImage brighter = street(30, 20);
+    for (float& value : brighter.rgb) value *= 5;
+    write_layout(folder / "f2.exr", brighter, {});
+    write_layout(folder / "f3.exr", street(30, 20), {.white_luminance = 10});
+    write_layout(folder / "f4.exr", street(30, 20), {});
+    ASSERT_EQ(tonemap("f%d.exr --fps 30 -o o%d.exr"), 0) << said;
+    const std::string first = scale_of("o1.exr");
+    EXPECT_EQ(scale_of("o0.exr"), "1") << "black whatever its scale";
+    EXPECT_EQ(first, format("%.6g", plausible_scale(relative_luminance(street(30, 20).rgb))));
+    EXPECT_EQ(scale_of("o2.exr"), first);
+    EXPECT_EQ(scale_of("o3.exr"), "10");
+    EXPECT_EQ(scale_of("o4.exr"), first);
+    EXPECT_EQ(header("o4.exr", "vesper:sourceScaleFrom"), "sequence");
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 4) << said;
+    EXPECT_NE(said.find("note: f3.exr: 1.0 is 10 cd/m^2 from here on, and was " + first + "\n"), std::string::npos) << said;
+    EXPECT_NE(said.find("note: f4.exr: 1.0 is " + first + " cd/m^2 from here on, and was 10\n"), std::string::npos) << said;
+    fs::create_directory(folder / "many");
+    ASSERT_EQ(tonemap("f3.exr f4.exr f1.exr --fps 30 --exposure 1 -o many/"), 0);
+    EXPECT_EQ(said, "note: f4.exr: its header names no unit: 1.0 stays 10 cd/m^2\n");
+    ASSERT_EQ(tonemap("f2.exr f1.exr -o p%d.exr"), 0) << said;
+    EXPECT_NE(scale_of("p0.exr"), scale_of("p1.exr")) << "no sequence";
 }
 
 // Radiance's own angle, the picture's height moved by a lift; other projections have none.
@@ -249,7 +339,7 @@ TEST_F(TonemapProgram, RefusesInOneLine) {
     fs::copy(folder / "a.exr", folder / "n.0000.exr"), fs::copy(folder / "a.exr", folder / "n.0001.exr");
     for (const char* arguments : {"n.0001.exr n.0000.exr -o n.%04d.exr", "n.%04d.exr -o n.%04d.exr", "a.exr", "a.exr -o a.tiff", "a.exr -o none/a.png", "a.exr -o none/", "a.exr b.exr -o x.png", "a.exr b.exr -o x.mp4", "a.exr -o x.mp4",
                                   "f.%d.exr -o x.%d.png", "f.%s.exr -o x.png", "a.exr f.%d.exr -o x.%d.png", "a.exr -o x.%d.%d.png", "a.exr a.exr -o all", "a.exr -o x.png -o x.png", "a.exr -o a.exr", "a.exr b.exr -o ./%d.exr -o a.exr",
-                                  "a.exr -o x.png --scale 0", "a.exr -o x.png --scale nan", "a.exr -o x.png --fov 180", "a.exr -o x.png --fps -1", "a.exr -o x.png --operator foo",
+                                  "a.exr -o x.png --scale 0", "a.exr -o x.png --scale nan", "a.exr -o x.png --scale automatic", "a.exr -o x.png --scale -3", "a.exr -o x.png --exposure 41", "a.exr -o x.png --exposure nan", "a.exr -o x.png --fov 180", "a.exr -o x.png --fps -1", "a.exr -o x.png --operator foo",
                                   "a.exr -o x.png --display foo", "a.exr -o x.png --foveal-level 9", "a.exr -o x.png --histogram-low 5 --histogram-high 5", "a.exr --fps 5 -o x.mp4 -o y.mp4", "a.exr -o x.png --device nowhere"})
         expect_refused(std::string("tonemap ") + arguments);
     EXPECT_FALSE(exists("x.png"));

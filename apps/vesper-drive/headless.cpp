@@ -196,10 +196,9 @@ void run_headless(const DriveArguments& a) {
     const auto [fps, even] = own_frames ? rate_of(drive.events, options.time_step) : std::pair(std::min(a.fps > 0 ? a.fps : kUsualRate, most), true);
     if (!even && a.video.ends_with(".mp4"))
         std::fprintf(stderr, "note: frames were not recorded at an even rate: the film shows them at %.4g a second, and not in real time (--fps %.4g takes frames at an even rate)\n", fps, std::min(kUsualRate, most));
-    if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
-
     Scenery scenery(options.scene, options.run, options.scenario);
     check_settings(drive, a.settings, [&](const DriveSettings& settings) { scenery.check(settings); }, [&](const DriveSettings& settings) { outlet.check(settings); });
+    if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
     Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
     Playback playback(std::move(drive.events), a.settings);

@@ -128,9 +128,13 @@ Files check_arguments(RenderArguments& arguments) {
         files.writes(option, file);
         files.writes(option, GrowingFile::part_of(file));  // where it grows
     }
-    if (arguments.outputs.empty() && arguments.log_file.empty() && arguments.sources_file.empty() && arguments.statistics_file.empty() && !arguments.statistics && !arguments.plan && arguments.glare.target.empty())
-        throw Error("nothing to do: give -o, --stats, --stats-json, --log, --glare-sources, --target or --plan");
     return files;
+}
+
+void check_wanted(const RenderArguments& a) {
+    const bool files = !a.outputs.empty() || !a.log_file.empty() || !a.sources_file.empty() || !a.statistics_file.empty();
+    if (!files && !a.statistics && !a.plan && a.glare.target.empty())
+        throw Error("nothing to do: give -o, --stats, --stats-json, --log, --glare-sources, --target or --plan");
 }
 
 // A frame to render: its time, how long after the one before, and, in a replay, what the eye remembers.
@@ -192,6 +196,7 @@ void run(RenderArguments& arguments) {
     LoadedScene loaded = read_gltf(arguments.scene);
     loaded.scene.name = arguments.scene;
     files.spare(read);
+    check_wanted(arguments);  // a scene that cannot be read is said first
     for (const std::string& note : loaded.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     const Scene& scene = loaded.scene;
     SceneFrame moment{world_transforms(scene, moments.front().seconds)};

@@ -259,6 +259,8 @@ TEST_F(DriveProgram, LogsContactsOfEveryStart) {
 TEST_F(DriveProgram, RefusesWhatItCannotUse) {
     folder.write("bad.json", R"({"version": 1, "scene": "no.gltf", "lanes": []})");
     expect_refused("--headless", {"nothing to do"});
+    expect_refused("--headless no.world.json", {"no.world.json"});
+    expect_refused("--headless bad.json", {"bad.json", "lane"});
     expect_refused("--headless no.world.json --log l.csv", {"no.world.json"});
     expect_refused("--headless bad.json --log l.csv", {"bad.json", "lane"});
     expect_refused("--headless --replay no.json --log l.csv", {"no.json"});

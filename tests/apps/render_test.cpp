@@ -175,6 +175,12 @@ TEST_F(Program, RefusesWhatCannotBeInOneLine) {
                                   "-o a.png --foveal-level 14", "-o a.png --gaze 0.5", "-o a.png --gaze 2,0", "-o a.png --age 0", "-o a.png --smoothing -1", "-o a.png --adapt-to sun", "-o a.png --nonsense", "-o a.png --size 0x5", "-o a.png --device nowhere"})
         expect_refused(arguments);
     EXPECT_FALSE(fs::exists(folder / "a.png"));
+    EXPECT_EQ(render(""), 2);
+    EXPECT_NE(said.find("nothing to do"), std::string::npos) << said;
+    std::ofstream(folder / "empty.gltf") << R"({"asset":{"version":"7.0"}})";
+    expect_refused("");  // the first error is said: a scene that cannot be read is not nothing to do
+    EXPECT_NE(said.find("empty.gltf"), std::string::npos) << said;
+    std::ofstream(folder / "empty.gltf") << R"({"asset":{"version":"2.0"}})";
     EXPECT_NE(render("-o a.png --camera nope"), 0);
     EXPECT_NE(said.find("empty.gltf"), std::string::npos) << said;
 }

@@ -152,13 +152,13 @@ PngColour png_colour_of(const Display& display) {
 
 }  // namespace
 
-void write_codes(const std::string& file, const ToneMapped& shown, const Display& display) {
+void write_codes(const std::string& file, const ToneMapped& shown, const Display& display, const Header& texts) {
     const auto [width, height] = shown.extent;
     const PngColour colour = png_colour_of(display);
-    if (display.bits == 8) return write_png(file, width, height, shown.display, colour);
+    if (display.bits == 8) return write_png(file, width, height, shown.display, colour, texts);
     std::vector<uint32_t> words(shown.display.size() / 4);
     std::memcpy(words.data(), shown.display.data(), words.size() * 4);
-    write_png_10bit(file, width, height, words, colour);
+    write_png_10bit(file, width, height, words, colour, texts);
 }
 
 }  // namespace vesper

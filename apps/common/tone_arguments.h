@@ -39,6 +39,6 @@ Header describe_tone(const ToneChainSettings&, const ToneMapped&);
 std::string digits(double value);
 
 /// Writes the codes of a tone-mapped picture: 8 bits a channel, or 16 for a display of 10. Throws Error.
-void write_codes(const std::string& file, const ToneMapped&, const Display&);
+void write_codes(const std::string& file, const ToneMapped&, const Display&, const Header& texts = {});
 
 }  // namespace vesper

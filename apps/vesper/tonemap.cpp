@@ -143,9 +143,11 @@ void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& s
     const Header scale{{"vesper:sourceScale", digits(shown.meaning.scale)},
                        {"vesper:sourceScaleFrom", shown.meaning.scale_source},
                        {"vesper:exposure", digits(arguments.scale.exposure)}};
+    const bool own_scale = shown.meaning.scale_source == "header" && arguments.scale.exposure == 0;
     for (const std::string& output : job.outputs) {
         if (output.ends_with(".png")) {
-            write_codes(output, picture, settings.display);
+            // PNGs have no other provenance: shown at the file's own scale, a frame has the bytes that `vesper render` writes.
+            write_codes(output, picture, settings.display, own_scale ? Header() : scale);
             continue;
         }
         Header header{{"vesper:version", VESPER_VERSION},

@@ -32,6 +32,7 @@ void check_size(const std::filesystem::path& file, uint32_t width, uint32_t heig
 struct PngJob {
     std::vector<uint8_t> file;
     std::vector<uint8_t> row;
+    std::vector<png_text> texts;  // of the header, whose strings they point to
     char reason[200] = "out of memory";
     std::jmp_buf escape;
 };
@@ -57,6 +58,18 @@ void png_collect(png_structp png, png_bytep bytes, size_t count) {
 }
 
 void png_flush_nothing(png_structp) {}
+
+std::vector<png_text> png_texts_of(const Header& header) {
+    std::vector<png_text> texts;
+    for (const auto& [name, value] : header) {
+        png_text text{};
+        text.compression = PNG_TEXT_COMPRESSION_NONE;
+        text.key = const_cast<char*>(name.c_str()), text.text = const_cast<char*>(value.c_str());  // libpng copies both
+        text.text_length = value.size();
+        texts.push_back(text);
+    }
+    return texts;
+}
 
 /// Puts row `y` into job.row.
 using FillRow = void (*)(PngJob& job, uint32_t width, const void* pixels, uint32_t y);
@@ -90,6 +103,7 @@ bool encode_png(PngJob& job, uint32_t width, uint32_t height, const void* pixels
         png_set_sBIT(png, header, &bits);
     }
     if (colour == kPngSrgb) png_set_sRGB(png, header, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (!job.texts.empty()) png_set_text(png, header, job.texts.data(), static_cast<int>(job.texts.size()));
     png_set_compression_level(png, 3);  // a frame of a video is written in a third of the time, at 10 % more bytes
     png_write_info(png, header);
     if (colour != kPngSrgb && colour.transfer != PngColour().transfer) {  // matrix (0: RGB) and full range; libpng 1.6 has no name for it
@@ -127,17 +141,21 @@ private:
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba, PngColour colour) {
+void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba, PngColour colour,
+               const Header& texts) {
     check_size(file, width, height, 4, rgba.size());
     PngJob job;
+    job.texts = png_texts_of(texts);
     job.row.resize(static_cast<size_t>(width) * 3);
     if (!encode_png(job, width, height, rgba.data(), false, colour)) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
     replace_file(file, job.file);
 }
 
-void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint32_t> words, PngColour colour) {
+void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint32_t> words, PngColour colour,
+                     const Header& texts) {
     check_size(file, width, height, 1, words.size());
     PngJob job;
+    job.texts = png_texts_of(texts);
     job.row.resize(static_cast<size_t>(width) * 6);
     if (!encode_png(job, width, height, words.data(), true, colour)) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
     replace_file(file, job.file);

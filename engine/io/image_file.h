@@ -34,15 +34,17 @@ struct PngColour {
 };
 constexpr PngColour kPngSrgb{1, 13};
 
+/// Named texts of a picture: attributes of an OpenEXR header, tEXt chunks of a PNG (ASCII, names of at most 79 characters).
+using Header = std::vector<std::pair<std::string, std::string>>;
+
 /// Writes 8-bit RGBA (alpha ignored) as an RGB PNG. The file is replaced only when complete. Throws Error.
-void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba, PngColour = kPngSrgb);
+void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba, PngColour = kPngSrgb,
+               const Header& = {});
 
 /// Writes words of 10 bits a channel, red in the lowest (A2B10G10R10, alpha ignored), as an RGB PNG of 16 bits (chunk
 /// sBIT: 10). The file is replaced only when complete. Throws Error.
-void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint32_t> words, PngColour);
-
-/// Named text attributes of an OpenEXR header.
-using Header = std::vector<std::pair<std::string, std::string>>;
+void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint32_t> words, PngColour,
+                     const Header& = {});
 
 /// Writes RGBA float pixels (alpha ignored) as a 32-bit RGB OpenEXR, ZIP compressed, in cd/m^2 (whiteLuminance 1).
 /// The file is replaced only when complete. Throws Error.

@@ -95,6 +95,7 @@ TEST_F(TonemapProgram, TheUnitIsTheFilesOrTheOneGiven) {
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScale"), "250");
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScaleFrom"), "header");
     EXPECT_EQ(header("on-display.exr", "vesper:exposure"), "0");
+    EXPECT_EQ(read_text(folder / "absolute.png").find("tEXt"), std::string::npos) << "nothing was chosen";
     EXPECT_EQ(header("on-display.exr", "whiteLuminance"), "1");
     EXPECT_EQ(header("scaled.exr", "vesper:sourceScaleFrom"), "option");
 }
@@ -109,6 +110,7 @@ TEST_F(TonemapProgram, PicturesWithoutAUnitAreScaled) {
     EXPECT_TRUE(said.starts_with("note: a.exr: its header names no unit: 1.0 is taken as " + number + " cd/m^2, so that its log average is ")) << said;
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScale"), number);
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScaleFrom"), "auto");
+    EXPECT_NE(read_text(folder / "a.png").find("tEXtvesper:sourceScale" + std::string(1, 0) + number), std::string::npos);
     ASSERT_EQ(tonemap("a.exr --scale " + number + " -o same.png"), 0);
     EXPECT_EQ(difference("a.png", "same.png"), 0);
     ASSERT_EQ(tonemap("a.exr --scale auto -o same.png"), 0);

@@ -79,6 +79,24 @@ TEST(ImageFile, SaysWhatTheCodesMean) {
     EXPECT_FALSE(contains(chunks({}), "cICP"));
 }
 
+TEST(ImageFile, KeepsTextsInPngs) {
+    const TempFolder folder;
+    const Header texts{{"vesper:sourceScale", "251.3"}, {"vesper:exposure", "0"}};
+    const auto file_of = [&](const Header& given, bool wide) {
+        if (wide)
+            write_png_10bit(folder / "x.png", 1, 1, std::vector<uint32_t>(1, 7), {9, 16}, given);
+        else
+            write_png(folder / "x.png", 1, 1, std::vector<uint8_t>(4, 200), kPngSrgb, given);
+        const std::vector<uint8_t> file = read_file(folder / "x.png", 1u << 20);
+        EXPECT_EQ(decode_image(file, 100).width, 1u);
+        return std::string(file.begin(), file.end());
+    };
+    for (const bool wide : {false, true}) {
+        for (const auto& [name, value] : texts) EXPECT_TRUE(contains(file_of(texts, wide), "tEXt" + name + std::string(1, 0) + value)) << name << wide;
+        EXPECT_FALSE(contains(file_of({}, wide), "tEXt")) << wide;
+    }
+}
+
 // 10 bits become 16 with the upper ones repeated below; sBIT and, for PQ, cICP say what they are.
 TEST(ImageFile, WritesPngOfTenBits) {
     const TempFolder folder;

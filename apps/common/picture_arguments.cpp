@@ -95,7 +95,8 @@ void add_scale_options(CLI::App& command, ScaleArguments& a) {
         const bool sound = given == "auto" || (*end == 0 && value >= kLeast && value <= kMost);
         return sound ? std::string() : given + format(" is neither auto nor a number from %g to %g", kLeast, kMost);
     }, "auto|N");
-    command.add_option("--scale", a.scale, "cd/m^2 of a picture's 1.0; auto: as its header says, or, where it names no unit, as such a scene may have")
+    const char* help = "cd/m^2 of a picture's 1.0; auto: as its header says, or, where it names no unit, as such a scene may have";
+    command.add_option("--scale", a.scale, help)
         ->check(scale)
         ->capture_default_str();
     command.add_option("--exposure", a.exposure, "Stops by which pictures are brighter than by --scale: luminance times 2^EV")

@@ -22,7 +22,7 @@ Resource bring_back(FrameGraph& graph, const std::string& name, Resource from, u
 ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource rendered, const View& view, const ToneChainSettings& settings, const ChainInputs& given, Outputs outputs) {
     const OperatorInfo& op = operator_info(settings.tone_operator);
     uint32_t tone = op.form | (settings.tone.colour_loss ? shared::kToneColourLoss : 0) | (settings.tone.purkinje ? shared::kTonePurkinje : 0) |
-                    (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0);
+                    (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0) | settings.tone.gamut;
     // What the eye adapts to and the histogram counts is what falls on the retina.
     Resource scene = rendered;
     if (given.scatter) scene = add_scatter(graph, kernels, rendered, *given.scatter, given.outside, given.beyond);
@@ -47,7 +47,7 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     Resource seen = settings.tone.acuity_loss ? add_acuity(graph, kernels, scene, luminance, level, view) : scene;
     if (op.bands) {
         seen = add_bands(graph, kernels, seen, luminance, level, adaptation.curve, tone, parameters, view.extent);
-        tone = shared::kToneLinear;
+        tone = shared::kToneLinear | settings.tone.gamut;
     }
     Resource glare;
     if (settings.glare == Glare::Ldr)

@@ -23,7 +23,7 @@ void main() {
         const uvec2 pixel = kGlareShrink * at + uvec2(i % kGlareShrink, i / kGlareShrink);
         if (any(greaterThanEqual(pixel, push.size))) continue;
         const vec3 rgb = perceived(tone, imageLoad(scene_image, ivec2(pixel)).rgb);
-        const vec3 light = displayed(curve, tone, rgb, rgb, push.display_low, push.display_high);
+        const vec3 light = displayed(curve, tone, rgb, rgb, rec709_gamut(), push.display_low, push.display_high);
         sum += max(light.r, max(light.g, light.b)) >= push.threshold ? light : vec3(0.0);
         pixels += 1.0;
     }

@@ -15,10 +15,11 @@ layout(binding = 5, r32ui) writeonly uniform uimage2D display_image;
 
 void main() {
     const Tone tone = read_tone(curve);
+    const Gamut gamut = gamut_of_the_display();
     [[unroll]] for (uint row = 0u; row < kRows; ++row) {
         const uvec2 at = gl_GlobalInvocationID.xy * uvec2(1u, kRows) + uvec2(0u, row);
         const vec3 rgb = perceived(tone, scene_light(at));
-        vec3 light = displayed(curve, tone, rgb, of_the_display(rgb), push.display_low, push.display_high);
+        vec3 light = displayed(curve, tone, rgb, of_the_display(rgb), gamut, push.display_low, push.display_high);
         if (kLdrGlare != 0u) light = clamp(light + of_the_display(glare_light(at)), 0.0, 1.0);
         const uint codes = codes_of(cells, push.encode, kBlueFirst == 0u ? light : light.bgr);
         if (all(lessThan(at, push.size))) imageStore(display_image, ivec2(at), uvec4(codes));

@@ -18,6 +18,12 @@ vec3 of_the_display(vec3 rgb) {
     return kPrimaries == 0u ? rgb : vec3(dot(push.red, rgb), dot(push.green, rgb), dot(push.blue, rgb));
 }
 
+Gamut gamut_of_the_display() {
+    if (kPrimaries == 0u) return rec709_gamut();
+    const mat3 cones = transpose(mat3(push.cones_long, push.cones_middle, push.cones_short));
+    return Gamut(push.luminance, cones, inverse(cones));
+}
+
 vec3 scene_light(uvec2 at) {
     const vec3 rgb = imageLoad(scene_image, ivec2(at)).rgb;
     return kLuminanceGlare == 0u ? rgb : rgb + imageLoad(luminance_glare, ivec2(at)).rgb;

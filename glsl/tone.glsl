@@ -2,6 +2,7 @@
 
 #include "shared/composite.h"
 #include "shared/photometry.h"
+#include "gamut.glsl"
 
 const float kLeastRatio = 1e-6;
 
@@ -87,29 +88,21 @@ vec3 faded(vec3 ratios, Mapped to) {
 
 bool is_finite(float x) { return abs(x) <= 3.4e38; }
 
-// A colour of displayed luminance d as the display can show it. What is outside its primaries goes towards the grey of d,
-// as far as it must; what is brighter than the display is in that colour is shown as bright as it can.
-vec3 in_gamut(vec3 light, float d) {
-    const float least = min(light.r, min(light.g, light.b));
-    if (least < 0.0) light = max(d + (light - d) * (d / (d - least)), vec3(0.0));
-    return light / max(max(light.r, max(light.g, light.b)), 1.0);
-}
-
-// Displayed light of a pixel, RGB in [0, 1]; `own` is its colour in the display's primaries. Pixels that are not finite are
+// Displayed light of a pixel, RGB in [0, 1]; `own` is its colour in the display's primaries, `gamut`. Pixels that are not finite are
 // black; those without luminance are shown as what has hardly any.
-vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, vec3 own, float display_low, float display_high) {
+vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, vec3 own, Gamut gamut, float display_low, float display_high) {
     if (kForm == kToneLdr) return is_finite(rgb.r) && is_finite(rgb.g) && is_finite(rgb.b) ? clamp(own, 0.0, 1.0) : vec3(0.0);
     const float luminance = luminance_of(rgb);
     if (!is_finite(luminance)) return vec3(0.0);
     const Mapped to = mapped(curve, tone, rgb, display_low, display_high);
     const float d = clamp(to.luminance, 0.0, 1.0);
     if (luminance <= 0.0) return vec3(d);
-    return in_gamut(kForm == kToneColour ? faded(own / luminance, to) * d : own * (d / luminance), d);
+    return in_gamut(gamut, kTone, kForm == kToneColour ? faded(own / luminance, to) * d : own * (d / luminance), d);
 }
 
 // The same in Rec. 709, whatever the display's limits.
 vec3 displayed_unbounded(samplerBuffer curve, Tone tone, vec3 rgb, float display_low, float display_high) {
-    if (kForm == kToneLdr) return displayed(curve, tone, rgb, rgb, display_low, display_high);
+    if (kForm == kToneLdr) return displayed(curve, tone, rgb, rgb, rec709_gamut(), display_low, display_high);
     const float luminance = luminance_of(rgb);
     if (!is_finite(luminance)) return vec3(0.0);
     const Mapped to = mapped(curve, tone, rgb, display_low, display_high);

@@ -1,8 +1,23 @@
 #include "passes/passes.h"
 #include "resident/encoding.h"
+#include "shared/gamut.h"
+#include "shared/photometry.h"
 
 namespace vesper {
 namespace {
+
+struct Cones {
+    glm::mat3 rows;       // of gamut.h, for colours of the display, and 1 to its white
+    glm::vec3 luminance;  // of each primary, over that of white
+};
+
+Cones cones_of(const Primaries& primaries) {
+    const glm::dmat3 to709 = to_rec709(primaries);
+    const glm::dmat3 rows(shared::kOklabLong, shared::kOklabMiddle, shared::kOklabShort);
+    glm::dmat3 own = glm::transpose(to709) * rows;  // columns are the rows for the display's colours
+    for (int i = 0; i < 3; ++i) own[i] /= own[i].x + own[i].y + own[i].z;
+    return {glm::mat3(own), glm::vec3(glm::transpose(to709) * glm::dvec3(shared::kRed, shared::kGreen, shared::kBlue))};
+}
 
 struct Show {
     const Kernel& kernel;
@@ -16,8 +31,10 @@ Show show(const Kernels& kernels, const CompositeInputs& in, uint32_t tone, cons
     const Kernel& kernel = kernels.composite({tone, bool(in.luminance_glare), bool(in.ldr_glare), primaries, light, !light && in.blue_first});
     const auto [width, height] = view.extent;
     const glm::mat3 rows(glm::transpose(glm::inverse(to_rec709(display.primaries))));
+    const Cones cones = cones_of(display.primaries);
     return {kernel,
-            {{width, height}, display.low(), display.high(), ldr_glare_gain, {}, rows[0], rows[1], rows[2]},
+            {{width, height}, display.low(), display.high(), ldr_glare_gain, {}, rows[0], rows[1], rows[2],
+             cones.luminance, cones.rows[0], cones.rows[1], cones.rows[2]},
             in.luminance_glare ? in.luminance_glare : in.scene,
             in.ldr_glare ? in.ldr_glare : in.scene,
             cover(width, height, kernel.group[0], kernel.group[1] * kernels.composite_rows)};

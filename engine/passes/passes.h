@@ -24,6 +24,7 @@
 #include "resident/view.h"
 #include "shared/cluster.h"
 #include "shared/composite.h"
+#include "shared/gamut.h"
 #include "shared/light.h"
 #include "shared/shade.h"
 #include "shared/source.h"
@@ -185,6 +186,7 @@ struct ToneSettings {
     bool acuity_loss = false;  ///< dim light is blurred as far as it cannot be resolved
     bool purkinje = false;     ///< dim light is weighted as rods do
     bool photopic_rods = false; ///< rods take luminance for scotopic luminance, as in pfstools; without: that of the colour, and of white for what the eye adapts to
+    uint32_t gamut = shared::kGamutLuminance;  ///< shared::kGamut*: what gives way where the display is not as bright in a colour
     Observer observer;         ///< whose eye it is
     glm::vec2 gaze{0.5f};      ///< where it looks, parts of the image from its top left
     std::optional<uint32_t> adapt_to;  ///< shared::kAdapt*; default: as the operator has it
@@ -253,8 +255,8 @@ struct CompositeInputs {
     bool blue_first = false;   ///< codes have blue in their lowest bits, and red in the highest
 };
 
-/// Maps scene luminance to display codes: tone curve, colour at the mapped luminance (less bright where the display cannot
-/// show that colour as bright; nearer to grey where it lies outside its primaries), glare, and the codes of the display.
+/// Maps scene luminance to display codes: tone curve, colour at the mapped luminance (as `tone`'s bits shared::kGamut* have it where the
+/// display cannot show that colour as bright; nearer to grey where it lies outside its primaries), glare, and the codes of the display.
 /// One word per pixel, r32ui, red in its lowest bits: 8 bits a channel and alpha 255, or 10 bits and alpha 3. A channel's
 /// code is the whole number nearest to what the display would need, exactly. Pixels that are not finite show the darkest.
 Resource add_composite(FrameGraph&, const Kernels&, const CompositeInputs&, uint32_t tone, const View&, const Display&,

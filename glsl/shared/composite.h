@@ -31,8 +31,10 @@ struct CompositePush {
     float ldr_glare;      // gain of the LDR glare; 0: none
     EncodePush encode;    // of composite.comp only
     vec3 red, green, blue;  // of the display = dot(these, linear Rec. 709), where its primaries are others
+    vec3 luminance;         // likewise: of each primary, over that of white
+    vec3 cones_long, cones_middle, cones_short;  // responses of cones = dot(these, colour of the display), as in gamut.h but 1 to its white
 };
-SHARED_SIZE(CompositePush, 72)
+SHARED_SIZE(CompositePush, 120)
 
 SHARED_END
 #endif

@@ -6,6 +6,7 @@
 #include "perception/display.h"
 #include "perception/thresholds.h"
 #include "shared/composite.h"
+#include "shared/gamut.h"
 
 namespace vesper::reference {
 
@@ -89,8 +90,44 @@ inline dvec3 coloured(dvec3 rgb, dvec3 own, double d, uint32_t tone, const share
     return d * ratios;
 }
 
+/// Oklab of linear Rec. 709 and back (Ottosson 2020), for another white than (1, 1, 1) after von Kries.
+struct Oklab {
+    glm::dmat3 cones = glm::transpose(glm::dmat3(0.4122214708, 0.5363325363, 0.0514459929, 0.2119034982, 0.6806995451, 0.1073969566, 0.0883024619, 0.2817188376, 0.6299787005));
+    glm::dmat3 lab = glm::transpose(glm::dmat3(0.2104542553, 0.7936177850, -0.0040720468, 1.9779984951, -2.4285922050, 0.4505937099, 0.0259040371, 0.7827717662, -0.8086757660));
+    dvec3 white{1};
+
+    dvec3 of(dvec3 rgb) const {
+        const dvec3 c = cones * rgb / (cones * white);
+        return lab * dvec3(std::cbrt(c.x), std::cbrt(c.y), std::cbrt(c.z));
+    }
+    dvec3 rgb(dvec3 of) const {
+        const dvec3 root = glm::inverse(lab) * of;
+        return glm::inverse(cones) * (root * root * root * (cones * white));
+    }
+};
+
+/// Displayed light, Rec. 709, within the display's primaries, that is brighter than the display in its colour: chroma goes down from where
+/// its largest channel comes near 1, with luminance and to half at that of white, at the hue and with the largest channel that can be.
+inline dvec3 towards_white(dvec3 light, const glm::dmat3& to_own) {
+    const auto largest = [&](dvec3 rgb) {
+        const dvec3 own = to_own * rgb;
+        return std::max({own.x, own.y, own.z});
+    };
+    if (!(luminance(light) > 0)) return light;
+    const dvec3 colour = light / luminance(light);
+    const double x = largest(light) / std::max(luminance(light), 1.0), most = largest(colour), knee = std::min(0.15, most - 1);
+    if (x <= 1 - knee) return light / std::max(luminance(light), 1.0);
+    // max(x, 1) averaged over a knee to either side: where it is, and what of x is left.
+    const double above = x >= 1 + knee ? x : 1 + (x - 1 + knee) * (x - 1 + knee) / (4 * knee);
+    const Oklab oklab{.white = glm::inverse(to_own) * dvec3(1)};
+    const double kept = 1 - 0.5 * (above - 1) / (most - 1);
+    const dvec3 faded = to_own * oklab.rgb(oklab.of(colour) * dvec3(1, kept, kept));
+    const dvec3 inside = glm::max(faded, dvec3(0));
+    return glm::inverse(to_own) * (inside / std::max({inside.x, inside.y, inside.z}) * (1 + x - above));
+}
+
 /// Displayed light of a scene colour: the colour at the mapped luminance. Where a channel is negative the colour goes towards
-/// the grey of that luminance until it is 0; where one exceeds 1 all are divided by it. Non-finite pixels are black. `to_own`
+/// the grey of that luminance until it is 0; where one exceeds 1, `tone` says what gives way. Non-finite pixels are black. `to_own`
 /// gives the colour in the display's primaries.
 inline dvec3 displayed(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high,
                        const glm::dmat3& to_own = glm::dmat3(1)) {
@@ -99,9 +136,11 @@ inline dvec3 displayed(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, dou
     if ((tone & shared::kToneForm) == shared::kToneLdr) return glm::clamp(to_own * rgb, 0.0, 1.0);
     const double d = std::clamp(tone_mapped(rgb, tone, c, display_low, display_high), 0.0, 1.0);
     dvec3 colour = coloured(rgb, to_own * rgb, d, tone, c);
+    if ((tone & shared::kGamutMask) == shared::kGamutClip) return glm::clamp(colour, 0.0, 1.0);
     const double least = std::min({colour.x, colour.y, colour.z});
     if (least < 0) colour = glm::max(glm::mix(dvec3(d), colour, d / (d - least)), dvec3(0));
-    return colour / std::max({colour.x, colour.y, colour.z, 1.0});
+    if ((tone & shared::kGamutMask) == shared::kGamutChromaticity) return colour / std::max({colour.x, colour.y, colour.z, 1.0});
+    return to_own * towards_white(glm::inverse(to_own) * colour, to_own);
 }
 
 /// Bilinear look-up at texel coordinates where 0 is the middle of the first texel, clamped at the border.
@@ -153,9 +192,9 @@ struct CompositeFrame {
     double gain = 1;                       ///< of the LDR glare
 };
 
-/// Unrounded codes of one pixel.
+/// Displayed light of one pixel.
 template <class Rgb>
-dvec3 composite(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t tone, const shared::ToneCurve& curve,
+dvec3 composite_light(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t tone, const shared::ToneCurve& curve,
                 const Display& display) {
     const auto load = [&](std::span<const Rgb> image) {
         const auto& t = image[size_t(pixel.y) * frame.size.x + pixel.x];
@@ -171,7 +210,13 @@ dvec3 composite(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t 
         const uint32_t height = (frame.size.y + shared::kGlareShrink - 1) / shared::kGlareShrink;
         shown += to_own * (frame.gain * bilinear(frame.ldr_glare, width, height, (dvec2(pixel) + 0.5) / shrink - 0.5));
     }
-    return code(shown, display);
+    return shown;
+}
+
+/// Unrounded codes of one pixel.
+template <class Rgb>
+dvec3 composite(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t tone, const shared::ToneCurve& curve, const Display& display) {
+    return code(composite_light(frame, pixel, tone, curve, display), display);
 }
 
 /// What the display would show of a scene colour without its limits, cd/m^2: colour keeps its ratios.

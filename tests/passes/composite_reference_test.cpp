@@ -58,6 +58,8 @@ TEST(CompositeReference, LinearRunsFromLowToHigh) {
     EXPECT_EQ(tone_mapped(1e6, shared::kToneLinear, c, 0, 1), 1);
 }
 
+constexpr uint32_t kCurveKept = shared::kToneCurve | shared::kGamutChromaticity, kLinearKept = shared::kToneLinear | shared::kGamutChromaticity;
+
 // Whatever the colour, its chromaticity is kept, and its luminance unless the display is not that bright in that colour.
 TEST(CompositeReference, ColoursAreKeptAndAsBrightAsTheDisplayIsInThem) {
     const shared::ToneCurve c = identity();
@@ -66,7 +68,7 @@ TEST(CompositeReference, ColoursAreKeptAndAsBrightAsTheDisplayIsInThem) {
     for (int i = 0; i < 2000; ++i) {
         const dvec3 rgb =
             dvec3(uniform(random), uniform(random), uniform(random)) * std::pow(10, 4 * uniform(random) - 1);
-        const dvec3 shown = displayed(rgb, shared::kToneCurve, c, 1, 100);
+        const dvec3 shown = displayed(rgb, kCurveKept, c, 1, 100);
         const double most = std::max({shown.x, shown.y, shown.z}), want = tone_mapped(luminance(rgb), shared::kToneCurve, c, 1, 100);
         EXPECT_LE(most, 1 + 1e-12);
         EXPECT_LE(luminance(shown), want + 1e-12);
@@ -79,10 +81,136 @@ TEST(CompositeReference, ColoursAreKeptAndAsBrightAsTheDisplayIsInThem) {
 TEST(CompositeReference, BrightRedStaysRed) {
     shared::ToneCurve c{};
     c.linear_gain = 1;
-    EXPECT_EQ(displayed({2, 0, 0}, shared::kToneLinear, c, 0, 1), dvec3(1, 0, 0));
-    EXPECT_EQ(displayed({2000, 0, 0}, shared::kToneLinear, c, 0, 1), dvec3(1, 0, 0));
-    EXPECT_NEAR(glm::length(displayed({2, 1, 0.5}, shared::kToneLinear, c, 0, 1) - dvec3(1, 0.5, 0.25)), 0, 1e-12);
-    EXPECT_EQ(displayed({0.9, 0.5, 0.1}, shared::kToneLinear, c, 0, 1), dvec3(0.9, 0.5, 0.1)) << "others are left alone";
+    EXPECT_EQ(displayed({2, 0, 0}, kLinearKept, c, 0, 1), dvec3(1, 0, 0));
+    EXPECT_EQ(displayed({2000, 0, 0}, kLinearKept, c, 0, 1), dvec3(1, 0, 0));
+    EXPECT_NEAR(glm::length(displayed({2, 1, 0.5}, kLinearKept, c, 0, 1) - dvec3(1, 0.5, 0.25)), 0, 1e-12);
+    EXPECT_EQ(displayed({0.9, 0.5, 0.1}, kLinearKept, c, 0, 1), dvec3(0.9, 0.5, 0.1)) << "others are left alone";
+}
+
+// Ottosson 2020 has white at (1, 0, 0); the primaries of sRGB as CSS Color 4 implementations print them.
+TEST(CompositeReference, OklabIsThePublishedOne) {
+    const std::pair<dvec3, dvec3> published[]{{dvec3(1), {1, 0, 0}}, {{1, 0, 0}, {0.62796, 0.22486, 0.12585}}, {{0, 1, 0}, {0.86644, -0.23389, 0.17950}}, {{0, 0, 1}, {0.45201, -0.03246, -0.31153}}};
+    for (const auto& [rgb, lab] : published) {
+        EXPECT_NEAR(glm::length(Oklab{}.of(rgb) - lab), 0, 1e-5);
+        EXPECT_NEAR(glm::length(Oklab{}.rgb(Oklab{}.of(rgb)) - rgb), 0, 1e-12);
+    }
+    const dvec3 warm(1, 0.9, 0.7);
+    EXPECT_NEAR(glm::length(Oklab{.white = warm}.of(warm) - dvec3(1, 0, 0)), 0, 1e-7);
+}
+
+dvec3 bright(dvec3 colour, double d, uint32_t gamut = shared::kGamutLuminance, const glm::dmat3& to_own = glm::dmat3(1)) {
+    shared::ToneCurve c{};
+    c.linear_gain = 1;
+    return displayed(colour * (d / luminance(colour)), shared::kToneLinear | gamut, c, 0, 1, to_own);
+}
+
+double chroma_over_lightness(dvec3 rgb) {
+    const dvec3 lab = Oklab{}.of(rgb);
+    return std::hypot(lab.y, lab.z) / lab.x;
+}
+
+TEST(CompositeReference, GreysAreNeitherPrimariesBelowTheKnee) {
+    for (double d = 0; d <= 1; d += 1.0 / 64) EXPECT_NEAR(glm::length(bright(dvec3(3), d) - dvec3(d)), 0, 1e-12) << d;
+    EXPECT_NEAR(glm::length(bright(dvec3(3), 1e9) - dvec3(1)), 0, 1e-12);
+    for (dvec3 colour : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1), dvec3(0, 1, 1), dvec3(1, 0, 1), dvec3(1, 0.3, 0)})
+        EXPECT_NEAR(glm::length(bright(colour, 0.85 * luminance(colour)) - 0.85 * colour), 0, 1e-12) << "its largest channel is 0.85";
+}
+
+// Light as bright as white keeps half of its chroma, on the display's edge; in the middle of the knee, where the largest channel would just
+// end, it has 1 - knee / 4 and a quarter of a knee is lost of what is lost beyond.
+TEST(CompositeReference, PrimariesHaveClosedForms) {
+    for (dvec3 colour : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1), dvec3(0, 1, 1), dvec3(1, 0, 1)}) {
+        const double own = luminance(colour);
+        for (double d : {1.0, 7.0}) {
+            const dvec3 shown = bright(colour, d);
+            EXPECT_NEAR(std::max({shown.x, shown.y, shown.z}), 1, 1e-12);
+            EXPECT_NEAR(chroma_over_lightness(shown) / chroma_over_lightness(colour), 0.5, 2e-3) << "blue leaves Rec. 709 by a thousandth on its way, and is cut";
+        }
+        const dvec3 knee = bright(colour, own), half = bright(colour, (1 + own) / 2);
+        EXPECT_NEAR(std::max({knee.x, knee.y, knee.z}), 1 - 0.15 / 4, 1e-12);
+        EXPECT_NEAR(chroma_over_lightness(knee) / chroma_over_lightness(colour), 1 - 0.5 * 0.15 / 4 / (1 / own - 1), 2e-3);
+        EXPECT_NEAR(chroma_over_lightness(half) / chroma_over_lightness(colour), 0.75, 2e-3) << "half way from its own luminance to white's";
+    }
+    // Red as bright as white, by hand: Oklab (0.62796, 0.11243, 0.06293) over its largest channel.
+    const dvec3 red = Oklab{}.rgb({0.62796, 0.11243, 0.062925});
+    EXPECT_NEAR(glm::length(bright({1, 0, 0}, 1) - red / red.x), 0, 1e-4);
+}
+
+/// Hues around the edge of the display, and nearer to white.
+std::vector<dvec3> every_hue(int steps) {
+    std::vector<dvec3> colours;
+    for (double purity : {1.0, 0.97, 0.8, 0.5, 0.2, 0.03})
+        for (int i = 0; i < steps; ++i) {
+            const auto channel = [&](double at) { return 1 - purity * std::clamp(2 - std::abs(std::fmod(6.0 * i / steps + at, 6) - 3), 0.0, 1.0); };
+            colours.emplace_back(channel(0), channel(4), channel(2));
+        }
+    return colours;
+}
+
+// For every hue: brighter is shown brighter, never brighter than asked, in [0, 1], of the same hue, and without a step or an edge.
+TEST(CompositeReference, OrderAndHueAreKeptAndNothingJumps) {
+    constexpr int kSteps = 2000;
+    constexpr double kStep = 1.0 / kSteps;
+    for (dvec3 colour : every_hue(90)) {
+        const double most = std::max({colour.x, colour.y, colour.z}) / luminance(colour);
+        const dvec3 lab = Oklab{}.of(colour);
+        dvec3 last(0), before(0);
+        double last_luminance = 0;
+        for (int i = 1; i <= kSteps; ++i) {
+            const double d = kStep * i;
+            const dvec3 shown = bright(colour, d), now = Oklab{}.of(shown);
+            ASSERT_GE(std::min({shown.x, shown.y, shown.z}), 0);
+            ASSERT_LE(std::max({shown.x, shown.y, shown.z}), 1 + 1e-12);
+            ASSERT_LE(luminance(shown), d + 1e-12);
+            ASSERT_GT(luminance(shown), last_luminance + 0.05 * kStep) << "of blue, which has 14 times as far to go as its own luminance";
+            // 0.2 degrees: where blue is cut at the edge of Rec. 709.
+            const double turned = (now.y * lab.z - now.z * lab.y) / (std::hypot(now.y, now.z) * std::hypot(lab.y, lab.z));
+            ASSERT_LT(std::abs(turned), 0.2 / 57.3) << d;
+            // Yellow is nearly as bright as white: all that gives way there does so within a fourteenth.
+            ASSERT_LT(glm::length(shown - last), std::max(1.1 * std::sqrt(3.0) * most, 14.0) * kStep) << "no step at " << d;
+            // An edge would bend a channel by up to its slope, `most`, within a step; a parabola over two knees does by most^2 / (2 knee).
+            if (i > 2 && most > 1.5) {
+                ASSERT_LT(glm::length(shown - 2.0 * last + before), 2 * std::sqrt(3.0) * most * most / 0.3 * kStep * kStep) << "no edge at " << d;
+            }
+            before = last, last = shown, last_luminance = luminance(shown);
+        }
+    }
+}
+
+// Around the edge of the display, at every luminance: nowhere more of a step than where chromaticity is kept, which has its largest near blue.
+TEST(CompositeReference, NeighbouringHuesLookAlike) {
+    const std::vector<dvec3> colours = every_hue(720);
+    const auto largest_step = [&](uint32_t gamut) {
+        double largest = 0;
+        for (double d = 0.01; d <= 1; d += 0.01)
+            for (size_t i = 1; i < 720; ++i) largest = std::max(largest, glm::length(bright(colours[i], d, gamut) - bright(colours[i - 1], d, gamut)));
+        return largest;
+    };
+    EXPECT_LT(largest_step(shared::kGamutLuminance), largest_step(shared::kGamutChromaticity));
+}
+
+// What is white is the display's, also where it is another than the scene's.
+TEST(CompositeReference, OtherDisplaysHaveAWhiteOfTheirOwn) {
+    for (const Primaries& primaries : {kDisplayP3, kRec2020, Primaries{{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}}) {
+        const glm::dmat3 to_own = from_rec709(primaries), from_own = glm::inverse(to_own);
+        for (double d : {0.2, 0.9, 0.999}) EXPECT_NEAR(glm::length(bright(from_own * dvec3(1), d, shared::kGamutLuminance, to_own) - dvec3(d)), 0, 1e-5);
+        for (dvec3 own : every_hue(30)) {
+            double last = 0;
+            for (double d = 0.01; d <= 1; d += 0.01) {
+                const dvec3 shown = bright(from_own * own, d, shared::kGamutLuminance, to_own);
+                ASSERT_GE(std::min({shown.x, shown.y, shown.z}), -1e-12);
+                ASSERT_LE(std::max({shown.x, shown.y, shown.z}), 1 + 1e-12);
+                ASSERT_GT(luminance(from_own * shown), last);
+                last = luminance(from_own * shown);
+            }
+        }
+    }
+}
+
+TEST(CompositeReference, ClippedChannelsEndOneByOne) {
+    EXPECT_NEAR(glm::length(bright({2, 1, 0.5}, luminance({2, 1, 0.5}) / 2, shared::kGamutClip) - dvec3(1, 0.5, 0.25)), 0, 1e-12);
+    EXPECT_NEAR(glm::length(bright({2, 1, 0.5}, 0.8 * luminance({2, 1, 0.5}), shared::kGamutClip) - dvec3(1, 0.8, 0.4)), 0, 1e-12);
+    EXPECT_NEAR(bright({0.4, 0.6, -0.2}, 0.3, shared::kGamutClip).z, 0, 0);
 }
 
 // Outside the primaries: the same luminance and dominant wavelength, on the edge of the triangle.

@@ -40,7 +40,7 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
         const auto bands = reference::bands(luminance, extent.width, extent.height, levels, foveal_level, adapted.tone, parameters);
         for (size_t i = 0; i < banded.size(); ++i)
             if (reference::finite(glm::dvec3(scene[i]))) banded[i] = glm::vec4(glm::vec3(reference::banded(glm::dvec3(scene[i]), std::exp(bands.shown[i]), tone, adapted.tone)), 1);
-        tone = shared::kToneLinear;
+        tone = shared::kToneLinear | (tone & shared::kGamutMask);
     }
     const reference::CompositeFrame<glm::vec4> frame{banded, {}, {}, {extent.width, extent.height}};
     std::vector<glm::dvec3> codes;

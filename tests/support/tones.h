@@ -14,7 +14,10 @@ namespace vesper::test {
 constexpr uint32_t kEveryTone[]{shared::kToneCurve, shared::kToneReinhard, shared::kToneLinear, shared::kToneLdr, shared::kToneColour, shared::kToneRods,
                                 shared::kToneCurve | shared::kToneColourLoss, shared::kToneLinear | shared::kTonePurkinje,
                                 shared::kToneReinhard | shared::kToneColourLoss | shared::kTonePurkinje,
-                                shared::kToneColour | shared::kTonePhotopicRods, shared::kToneRods | shared::kTonePhotopicRods};
+                                shared::kToneColour | shared::kTonePhotopicRods, shared::kToneRods | shared::kTonePhotopicRods,
+                                shared::kToneCurve | shared::kGamutChromaticity, shared::kToneCurve | shared::kGamutClip,
+                                shared::kToneReinhard | shared::kGamutChromaticity, shared::kToneLinear | shared::kGamutClip,
+                                shared::kToneColour | shared::kGamutChromaticity, shared::kToneRods | shared::kGamutClip};
 
 /// A tone curve with parameters for every operator: a crooked table from 0.01 to 1e4 cd/m^2, Reinhard with white at
 /// 3000, linear from 0.05 to 80.

@@ -4,7 +4,7 @@
 #include "shared/photometry.h"
 #include "gamut.glsl"
 
-const float kLeastRatio = 1e-6;
+const float kLeastRatio = 0.01;
 
 layout(constant_id = 0) const uint kTone = kToneCurve;
 const uint kForm = kTone & kToneForm;
@@ -80,10 +80,13 @@ Mapped mapped(samplerBuffer curve, Tone tone, vec3 rgb, float display_low, float
     return Mapped((exp(node.r) - display_low) / (display_high - display_low), 1.0, 1.0);
 }
 
-// Ratios of a colour, raised to the power and mixed with grey.
+// Ratios of a colour to its luminance, raised to the power and mixed with grey.
 vec3 faded(vec3 ratios, Mapped to) {
-    // A channel without light keeps some, so that in the dark, where exponents go to 0, it goes grey with the others.
-    return mix(vec3(1.0), pow(max(ratios, vec3(kLeastRatio)), vec3(to.exponent)), to.share);
+    // A channel with less light than kLeastRatio, or negative light, gets that from the others: powers are steep near 0, and a colour that
+    // leaves the primaries would have an edge there. In the dark, where exponents go to 0, it goes grey with the others.
+    const float least = min(ratios.r, min(ratios.g, ratios.b));
+    if (least < kLeastRatio) ratios = max(1.0 + (ratios - 1.0) * ((1.0 - kLeastRatio) / (1.0 - least)), vec3(kLeastRatio));
+    return mix(vec3(1.0), pow(ratios, vec3(to.exponent)), to.share);
 }
 
 bool is_finite(float x) { return abs(x) <= 3.4e38; }

@@ -76,8 +76,8 @@ inline glm::dmat3 from_rec709(const Primaries& to) {
     return glm::inverse(to_xyz(to)) * to_xyz(kRec709);
 }
 
-/// Colour of a pixel at displayed luminance d: ratios are kept; with Pattanaik et al. 2000 (Eq. 19) those of at least 1e-6 are
-/// raised to a power and mixed with grey as pfstmo does.
+/// Colour of a pixel at displayed luminance d: ratios are kept; with Pattanaik et al. 2000 (Eq. 19) the nearest of the same luminance and
+/// hue line that are 0.01 at least are raised to a power, and mixed with grey as pfstmo does.
 inline dvec3 coloured(dvec3 rgb, dvec3 own, double d, uint32_t tone, const shared::ToneCurve& c) {
     const double y = luminance(rgb);
     if (!(y > 0)) return dvec3(d);
@@ -85,7 +85,9 @@ inline dvec3 coloured(dvec3 rgb, dvec3 own, double d, uint32_t tone, const share
     if ((tone & shared::kToneForm) == shared::kToneColour) {
         const dvec4 node = node_at(y, c);
         const double rods = node_at(scotopic(rgb, tone), c).z, share = node.x / std::max(node.x + rods, 1e-30);
-        for (int k = 0; k < 3; ++k) ratios[k] = share * std::pow(std::max(ratios[k], 1e-6), node.y) + 1 - share;
+        const double least = std::min({ratios.x, ratios.y, ratios.z});
+        if (least < 0.01) ratios = glm::max(glm::mix(ratios, dvec3(1), (0.01 - least) / (1 - least)), dvec3(0.01));
+        for (int k = 0; k < 3; ++k) ratios[k] = share * std::pow(ratios[k], node.y) + 1 - share;
     }
     return d * ratios;
 }

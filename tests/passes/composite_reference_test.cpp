@@ -1,6 +1,8 @@
 // Tone mapping, colour and display model in double. SPDX-License-Identifier: MIT
 #include "passes/composite_reference.h"
 
+#include "perception/pattanaik.h"
+
 #include <random>
 
 #include <gtest/gtest.h>
@@ -221,6 +223,42 @@ TEST(CompositeReference, ColoursOutsideGoTowardsGreyNoFartherThanTheyMust) {
     EXPECT_NEAR(shown.z, 0, 1e-12);
     EXPECT_NEAR(luminance(shown), luminance(rgb), 1e-7);
     EXPECT_NEAR(glm::length(glm::cross(shown - grey, rgb - grey)), 0, 1e-7);
+}
+
+// Eyes adapted to an evening street, as adapt_reference.h makes their curves: Pattanaik's responses, and Ferwerda's gains.
+shared::ToneCurve evening(uint32_t form) {
+    shared::ToneCurve c{};
+    if (form == shared::kToneRods) {
+        c.linear_low = 0.01f, c.linear_gain = 0.2f, c.rods = glm::vec3(0.4f);
+        c.red.x = c.green.y = c.blue.z = 1;
+        return c;
+    }
+    const pattanaik::Appearance appearance(pattanaik::adapted(1, 2.57), 5e5);
+    c.bins = shared::kMaxNodes, c.ln_low = float(std::log(1e-4)), c.bins_per_ln = float(shared::kMaxNodes / std::log(1e12));
+    for (uint32_t i = 0; i <= shared::kMaxNodes; ++i) {
+        const double luminance = std::pow(10, -4 + 12.0 * i / shared::kMaxNodes);
+        c.node[i] = glm::vec4(float(appearance.cones(luminance)), float(appearance(luminance, luminance).colour_exponent), float(appearance.rods(2.57 * luminance)), 0);
+    }
+    c.response_offset = float(appearance.offset()), c.response_unit = float(pattanaik::cone_sigma(25) / 125);
+    return c;
+}
+
+// From grey out of Rec. 709 to where nothing is left of its luminance: what lies beside each other looks alike all the way.
+TEST(CompositeReference, LightOutsideThePrimariesLeavesNoEdge) {
+    constexpr int kSteps = 4000;
+    for (uint32_t form : {shared::kToneColour, shared::kToneRods})
+        for (double level : {0.01, 0.3, 3.0})
+            for (dvec3 hue : every_hue(24)) {
+                const shared::ToneCurve c = evening(form);
+                dvec3 last = displayed(dvec3(level), form, c, 1, 100);
+                for (int i = 1; i <= kSteps; ++i) {
+                    const dvec3 shown = displayed(level * (1.0 + (hue - 1.0) * (2.5 * i / kSteps)), form, c, 1, 100);
+                    // Blue of 3 cd/m^2 goes out with a slope of 19; powers of 1e-6 had one of 115 at the border.
+                    ASSERT_LT(glm::length(shown - last), 25.0 / kSteps)
+                        << "form " << form << ", " << level << " cd/m^2, hue " << hue.x << " " << hue.y << " " << hue.z << " at " << 2.5 * i / kSteps;
+                    last = shown;
+                }
+            }
 }
 
 // Radiance between no light and hardly any: no step.

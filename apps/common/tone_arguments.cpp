@@ -25,6 +25,7 @@ constexpr NamedGlare kGlares[]{{"none", Glare::None},
                                {"spencer", Glare::Scatter, ScatterSettings::Model::Spencer},
                                {"ward", Glare::Scatter, ScatterSettings::Model::Ward},
                                {"ldr", Glare::Ldr}};
+const std::map<std::string, uint32_t> kGamuts{{"luminance", shared::kGamutLuminance}, {"chromaticity", shared::kGamutChromaticity}, {"clip", shared::kGamutClip}};
 const std::map<std::string, SpencerState> kPupils{{"photopic", SpencerState::Photopic}, {"mesopic", SpencerState::Mesopic}, {"scotopic", SpencerState::Scotopic}};
 
 Display display_of(const ToneArguments& arguments) {
@@ -71,6 +72,7 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
     command.add_option("--linear-max", a.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
     help_group(command);
     command.add_option("--display", a.display, "NAME (" + known_display_names() + ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
+    command.add_option("--gamut", a.gamut, "What a colour keeps that the display cannot show as bright: luminance (brighter is brighter, and goes towards white), chromaticity (as bright as it can be), clip (neither: each channel ends by itself)")->check(CLI::IsMember(gamut_names()))->capture_default_str();
     help_group(command, "Display");
     command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2")->check(between(0.1, 1e5));
     command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2")->check(between(1e-6, 1e3));
@@ -87,6 +89,7 @@ ToneChainSettings tone_settings(const ToneArguments& arguments) {
     settings.scatter = {glare.model, {arguments.tone.observer.age, arguments.iris}, kPupils.at(arguments.pupil), {arguments.eye_seed, arguments.lashes}};
     settings.histogram = arguments.histogram;
     settings.tone = arguments.tone;
+    settings.tone.gamut = kGamuts.at(arguments.gamut);
     apply(arguments.eye, settings);
     settings.histogram.log10_low = float(std::log10(arguments.histogram_low));
     settings.histogram.log10_high = float(std::log10(arguments.histogram_high));
@@ -104,6 +107,11 @@ const std::vector<std::string>& glare_names() {
         for (const NamedGlare& glare : kGlares) made.emplace_back(glare.name);
         return made;
     }();
+    return names;
+}
+
+const std::vector<std::string>& gamut_names() {
+    static const std::vector<std::string> names{"luminance", "chromaticity", "clip"};
     return names;
 }
 

@@ -15,7 +15,7 @@ namespace vesper {
 /// Options of the way from luminance to display codes.
 struct ToneArguments {
     EyeArguments eye;
-    std::string glare = "none", pupil = "photopic", display;
+    std::string glare = "none", pupil = "photopic", display, gamut = "luminance";
     double iris = ScatteringEye{}.pigmentation;
     uint32_t eye_seed = ApertureSettings{}.seed;
     bool lashes = false;
@@ -33,6 +33,8 @@ std::string name_of(Operator);
 std::string name_of(ScatterSettings::Model);
 /// What --glare takes.
 const std::vector<std::string>& glare_names();
+/// What --gamut takes.
+const std::vector<std::string>& gamut_names();
 /// What a picture's header should say of how it is shown.
 Header describe_tone(const ToneChainSettings&, const ToneMapped&);
 /// Nine digits, as in headers.

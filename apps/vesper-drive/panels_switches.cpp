@@ -66,6 +66,7 @@ void Instruments::draw_switches(const Moment& now, std::vector<Change>& changes)
         for (const NamedDisplay& known : known_displays())
             if (now.screen.shows(known.display)) names.emplace_back(known.name);
         to.choice("display", "display", to.text("display", known_displays().front().name), names);
+        to.choice("bright colours keep", "gamut", to.text("gamut", "luminance"), gamut_names());
         if (render.display.eotf != Eotf::Table) {
             to.slider("peak", "display-peak", render.display.peak, 1, 4000, "%.0f cd/m²", true);
             to.slider("black", "display-black", render.display.black, 0.001f, 2, "%.3f cd/m²", true);

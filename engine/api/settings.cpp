@@ -18,6 +18,7 @@ constexpr Scattering kScatterings[] = {{VESPER_GLARE_CIE, ScatterSettings::Model
                                        {VESPER_GLARE_SPENCER, ScatterSettings::Model::Spencer},
                                        {VESPER_GLARE_WARD, ScatterSettings::Model::Ward}};
 constexpr uint32_t kAdaptTo[] = {shared::kAdaptAverage, shared::kAdaptGaze, shared::kAdaptGazeMean, shared::kAdaptTexel};  // from VESPER_ADAPT_AVERAGE on
+constexpr uint32_t kGamuts[] = {shared::kGamutLuminance, shared::kGamutChromaticity, shared::kGamutClip};  // by VesperGamut
 static_assert(VESPER_PUPIL_MESOPIC == int(SpencerState::Mesopic) && VESPER_PUPIL_SCOTOPIC == int(SpencerState::Scotopic));
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
@@ -51,7 +52,7 @@ Display display_of(const VesperToneSettings& s) {
 RenderSettings vesper::api::settings_of(const VesperToneSettings* given) {
     const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
     const auto is_operator = [&](const OperatorInfo& info) { return info.tone_operator != Operator::Ldr && uint32_t(info.tone_operator) == s.tone_operator; };
-    require(s.reserved == 0, "what is reserved in tone settings is 0");
+    require(s.gamut <= VESPER_GAMUT_CLIP, "there is no such gamut");
     require(std::ranges::any_of(operators(), is_operator), "there is no such tone operator");
     require(s.glare <= VESPER_GLARE_WARD, "there is no such glare");
     require(s.bins >= 1 && s.bins <= shared::kMaxBins, "a histogram has 1 to 256 bins");
@@ -78,6 +79,7 @@ RenderSettings vesper::api::settings_of(const VesperToneSettings* given) {
     tone.gaze = {s.gaze[0], s.gaze[1]};
     tone.colour_loss = s.colour_loss, tone.acuity_loss = s.acuity_loss, tone.purkinje = s.purkinje;
     tone.smoothing_seconds = s.smoothing;
+    tone.gamut = kGamuts[s.gamut];
     tone.key = s.key, tone.white = tone.linear_high = s.white, tone.linear_low = s.black;
     if (s.adapt_to != VESPER_ADAPT_AS_OPERATOR) tone.adapt_to = kAdaptTo[s.adapt_to - VESPER_ADAPT_AVERAGE];
     settings.display = display_of(s);

@@ -96,7 +96,7 @@ TEST_F(CInterface, EverySettingArrives) {
     ToneMapper engine(own);
     constexpr uint32_t width = 40, height = 30;
     std::vector<float> rgb = night(width, height);
-    for (size_t i = 0; i < 3; ++i) rgb[3 * (width * 9 + 11) + i] = 3e5f;  // a lamp
+    for (size_t i = 0; i < 3; ++i) rgb[3 * (width * 9 + 11) + i] = 3e5f / float(i + 1);  // a warm lamp
     VesperPicture picture = picture_of(rgb, width, height);
     picture.scale = 0.01f;
     struct Case {
@@ -120,6 +120,8 @@ TEST_F(CInterface, EverySettingArrives) {
         {"colour", [](auto& s) { s.colour_loss = 1; }, [](auto& e) { e.tone.colour_loss = true; }},
         {"acuity", [](auto& s) { s.acuity_loss = 1; }, [](auto& e) { e.tone.acuity_loss = true; }, 0.02f},  // fine enough for what dim light loses
         {"purkinje", [](auto& s) { s.purkinje = 1; }, [](auto& e) { e.tone.purkinje = true; }},
+        {"chromaticity", [](auto& s) { s.gamut = VESPER_GAMUT_CHROMATICITY; }, [](auto& e) { e.tone.gamut = shared::kGamutChromaticity; }},
+        {"clip", [](auto& s) { s.gamut = VESPER_GAMUT_CLIP; }, [](auto& e) { e.tone.gamut = shared::kGamutClip; }},
         {"key", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.key = 0.5f; }, [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.key = 0.5f; }},
         {"white", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.white = 50; }, [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.white = 50; }},
         {"linear", [](auto& s) { s.tone_operator = VESPER_LINEAR, s.white = 50, s.black = 1; }, [](auto& e) { e.tone_operator = Operator::Linear, e.tone.linear_high = 50, e.tone.linear_low = 1; }},
@@ -262,7 +264,7 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     refuses([](auto&, auto& s, auto&, auto&) { s.bins = 257; });
     refuses([](auto&, auto& s, auto&, auto&) { s.adapt_to = 5; });
     refuses([](auto&, auto& s, auto&, auto&) { s.pupil = 3; });
-    refuses([](auto&, auto& s, auto&, auto&) { s.reserved = 1; });
+    refuses([](auto&, auto& s, auto&, auto&) { s.gamut = 3; });
     refuses([](auto&, auto& s, auto&, auto&) { s.smoothing = -1; });
     refuses([](auto&, auto& s, auto&, auto&) { s.low_vision = 0; });
     refuses([](auto&, auto& s, auto&, auto&) { s.histogram_high = s.histogram_low; });

@@ -1,4 +1,5 @@
 // `vesper tonemap` as people run it. SPDX-License-Identifier: MIT
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -48,6 +49,29 @@ protected:
         return true;
     }
 };
+
+// Red of twice what the display has in it, and of all that white has: as it was named, and nearer to white as it is brighter.
+TEST_F(TonemapProgram, BrightColoursGiveWayAsAsked) {
+    HdrImage image{3, 1, {}, 0, {}};
+    for (const float luminance : {0.1f, 0.4f, 1.0f}) image.rgb.insert(image.rgb.end(), {luminance / 0.212639f, 0, 0});
+    write_layout(folder / "red.exr", image, {});
+    const auto green_of = [&](const std::string& options) {
+        EXPECT_EQ(tonemap("red.exr --scale 1 --operator linear --linear-max 1 " + options + " -o red.png"), 0) << said;
+        const Image shown = png("red.png");
+        EXPECT_TRUE(shown.rgba[0] > 170 && shown.rgba[0] < 190) << "below its own luminance red is itself: " << int(shown.rgba[0]);
+        EXPECT_TRUE(shown.rgba[4] == 255 && shown.rgba[8] == 255);
+        return std::array<int, 3>{shown.rgba[1], shown.rgba[5], shown.rgba[9]};
+    };
+    const auto given_way = green_of("");
+    EXPECT_EQ(given_way, green_of("--gamut luminance"));
+    EXPECT_EQ(given_way[0], 0);
+    EXPECT_TRUE(given_way[1] > 30 && given_way[2] > given_way[1] + 30 && given_way[2] < 160) << given_way[1] << ", " << given_way[2];
+    EXPECT_EQ(green_of("--gamut chromaticity"), (std::array<int, 3>{}));
+    EXPECT_EQ(green_of("--gamut clip"), (std::array<int, 3>{}));
+    EXPECT_EQ(tonemap("red.exr --gamut white -o other.png"), 2);
+    EXPECT_NE(said.find("--gamut"), std::string::npos) << said;
+    EXPECT_FALSE(fs::exists(folder / "other.png"));
+}
 
 TEST_F(TonemapProgram, OnePictureInEveryLayoutIsOnePicture) {
     const HdrImage image = street(100, 70);

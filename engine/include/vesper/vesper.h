@@ -134,6 +134,13 @@ typedef enum VesperAdaptTo {
     VESPER_ADAPT_TEXEL = 4        /**< one degree at the gaze, as Petit, Bremond and Vienne have it */
 } VesperAdaptTo;
 
+/** What a colour keeps that the display cannot show as bright. */
+typedef enum VesperGamut {
+    VESPER_GAMUT_LUMINANCE = 0,    /**< its order of luminance: it goes towards white */
+    VESPER_GAMUT_CHROMATICITY = 1, /**< it is shown as bright as it can be */
+    VESPER_GAMUT_CLIP = 2          /**< neither: each channel ends by itself */
+} VesperGamut;
+
 /** Most options of vesper tonemap. Begin with vesper_tone_settings_defaults: zeros are not the defaults, and some are refused. */
 typedef struct VesperToneSettings {
     uint32_t size;             /**< of this structure */
@@ -164,7 +171,7 @@ typedef struct VesperToneSettings {
     uint32_t pupil;            /**< a VesperPupil */
     uint32_t eye_seed;         /**< VESPER_GLARE_TEMPORAL and _SPENCER: whose eye: what needles it has */
     int32_t lashes;            /**< VESPER_GLARE_TEMPORAL: the eye squints (0 or 1) */
-    uint32_t reserved;         /**< 0 */
+    uint32_t gamut;            /**< a VesperGamut */
 } VesperToneSettings;
 
 /** What `vesper tonemap` does without options; `size` is that of the caller's structure. */

@@ -16,8 +16,8 @@ const float kGamutKnee = 0.15f;
 // What light as bright as the display's white keeps of its chroma (over lightness): a signal's colour stays to be named.
 const float kGamutChroma = 0.5f;
 
-// Oklab (Ottosson 2020, "A perceptual color space for image processing"; public domain): responses of long, middle and short cones to linear
-// Rec. 709, 1 to white; lightness is the sum of their cube roots by kOklabLightness.
+// Oklab (Ottosson 2020, "A perceptual color space for image processing"; public domain): responses of long, middle and short cones
+// to linear Rec. 709, 1 to white; lightness is the sum of their cube roots by kOklabLightness.
 const vec3 kOklabLong = vec3(0.4122214708f, 0.5363325363f, 0.0514459929f);
 const vec3 kOklabMiddle = vec3(0.2119034982f, 0.6806995451f, 0.1073969566f);
 const vec3 kOklabShort = vec3(0.0883024619f, 0.2817188376f, 0.6299787005f);

@@ -94,8 +94,10 @@ inline dvec3 coloured(dvec3 rgb, dvec3 own, double d, uint32_t tone, const share
 
 /// Oklab of linear Rec. 709 and back (Ottosson 2020), for another white than (1, 1, 1) after von Kries.
 struct Oklab {
-    glm::dmat3 cones = glm::transpose(glm::dmat3(0.4122214708, 0.5363325363, 0.0514459929, 0.2119034982, 0.6806995451, 0.1073969566, 0.0883024619, 0.2817188376, 0.6299787005));
-    glm::dmat3 lab = glm::transpose(glm::dmat3(0.2104542553, 0.7936177850, -0.0040720468, 1.9779984951, -2.4285922050, 0.4505937099, 0.0259040371, 0.7827717662, -0.8086757660));
+    glm::dmat3 cones = glm::transpose(glm::dmat3(0.4122214708, 0.5363325363, 0.0514459929, 0.2119034982, 0.6806995451, 0.1073969566,
+                                                 0.0883024619, 0.2817188376, 0.6299787005));
+    glm::dmat3 lab = glm::transpose(glm::dmat3(0.2104542553, 0.7936177850, -0.0040720468, 1.9779984951, -2.4285922050, 0.4505937099,
+                                               0.0259040371, 0.7827717662, -0.8086757660));
     dvec3 white{1};
 
     dvec3 of(dvec3 rgb) const {
@@ -217,7 +219,8 @@ dvec3 composite_light(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uin
 
 /// Unrounded codes of one pixel.
 template <class Rgb>
-dvec3 composite(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t tone, const shared::ToneCurve& curve, const Display& display) {
+dvec3 composite(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t tone, const shared::ToneCurve& curve,
+                const Display& display) {
     return code(composite_light(frame, pixel, tone, curve, display), display);
 }
 

@@ -60,7 +60,8 @@ TEST(CompositeReference, LinearRunsFromLowToHigh) {
     EXPECT_EQ(tone_mapped(1e6, shared::kToneLinear, c, 0, 1), 1);
 }
 
-constexpr uint32_t kCurveKept = shared::kToneCurve | shared::kGamutChromaticity, kLinearKept = shared::kToneLinear | shared::kGamutChromaticity;
+constexpr uint32_t kCurveKept = shared::kToneCurve | shared::kGamutChromaticity;
+constexpr uint32_t kLinearKept = shared::kToneLinear | shared::kGamutChromaticity;
 
 // Whatever the colour, its chromaticity is kept, and its luminance unless the display is not that bright in that colour.
 TEST(CompositeReference, ColoursAreKeptAndAsBrightAsTheDisplayIsInThem) {
@@ -91,7 +92,10 @@ TEST(CompositeReference, BrightRedStaysRed) {
 
 // Ottosson 2020 has white at (1, 0, 0); the primaries of sRGB as CSS Color 4 implementations print them.
 TEST(CompositeReference, OklabIsThePublishedOne) {
-    const std::pair<dvec3, dvec3> published[]{{dvec3(1), {1, 0, 0}}, {{1, 0, 0}, {0.62796, 0.22486, 0.12585}}, {{0, 1, 0}, {0.86644, -0.23389, 0.17950}}, {{0, 0, 1}, {0.45201, -0.03246, -0.31153}}};
+    const std::pair<dvec3, dvec3> published[]{{dvec3(1), {1, 0, 0}},
+                                              {{1, 0, 0}, {0.62796, 0.22486, 0.12585}},
+                                              {{0, 1, 0}, {0.86644, -0.23389, 0.17950}},
+                                              {{0, 0, 1}, {0.45201, -0.03246, -0.31153}}};
     for (const auto& [rgb, lab] : published) {
         EXPECT_NEAR(glm::length(Oklab{}.of(rgb) - lab), 0, 1e-5);
         EXPECT_NEAR(glm::length(Oklab{}.rgb(Oklab{}.of(rgb)) - rgb), 0, 1e-12);
@@ -126,7 +130,8 @@ TEST(CompositeReference, PrimariesHaveClosedForms) {
         for (double d : {1.0, 7.0}) {
             const dvec3 shown = bright(colour, d);
             EXPECT_NEAR(std::max({shown.x, shown.y, shown.z}), 1, 1e-12);
-            EXPECT_NEAR(chroma_over_lightness(shown) / chroma_over_lightness(colour), 0.5, 2e-3) << "blue leaves Rec. 709 by a thousandth on its way, and is cut";
+            // Blue leaves Rec. 709 by a thousandth on its way, and is cut.
+            EXPECT_NEAR(chroma_over_lightness(shown) / chroma_over_lightness(colour), 0.5, 2e-3);
         }
         const dvec3 knee = bright(colour, own), half = bright(colour, (1 + own) / 2);
         EXPECT_NEAR(std::max({knee.x, knee.y, knee.z}), 1 - 0.15 / 4, 1e-12);

@@ -177,7 +177,8 @@ TEST(CompositeReference, OrderAndHueAreKeptAndNothingJumps) {
             ASSERT_LT(glm::length(shown - last), std::max(1.1 * std::sqrt(3.0) * most, 14.0) * kStep) << "no step at " << d;
             // An edge would bend a channel by up to its slope, `most`, within a step; a parabola over two knees does by most^2 / (2 knee).
             if (i > 2 && most > 1.5) {
-                ASSERT_LT(glm::length(shown - 2.0 * last + before), 2 * std::sqrt(3.0) * most * most / 0.3 * kStep * kStep) << "no edge at " << d;
+                ASSERT_LT(glm::length(shown - 2.0 * last + before), 2 * std::sqrt(3.0) * most * most / 0.3 * kStep * kStep)
+                    << "no edge at " << d;
             }
             before = last, last = shown, last_luminance = luminance(shown);
         }
@@ -190,7 +191,8 @@ TEST(CompositeReference, NeighbouringHuesLookAlike) {
     const auto largest_step = [&](uint32_t gamut) {
         double largest = 0;
         for (double d = 0.01; d <= 1; d += 0.01)
-            for (size_t i = 1; i < 720; ++i) largest = std::max(largest, glm::length(bright(colours[i], d, gamut) - bright(colours[i - 1], d, gamut)));
+            for (size_t i = 1; i < 720; ++i)
+                largest = std::max(largest, glm::length(bright(colours[i], d, gamut) - bright(colours[i - 1], d, gamut)));
         return largest;
     };
     EXPECT_LT(largest_step(shared::kGamutLuminance), largest_step(shared::kGamutChromaticity));
@@ -200,7 +202,8 @@ TEST(CompositeReference, NeighbouringHuesLookAlike) {
 TEST(CompositeReference, OtherDisplaysHaveAWhiteOfTheirOwn) {
     for (const Primaries& primaries : {kDisplayP3, kRec2020, Primaries{{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}}) {
         const glm::dmat3 to_own = from_rec709(primaries), from_own = glm::inverse(to_own);
-        for (double d : {0.2, 0.9, 0.999}) EXPECT_NEAR(glm::length(bright(from_own * dvec3(1), d, shared::kGamutLuminance, to_own) - dvec3(d)), 0, 1e-5);
+        for (double d : {0.2, 0.9, 0.999})
+            EXPECT_NEAR(glm::length(bright(from_own * dvec3(1), d, shared::kGamutLuminance, to_own) - dvec3(d)), 0, 1e-5);
         for (dvec3 own : every_hue(30)) {
             double last = 0;
             for (double d = 0.01; d <= 1; d += 0.01) {
@@ -260,7 +263,8 @@ TEST(CompositeReference, LightOutsideThePrimariesLeavesNoEdge) {
                     const dvec3 shown = displayed(level * (1.0 + (hue - 1.0) * (2.5 * i / kSteps)), form, c, 1, 100);
                     // Blue of 3 cd/m^2 goes out with a slope of 19; powers of 1e-6 had one of 115 at the border.
                     ASSERT_LT(glm::length(shown - last), 25.0 / kSteps)
-                        << "form " << form << ", " << level << " cd/m^2, hue " << hue.x << " " << hue.y << " " << hue.z << " at " << 2.5 * i / kSteps;
+                        << "form " << form << ", " << level << " cd/m^2, hue " << hue.x << " " << hue.y << " " << hue.z << " at "
+                        << 2.5 * i / kSteps;
                     last = shown;
                 }
             }

@@ -67,7 +67,8 @@ void expect_reference(const std::vector<uint16_t>& got, const Inputs& in, uint32
         for (uint32_t x = 0; x < w; ++x) {
             const auto light = reference::composite_light(frame, {x, y}, tone, in.curve, in.display);
             const auto code = reference::code(light, in.display);
-            const bool gives_way = (tone & shared::kGamutMask) == shared::kGamutLuminance && std::max({light.x, light.y, light.z}) > 1 - shared::kGamutKnee;
+            const bool gives_way = (tone & shared::kGamutMask) == shared::kGamutLuminance &&
+                                   std::max({light.x, light.y, light.z}) > 1 - shared::kGamutKnee;
             const auto off = gives_way ? reference::code(light + kCancelled, in.display) - reference::code(light - kCancelled, in.display) : glm::dvec3(0);
             for (uint32_t c = 0; c < 3; ++c) {
                 rounding.at(x, y, c) = off[int(c)];

@@ -13,8 +13,9 @@ const uint kGamutClip = 0x1000u;         // either: each channel ends at the dis
 // kGamutLuminance. Chromaticity begins to give way this part below the largest channel's end, and the channel reaches its end as
 // much above it, so that no edge is seen.
 const float kGamutKnee = 0.15f;
-// What light as bright as the display's white keeps of its chroma (over lightness): a signal's colour stays to be named.
-const float kGamutChroma = 0.5f;
+// What light as bright as the display's white loses of its chroma (over lightness), and how much more the brighter the display is in its
+// colour: a lantern glows nearly white, and a tail lamp stays red.
+const float kGamutLost = 0.2f, kGamutLostOfBright = 0.5f;
 
 // Oklab (Ottosson 2020, "A perceptual color space for image processing"; public domain): responses of long, middle and short cones
 // to linear Rec. 709, 1 to white; lightness is the sum of their cube roots by kOklabLightness.

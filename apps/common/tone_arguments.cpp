@@ -72,8 +72,8 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
     command.add_option("--linear-max", a.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
     help_group(command);
     command.add_option("--display", a.display, "NAME (" + known_display_names() + ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
-    command.add_option("--gamut", a.gamut, "What a colour keeps that the display cannot show as bright: luminance (brighter is brighter, and goes towards white), chromaticity (as bright as it can be), clip (neither: each channel ends by itself)")->check(CLI::IsMember(gamut_names()))->capture_default_str();
     help_group(command, "Display");
+    command.add_option("--gamut", a.gamut, "What a colour keeps that the display cannot show as bright: luminance (brighter is brighter, and goes towards white), chromaticity (as bright as it can be), clip (neither: each channel ends by itself)")->check(CLI::IsMember(gamut_names()))->capture_default_str();
     command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2")->check(between(0.1, 1e5));
     command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2")->check(between(1e-6, 1e3));
     command.add_option("--display-gamma", a.gamma, "Display: exponent")->check(between(0.5, 5.0));

@@ -32,7 +32,7 @@ shared float percentile[2];
 shared float share_of[kMaxBins];  // of the votes, bin by bin
 
 const float kBrightest = 1e6;  // cd/m^2 to which an eye adapts
-const float kLeash = 0.1;      // ln of display luminance by which a curve that is smoothed over time lags behind at most
+const float kLeash = 0.25;     // ln of display luminance by which a curve that is smoothed over time lags behind at most
 
 // ln of the luminances below which 1 and 99 % of the votes are. `share` of all `voters` is this invocation's bin's.
 void find_percentiles(float share, float voters) {

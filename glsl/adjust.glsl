@@ -1,7 +1,7 @@
 // Histogram adjustment (Ward Larson, Rushmeier and Piatko 1997) that is anchored at what the eye is adapted to. For adapt.comp.
 //
 // All is counted in just noticeable differences: of the scene, dL / T(L), as the eye in its state sees them; of the display,
-// dR / viewer_step, as a viewer adapted to half of its white sees them, R = L / (L + viewer_sigma). The curve goes through the anchor: what
+// dR / viewer_step, as a viewer adapted to kViewerOfWhite sees them, R = L / (L + viewer_sigma). The curve goes through the anchor: what
 // the eye is adapted to is as visible on the display as in the scene. Below it the curve depends on the eye alone. Above it a
 // step has min(n, b base + l votes): n differences of the scene are the ceiling, `base` fills the rest of the display without any votes,
 // and votes add contrast where they are. l is fixed, so that a share of the votes moves a grey by no more than that share of all codes; b
@@ -63,9 +63,9 @@ float compressed(float differences, float all, float room) {
     return room > 0.0 ? differences / (1.0 + (all > room ? differences * (1.0 / room - 1.0 / all) : 0.0)) : 0.0;
 }
 
-// The same seen from the other end: `climbed` of all differences from the darkest, which is 0, to the anchor, at `room`.
+// The same seen from the other end: `climbed` of all differences from the darkest, which is 0, to the anchor, at `room`, at most `all`.
 float climbed(float differences, float all, float room) {
-    return all > room ? differences * (room / all) / (1.0 + (all - differences) * (1.0 / room - 1.0 / all)) : room - all + differences;
+    return room > 0.0 ? differences * (room / all) / (1.0 + (all - differences) * (1.0 / room - 1.0 / all)) : 0.0;
 }
 
 // The luminance to which cones of that half saturation are adapted: where their threshold is that of adapted ones, below half saturation.
@@ -80,13 +80,13 @@ float adapted_luminance(float sigma) {
     return exp(low);
 }
 
-// Where the display shows what the eye is adapted to, in differences: L / T(L) is that of the scene, up to half of white.
+// Where the display shows what the eye is adapted to, in differences: L / T(L) is that of the scene, up to what the viewer is adapted to.
 float anchor_of(Thresholds eye, float adapted) {
     const float threshold = parameters.ceiling == kCeilingLinear ? power_of_ten(cone_log_threshold(log10_of(adapted), parameters.cone_break)) : scene_threshold(eye, adapted);
     const float x = min(parameters.viewer_step * adapted / threshold, 0.25);  // R (1 - R) of the viewer
     const float response = x / (0.5 + sqrt(0.25 - x)) + viewer_response(parameters.display_low);
-    const float half_white = differences_at(max(0.5 * parameters.display_high, parameters.display_low));
-    return response < 0.5 ? min(differences_at(luminance_of_response(response)), half_white) : half_white;
+    const float most = differences_at(max(kViewerOfWhite * parameters.display_high, parameters.display_low));
+    return response < 0.5 ? min(differences_at(luminance_of_response(response)), most) : most;
 }
 
 // Differences that the eye sees in a step of the curve whose middle is at `ln_middle` (Gauss's rule of two points).
@@ -139,10 +139,10 @@ float adjust(float h, Thresholds eye, out float lowest, out bool under_full, out
     const float adapted = adapted_luminance(eye.cone_sigma);
     const float at = clamp((log(adapted) - parameters.ln_low) / width, 0.0, float(count));  // of the anchor, in steps
     const float part_above = clamp(float(mine) + 1.0 - at, 0.0, 1.0);
-    const float anchor = anchor_of(eye, adapted), room = differences_at(high) - anchor;
-
     const float above = part_above * seen, to_above = running_sum(above), all_above = sum_of(above);
-    const float below = seen - above, to_below = running_sum(below), sum_below = sum_of(below), all_below = sum_below + darker;
+    const float below = seen - above, to_below = running_sum(below), all_below = sum_of(below) + darker;
+    // No more differences than the eye sees: no light stays black.
+    const float anchor = min(anchor_of(eye, adapted), all_below), room = differences_at(high) - anchor;
     const float base_from = compressed(max(to_above - above, 0.0), all_above, room), base_to = compressed(to_above, all_above, room);
     ceiling_of[mine] = above;
     base_of[mine] = base_to - base_from;

@@ -5,7 +5,7 @@
 
 // One band of contrast, in the way of Grave and Bremond 2008 (reconstructed): contrast to a texel of the level above, a log
 // average La shown at L'a, has the same visibility level there, the multiple of the contrast C = T(L) / L that is just seen: of an eye
-// adapted to La in the scene, to half of white on the display; but no more contrast than in the scene. ln L' = ln L'a + s (ln L - ln La),
+// adapted to La in the scene, to 0.3 of white on the display; but no more contrast than in the scene. ln L' = ln L'a + s (ln L - ln La),
 // s = min(C_display(curve(La)) / C(La), 1). So a texel hands three numbers down, ln s, ln La and ln L'a, which are linear between texels:
 // mixing s itself would let the darker side of an edge rule, and the brighter one glow. The topmost are shown as the tone curve has them.
 // The finest band gives pixels.

@@ -29,7 +29,7 @@ vec3 towards_white(Gamut gamut, vec3 light) {
     const float into = x - (1.0 - knee);
     const float beyond = x >= 1.0 + knee ? x : 1.0 + into * into / (4.0 * knee);
     const float channel = x + 1.0 - beyond;
-    const float lost = (kGamutLost + kGamutLostOfBright / most) * clamp((beyond - 1.0) / (most - 1.0), 0.0, 1.0);
+    const float lost = (kGamutLost + kGamutLostOfBright / most) * min((most - 1.0) / kGamutWay, 1.0) * clamp((beyond - 1.0) / (most - 1.0), 0.0, 1.0);
     // The cubes' difference goes to 0 with what is lost, without a remainder of rounding.
     const vec3 cones = gamut.cones * light;
     const vec3 root = sign(cones) * pow(abs(cones), vec3(1.0 / 3.0));

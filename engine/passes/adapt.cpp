@@ -52,7 +52,7 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
             .rod_tint = op.rod_tint[0] > 0 ? glm::vec3(op.rod_tint[0], op.rod_tint[1], op.rod_tint[2]) : glm::vec3(1),
             .scotopic = tone.photopic_rods ? 1 : shared::kScotopicOfWhite,
             .colour_tiles = {},
-            .viewer_sigma = float(viewer.adapted_sigma(double(display.high()) / 2)),
+            .viewer_sigma = float(viewer.adapted_sigma(double(display.high()) * double(shared::kViewerOfWhite))),
             .viewer_step = float(viewer.response_step()),
             .cones = receptors_of(ReceptorKind::Cones, tone.observer.observed_cones(), breaks),
             .rods = receptors_of(ReceptorKind::Rods, tone.observer.observed_rods(), breaks)};

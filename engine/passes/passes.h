@@ -220,7 +220,7 @@ Adaptation add_adaptation(FrameGraph&, const Kernels&, const Pyramid&, Resource 
 
 /// The scene as bands of contrast between the levels of the pyramid (log averages), up to the foveal one, each with the visibility
 /// level it has in the scene: contrast over what is just seen by cones adapted to a texel of the level above, and on the display by cones
-/// adapted to half of its white (Ferwerda et al. 1996; Grave and Bremond 2008, reconstructed), linear between such texels; never more
+/// adapted to 0.3 of its white (Ferwerda et al. 1996; Grave and Bremond 2008, reconstructed), linear between such texels; never more
 /// contrast than in the scene. What is above is mapped by `curve`. rgba32f, cd/m^2 on the display, before its limits. `tone`: kToneCurve
 /// and how dim light is perceived.
 Resource add_bands(FrameGraph&, const Kernels&, Resource scene, const Pyramid&, uint32_t foveal_level, Resource curve, uint32_t tone,

@@ -11,8 +11,8 @@ struct BandsPush {
     uvec2 size;         // texels of the level, or px
     uvec2 above_size;   // texels of the level above
     float cone_break;   // log10 L from which Weber's law holds
-    float viewer_sigma; // half saturation of an eye adapted to half of the display's white, cd/m^2
-    float viewer_step;  // just noticeable difference of its response
+    float viewer_sigma; // as of ToneParameters
+    float viewer_step;  // as of ToneParameters
 };
 SHARED_SIZE(BandsPush, 28)
 

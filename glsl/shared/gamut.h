@@ -16,6 +16,8 @@ const float kGamutKnee = 0.15f;
 // What light as bright as the display's white loses of its chroma (over lightness), and how much more the brighter the display is in its
 // colour: a lantern glows nearly white, and a tail lamp stays red.
 const float kGamutLost = 0.2f, kGamutLostOfBright = 0.5f;
+// Colours whose largest channel is less than this above their luminance have little way to go to white, and lose less on it.
+const float kGamutWay = 0.3f;
 
 // Oklab (Ottosson 2020, "A perceptual color space for image processing"; public domain): responses of long, middle and short cones
 // to linear Rec. 709, 1 to white; lightness is the sum of their cube roots by kOklabLightness.

@@ -27,11 +27,14 @@ const uint kModelGains = 4u;      // two linear gains: Ferwerda et al. 1996; of 
 const uint kModels = 5u;
 
 // Histogram adjustment: the threshold T that bounds the slope, d Ld / d L <= T_display(Ld) / T_scene(L). T_display is that of
-// cones adapted to half of white; of kModelTrimmed, that of cones (with kCeilingHuman: cones and rods) adapted to Ld.
+// cones of the display's viewer; of kModelTrimmed, that of cones (with kCeilingHuman: cones and rods) adapted to Ld.
 const uint kCeilingEye = 0u;     // scene: the eye in its present state
 const uint kCeilingHuman = 1u;   // adapted cones and rods merged (Ward et al. 1997)
 const uint kCeilingCones = 2u;   // adapted cones
 const uint kCeilingLinear = 3u;  // none beyond the contrast of the scene: d ln Ld / d ln L <= 1
+
+// What a viewer of the display is adapted to, over its white: the mean of common pictures (their log average is some 0.18).
+const float kViewerOfWhite = 0.3f;
 
 // What the eye adapts to.
 const uint kAdaptGaze = 0u;      // log average of 3 x 3 texels of the foveal level about the gaze, linear in its position
@@ -78,7 +81,7 @@ struct ToneParameters {
     vec3 rod_tint;             // colour of what rods see, for kModelGains
     float scotopic;            // scotopic luminance over luminance of what the eye adapts to
     uvec2 colour_tiles;        // of the colours that the eye adapts to; 0: it does not
-    float viewer_sigma;        // half saturation of an eye adapted to half of the display's white, cd/m^2
+    float viewer_sigma;        // half saturation of an eye adapted to kViewerOfWhite, cd/m^2
     float viewer_step;         // just noticeable difference of its response
     ReceptorParameters cones;
     ReceptorParameters rods;

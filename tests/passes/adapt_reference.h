@@ -131,7 +131,7 @@ inline Adapted adapt(const AdaptInputs& in) {
         out.adjusted = {{p.ln_low, double(p.bins_per_ln) * p.steps_per_bin, std::vector<double>(size_t(p.bins) * p.steps_per_bin + 1, std::log(double(p.display_low)))}, 0, false};
 
     // Over time every node of the curve follows, in ln Ld, never more than a tenth away; what is empty, and a pause, leave it as it was.
-    constexpr double kLeash = 0.1;
+    constexpr double kLeash = 0.25;
     const bool has_curve = in.model == shared::kModelHistogram || in.model == shared::kModelTrimmed;
     const Curve& curve = out.adjusted.curve;
     const size_t steps = curve.node.size() - 1;

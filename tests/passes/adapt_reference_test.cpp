@@ -203,7 +203,7 @@ TEST(AdaptReference, RecoversMonotonicallyFromAStep) {
                 next.previous = eye;
                 const Adapted a = adapt(next);
                 const double shown = std::exp(a.adjusted.curve.at(std::log(to)));
-                // 0.2 s: what is left of the curve before, a tenth at most, is gone.
+                // 0.2 s: what is left of the curve before, a quarter at most, is gone.
                 if (before > 0 && to < from) {
                     EXPECT_GE(shown, before * (now < 0.2 ? 0.95 : 0.999)) << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
                 }

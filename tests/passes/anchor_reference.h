@@ -5,7 +5,7 @@
 
 namespace vesper::reference {
 
-/// How a viewer who is adapted to half of white sees a display: responses L / (L + sigma), and just noticeable differences between
+/// How a viewer who is adapted to 0.3 of white sees a display: responses L / (L + sigma), and just noticeable differences between
 /// the display's darkest luminance and another one. Differences with kCeilingLinear: ln of the ratio.
 struct Viewer {
     double sigma, step, low, high;
@@ -38,14 +38,14 @@ inline double adapted_luminance(double sigma, const ReceptorModel& cones) {
     return std::exp(low);
 }
 
-/// Where the display shows what the eye is adapted to, in differences: with the L / T(L) of the scene, up to half of white.
+/// Where the display shows what the eye is adapted to, in differences: with the L / T(L) of the scene, up to 0.3 of white.
 inline double anchor(double adapted, const Thresholds& threshold, const shared::ToneParameters& p) {
     const Viewer viewer(p);
     const double t = viewer.linear ? cone_threshold(adapted, {p.cone_break, p.rod_break}) : threshold.scene(adapted);
-    const double half_white = viewer.differences(std::max(viewer.high / 2, viewer.low));
+    const double most = viewer.differences(std::max(0.3 * viewer.high, viewer.low));
     // R (1 - R) = step L / T(L): the lesser root, that of a luminance below half saturation.
     const double product = std::min(viewer.step * adapted / t, 0.25), response = (1 - std::sqrt(1 - 4 * product)) / 2 + viewer.response(viewer.low);
-    return response < 0.5 ? std::min(viewer.differences(viewer.sigma * response / (1 - response)), half_white) : half_white;
+    return response < 0.5 ? std::min(viewer.differences(viewer.sigma * response / (1 - response)), most) : most;
 }
 
 /// `x` of `all` differences, counted from the anchor, where there is `room` for that many: a hyperbola of slope 1 at the anchor.
@@ -68,7 +68,6 @@ inline Adjusted adjust(const std::vector<double>& share, double adapted, const T
     if (std::accumulate(share.begin(), share.end(), 0.0) == 0) return out;
 
     const double at = std::clamp((std::log(adapted) - p.ln_low) / delta, 0.0, double(steps));
-    const double start = anchor(adapted, threshold, p), room = viewer.differences(viewer.high) - start;
     std::vector<double> above(steps), below(steps);
     double all_above = 0, all_below = 0;
     for (size_t i = 0; i < steps; ++i) {
@@ -82,6 +81,8 @@ inline Adjusted adjust(const std::vector<double>& share, double adapted, const T
     // Between no light and the first step thresholds are constant.
     const double first = std::exp(double(p.ln_low));
     if (!viewer.linear) all_below += first / threshold.scene(first);
+    // Where the eye sees fewer differences than up to the anchor, it lies lower: no light is black.
+    const double start = std::min(anchor(adapted, threshold, p), all_below), room = viewer.differences(viewer.high) - start;
 
     std::vector<double> base(steps), votes(steps);
     double counted = 0;

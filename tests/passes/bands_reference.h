@@ -1,6 +1,6 @@
 // Bands of contrast of equal visibility level. SPDX-License-Identifier: MIT
 // In the way of Grave and Bremond 2008, reconstructed: a Laplacian pyramid (Burt and Adelson 1983) of ln luminance, its contrasts
-// shown at the same multiple of what is just seen (Ferwerda et al. 1996; on the display, adapted to half of white) as in the scene.
+// shown at the same multiple of what is just seen (Ferwerda et al. 1996; on the display, adapted to 0.3 of white) as in the scene.
 #pragma once
 
 #include "passes/composite_reference.h"
@@ -28,7 +28,7 @@ double expanded(const PyramidLevel& level, uint32_t x, uint32_t y, const Value& 
     return weights > 0 ? sum / weights : 0;
 }
 
-/// ln of the contrast that a viewer adapted to half of white just sees where the curve shows log average `adapted`, over that which
+/// ln of the contrast that a viewer adapted to 0.3 of white just sees where the curve shows log average `adapted`, over that which
 /// cones adapted to it just see there; at most 0, the contrast of the scene.
 inline double ln_steepness(double adapted, const shared::ToneCurve& curve, const shared::ToneParameters& p) {
     const double scene = std::exp(adapted), shown = std::exp(node_at(scene, curve).x), sigma = p.viewer_sigma;

@@ -12,12 +12,12 @@ namespace {
 
 constexpr ThresholdBreaks kBreaks = ThresholdBreaks::continuous();
 const ReceptorModel kViewer(ReceptorKind::Cones, Receptors::cones());
-constexpr double kHalfWhite = 100;  // cd/m^2
+constexpr double kViewerSees = 60;  // cd/m^2
 
 shared::ToneParameters display_parameters() {
     shared::ToneParameters p{};
     p.cone_break = float(kBreaks.cones), p.rod_break = float(kBreaks.rods);
-    p.viewer_sigma = float(kViewer.adapted_sigma(kHalfWhite)), p.viewer_step = float(kViewer.response_step());
+    p.viewer_sigma = float(kViewer.adapted_sigma(kViewerSees)), p.viewer_step = float(kViewer.response_step());
     return p;
 }
 
@@ -49,8 +49,8 @@ TEST(BandsReference, NoContrastIsMoreThanInTheScene) {
     std::uniform_real_distribution<double> decades(2.1, 5);
     std::vector<double> l;
     for (int i = 0; i < 37 * 23; ++i) l.push_back(std::pow(10, decades(random)));
-    const std::vector<double> s = shown(l, 37, 23, 5, power_curve(1e-3, 1));
-    for (size_t i = 0; i < l.size(); ++i) EXPECT_NEAR(s[i] / (1e-3 * l[i]), 1, 1e-5);  // nodes are floats
+    const std::vector<double> s = shown(l, 37, 23, 5, power_curve(5e-4, 1));
+    for (size_t i = 0; i < l.size(); ++i) EXPECT_NEAR(s[i] / (5e-4 * l[i]), 1, 1e-5);  // nodes are floats
 }
 
 // A target smaller than the finest band: its difference is as many thresholds on the display as in the scene, as far as a contrast
@@ -62,8 +62,8 @@ TEST(BandsReference, SmallTargetsKeepTheirVisibilityLevel) {
             l[64 * 31 + 33] *= 1 + contrast;
             const double field = std::exp(node_at(background, power_curve(6, 0.5)).x);
             const double difference = shown(l, 64, 64, 5, power_curve(6, 0.5))[64 * 31 + 33] - field;
-            const double in_scene = contrast * background / cone_threshold(background, kBreaks), on_display = difference / kViewer.threshold(field, kViewer.adapted_sigma(kHalfWhite));
-            const double same_contrast = contrast * field / kViewer.threshold(field, kViewer.adapted_sigma(kHalfWhite));
+            const double in_scene = contrast * background / cone_threshold(background, kBreaks), on_display = difference / kViewer.threshold(field, kViewer.adapted_sigma(kViewerSees));
+            const double same_contrast = contrast * field / kViewer.threshold(field, kViewer.adapted_sigma(kViewerSees));
             EXPECT_NEAR(on_display / std::copysign(std::min(std::abs(in_scene), std::abs(same_contrast)), contrast), 1, 0.02) << background;
         }
 }

@@ -124,7 +124,7 @@ inline dvec3 towards_white(dvec3 light, const glm::dmat3& to_own) {
     // max(x, 1) averaged over a knee to either side: where it is, and what of x is left.
     const double above = x >= 1 + knee ? x : 1 + (x - 1 + knee) * (x - 1 + knee) / (4 * knee);
     const Oklab oklab{.white = glm::inverse(to_own) * dvec3(1)};
-    const double kept = 1 - (0.2 + 0.5 / most) * (above - 1) / (most - 1);
+    const double kept = 1 - (0.2 + 0.5 / most) * std::min((most - 1) / 0.3, 1.0) * (above - 1) / (most - 1);
     const dvec3 faded = to_own * oklab.rgb(oklab.of(colour) * dvec3(1, kept, kept));
     const dvec3 inside = glm::max(faded, dvec3(0));
     return glm::inverse(to_own) * (inside / std::max({inside.x, inside.y, inside.z}) * (1 + x - above));

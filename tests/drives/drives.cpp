@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 
 #include "base/error.h"
@@ -200,7 +199,7 @@ int run(VkExtent2D extent, double fps, double seconds, const std::string& glare,
                 const bool within = std::ceil(most.codes) <= (step > 0 ? limit : limits.stills);
                 steady &= within;
                 std::printf(" %.0f%s |", std::ceil(most.codes), within ? "" : "!");
-                if (!within || std::getenv("VESPER_DRIVES_SAY")) std::fprintf(stderr, "%s, smoothing %g: %g cd/m^2 changes by %.1f codes at picture %zu of %zu\n", name.c_str(), double(smoothing), double(kMarkers[most.marker]), most.codes, most.frame, pictures->size());
+                if (!within) std::fprintf(stderr, "%s, smoothing %g: %g cd/m^2 changes by %.1f codes at picture %zu of %zu\n", name.c_str(), double(smoothing), double(kMarkers[most.marker]), most.codes, most.frame, pictures->size());
             }
             std::printf("\n");
             std::fflush(stdout);

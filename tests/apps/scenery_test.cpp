@@ -140,7 +140,7 @@ TEST(Scenery, TheFrontOfANodeLeads) {
         const Scenery scenery(world(front));
         const std::vector<Actor> actors = World(scenery.world(), 1).actors();
         const SceneFrame frame = scenery.frame(actors, 0, DriveSettings());
-        const auto leads = [&](const char* name) {
+        const auto leads = [&, side = side](const char* name) {
             return glm::normalize(glm::dvec3(frame.world[node_of(scenery.scene(), name)] * glm::dvec4(side, 0)));
         };
         EXPECT_LT(glm::distance(leads("me"), lane), 1e-9) << front;

@@ -135,15 +135,15 @@ void main() {
         here = follow(previous.node[bin + 1u], here, kept);
         lowest = follow(previous.node[0], lowest, kept);
     }
-    if (kModel != kModelLagging && bin < steps()) curve.node[bin + 1u] = vec4(here, 0.0, 0.0, 0.0);
-    if (kModel != kModelLagging && bin == 0u) curve.node[0] = vec4(lowest, 0.0, 0.0, 0.0);
-    for (uint i = steps() + 1u + bin; kModel != kModelLagging && i <= kMaxNodes; i += kMaxBins) curve.node[i] = vec4(0.0);
+    if (kModel != kModelPattanaik && bin < steps()) curve.node[bin + 1u] = vec4(here, 0.0, 0.0, 0.0);
+    if (kModel != kModelPattanaik && bin == 0u) curve.node[0] = vec4(lowest, 0.0, 0.0, 0.0);
+    for (uint i = steps() + 1u + bin; kModel != kModelPattanaik && i <= kMaxNodes; i += kMaxBins) curve.node[i] = vec4(0.0);
     current.node[bin + 1u] = has_curve && bin < steps() ? here : 0.0;
     if (bin == 0u) current.node[0] = has_curve ? lowest : 0.0;
-    LaggingEye lagging = previous.lagging;
-    if (kModel == kModelLagging) {
-        lagging = lagging_after(lagging, adaptation, scotopic, parameters.seconds, first);
-        for (uint i = bin; i <= kMaxNodes; i += kMaxBins) curve.node[i] = lagging_node(lagging, i);
+    PattanaikState pattanaik = previous.pattanaik;
+    if (kModel == kModelPattanaik) {
+        pattanaik = lagging_after(pattanaik, adaptation, scotopic, parameters.seconds, first);
+        for (uint i = bin; i <= kMaxNodes; i += kMaxBins) curve.node[i] = lagging_node(pattanaik, i);
     }
     if (kModel == kModelFixed && parameters.automatic != 0u) find_percentiles(share, max(sum_of(share), 1e-30));
     vec3 chroma = previous.chroma;
@@ -182,7 +182,7 @@ void main() {
     curve.rods = rod_light;
     curve.unused = 0.0;
     curve.red = vec4(seen[0], 0.0), curve.green = vec4(seen[1], 0.0), curve.blue = vec4(seen[2], 0.0);
-    const bool own_table = kModel == kModelLagging;
+    const bool own_table = kModel == kModelPattanaik;
     curve.ln_low = own_table ? kTableLow : parameters.ln_low;
     curve.bins_per_ln = own_table ? float(kMaxNodes) / (kTableHigh - kTableLow) : steps_per_ln;
     curve.bins = own_table ? float(kMaxNodes) : float(steps());
@@ -194,8 +194,8 @@ void main() {
     curve.cone_sigma = cone_sigma;
     curve.rod_sigma = rod_sigma;
     curve.response_offset = 0.0, curve.response_unit = 0.0;
-    if (kModel == kModelLagging) {
-        const Appearance as = appearance_of(lagging, hunt_cone_sigma(lagging.cones), hunt_rod_sigma(lagging.rods));
+    if (kModel == kModelPattanaik) {
+        const Appearance as = appearance_of(pattanaik, hunt_cone_sigma(pattanaik.cones), hunt_rod_sigma(pattanaik.rods));
         curve.response_offset = as.offset, curve.response_unit = as.unit;
     }
     current.adaptation = adaptation;
@@ -206,7 +206,7 @@ void main() {
     current.pupil = blend(previous.pupil > 0.0 ? previous.pupil : kFirstPupil, 4.9 - 3.0 * tanh(0.4 * l), exp(-parameters.seconds / kPupilSeconds));
     current.cones = cones;
     current.rods = rods;
-    current.lagging = lagging;
+    current.pattanaik = pattanaik;
     current.chroma = chroma;
     current.steps = has_curve ? float(steps()) : 0.0;
     current.ln_low = has_curve ? parameters.ln_low : 0.0;

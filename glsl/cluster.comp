@@ -12,13 +12,13 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
 layout(constant_id = 1) const uint kMaps = 1u;    // measured distributions
 
-layout(binding = 0) uniform samplerBuffer lights;
+layout(binding = 0) uniform samplerBuffer lamps;
 layout(binding = 1) uniform usamplerBuffer parent_counts;
 layout(binding = 2) uniform usamplerBuffer parent_indices;
 layout(binding = 3, r32ui) writeonly uniform uimageBuffer counts;
 layout(binding = 4, r32ui) writeonly uniform uimageBuffer indices;
 layout(binding = 5, scalar) buffer Report { ClusterReport report; };
-layout(binding = 6) uniform samplerBuffer maps;
+layout(binding = 6) uniform samplerBuffer tables;
 layout(binding = 7) uniform usamplerBuffer tile_slices;
 layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
 
@@ -56,9 +56,9 @@ bool is_occupied(uvec3 cell) {
 }
 
 bool light_reaches(uint light, bool cone) {
-    const int at = int(light * kTexelsPerLight);
-    const vec4 a = texelFetch(lights, at);
-    const bool map = !cone && kMaps != 0u && (kPowers == 0u || light >= push.view.lights.cones + push.view.lights.powers);
+    const int at = int(light * kTexelsPerLamp);
+    const vec4 a = texelFetch(lamps, at);
+    const bool map = !cone && kMaps != 0u && (kPowers == 0u || light >= push.view.lamps.cones + push.view.lamps.powers);
     return reaches(largest_intensity(at, a, cone, map, centre, radius), distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
@@ -74,10 +74,10 @@ void main() {
     const uint parent_index = (parent.z * push.parents_y + parent.y) * push.parents_x + parent.x;
     const uint listed_cones = texelFetch(parent_counts, int(2u * parent_index)).r;
     const uint listed_others = texelFetch(parent_counts, int(2u * parent_index + 1u)).r;
-    const bool all_of_them = listed_cones == kAllLights;
+    const bool all_of_them = listed_cones == kAllLamps;
     const bool occupied = is_occupied(cell);
-    const uint cones = !occupied ? 0u : all_of_them ? push.view.lights.cones : listed_cones;
-    const uint others = !occupied ? 0u : all_of_them ? push.view.lights.powers + push.view.lights.maps : listed_others;
+    const uint cones = !occupied ? 0u : all_of_them ? push.view.lamps.cones : listed_cones;
+    const uint others = !occupied ? 0u : all_of_them ? push.view.lamps.powers + push.view.lamps.tables : listed_others;
     const uint list = all_of_them ? 0u : parent_index * push.parent_capacity;
 
     const uint base = index * push.capacity;
@@ -97,8 +97,8 @@ void main() {
     }
 
     const bool fits = count <= push.capacity;
-    imageStore(counts, int(2u * index), uvec4(fits ? kept_cones : kAllLights));
-    imageStore(counts, int(2u * index + 1u), uvec4(fits ? count - kept_cones : kAllLights));
+    imageStore(counts, int(2u * index), uvec4(fits ? kept_cones : kAllLamps));
+    imageStore(counts, int(2u * index + 1u), uvec4(fits ? count - kept_cones : kAllLamps));
     if (push.reports != 0u) {
         atomicAdd(report.overflowed, fits ? 0u : 1u);
         atomicMax(report.longest, count);

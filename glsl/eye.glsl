@@ -1,4 +1,4 @@
-// The adapting eye: pigment and neural adaptation, exact for any time step (perception/eye.h). For adapt.comp.
+// The adapting eye: pigment and neural adaptation, exact for any time step (vision/eye.h). For adapt.comp.
 
 // Retinal illuminance through the pupil of Moon and Spencer 1944, td.
 float trolands(float luminance) {

@@ -20,11 +20,11 @@ layout(constant_id = 3) const uint kRoads = 1u;   // roads with a table
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
-layout(binding = 2) uniform samplerBuffer lights;
+layout(binding = 2) uniform samplerBuffer lamps;
 layout(binding = 3, r32ui) uniform uimageBuffer block_counts;
 layout(binding = 4, r32ui) uniform uimageBuffer entries;
 layout(binding = 5, rgba32f) writeonly uniform imageBuffer sums;
-layout(binding = 6) uniform samplerBuffer maps;
+layout(binding = 6) uniform samplerBuffer tables;
 layout(binding = 7, r32ui) uniform uimageBuffer class_counts;
 layout(binding = 8, r32ui) writeonly uniform uimageBuffer class_blocks;
 layout(push_constant, scalar) uniform Push { GatherPush push; };
@@ -104,7 +104,7 @@ float between(float value[kPoints], uint k) {
 
 // How wide a cone of directions may be, as an angle from its axis, rad, for the points to show all that is in it: a beam is not narrower than
 // that, and a lamp is not so near that its peak fits between them.
-float widest_cone(Lamp lamp, bool cone) {
+float widest_cone(FetchedLamp lamp, bool cone) {
     float beam = kPi;
     if (cone) beam = lamp.lobe_a > 0.0 ? arccos(clamp(-lamp.lobe_b / lamp.lobe_a, -1.0, 1.0)) : kPi;
     if (!cone && kPowers != 0u) beam = inversesqrt(max(lamp.lobe_a, 0.1));  // where cos^n is still exp(-1/2)
@@ -124,7 +124,7 @@ bool shows_nodes(vec2 at[kPoints]) {
 
 // Adds a lamp if it is smooth over the plane: wrong by at most the tolerance, or by a quarter of the threshold, below which lamps are left out
 // anyway. Such a lamp counts where it gives less than that, too. Returns whether it stays on the list.
-bool remains(Lamp lamp, bool cone) {
+bool remains(FetchedLamp lamp, bool cone) {
     float value[kPoints];
     vec2 at[kPoints];
     bool lit = true, none_counts = true, even = true;
@@ -162,8 +162,8 @@ bool covers(uint entry) { return (slices & ~slices_of(entry)) == 0u; }
 bool gather(uint block) {
     const int counts = int(2u * block), first = int(block * push.capacity), last = first + int(push.capacity) - 1;
     const uint cones = imageLoad(block_counts, counts).r, others = imageLoad(block_counts, counts + 1).r;
-    const uint maps_from = push.view.lights.cones + push.view.lights.powers;
-    if (!plane || cones == kAllLights || push.tolerance < 0.0) return cones + others != 0u || push.tolerance < 0.0;
+    const uint maps_from = push.view.lamps.cones + push.view.lamps.powers;
+    if (!plane || cones == kAllLamps || push.tolerance < 0.0) return cones + others != 0u || push.tolerance < 0.0;
     int kept_cones = 0, kept_others = 0;
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {

@@ -1,10 +1,10 @@
-// Lamps of any kind: fetched, and evaluated in a direction. Needs `samplerBuffer lights`, `samplerBuffer maps` and the constants
+// Lamps of any kind: fetched, and evaluated in a direction. Needs `samplerBuffer lamps`, `samplerBuffer maps` and the constants
 // kPowers and kMaps.
 
-#include "maps.glsl"
-#include "shared/light.h"
+#include "tables.glsl"
+#include "shared/lamp.h"
 
-struct Lamp {
+struct FetchedLamp {
     vec3 position;
     float intensity;
     vec3 axis;
@@ -19,18 +19,18 @@ struct Lamp {
 };
 
 // `maps_from`: index of the first measured lamp.
-Lamp fetch(uint index, bool cone, uint maps_from) {
-    const int texel = int(index * kTexelsPerLight);
-    const vec4 a = texelFetch(lights, texel), c = texelFetch(lights, texel + 2);
+FetchedLamp fetch(uint index, bool cone, uint maps_from) {
+    const int texel = int(index * kTexelsPerLamp);
+    const vec4 a = texelFetch(lamps, texel), c = texelFetch(lamps, texel + 2);
     vec4 b = vec4(0.0), d = vec4(0.0), e = vec4(0.0), f = vec4(0.0);
-    if (cone || kPowers != 0u) b = texelFetch(lights, texel + 1);
-    if (!cone && kMaps != 0u) d = texelFetch(lights, texel + 3), e = texelFetch(lights, texel + 4), f = texelFetch(lights, texel + 5);
-    return Lamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w, kPowers == 0u || index >= maps_from,
+    if (cone || kPowers != 0u) b = texelFetch(lamps, texel + 1);
+    if (!cone && kMaps != 0u) d = texelFetch(lamps, texel + 3), e = texelFetch(lamps, texel + 4), f = texelFetch(lamps, texel + 5);
+    return FetchedLamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w, kPowers == 0u || index >= maps_from,
                 d.xyz, turn_of(d.xyz, e.xyz, e.w), e.xyz, d.w, abs(e.w), f);
 }
 
 // Intensity in a direction relative to the largest. `cosine` to the axis; `from` the lamp, of any length; `at`, of a map, see map_intensity.
-float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool cone, out vec2 at) {
+float relative_intensity(FetchedLamp lamp, float cosine, vec3 from, float inverse, bool cone, out vec2 at) {
     at = vec2(0.0);
     if (cone) {
         const float ramp = clamp(lamp.lobe_a * cosine + lamp.lobe_b, 0.0, 1.0);
@@ -45,7 +45,7 @@ float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool
     }
     return relative;
 }
-float relative_intensity(Lamp lamp, float cosine, vec3 from, float inverse, bool cone) {
+float relative_intensity(FetchedLamp lamp, float cosine, vec3 from, float inverse, bool cone) {
     vec2 at;
     return relative_intensity(lamp, cosine, from, inverse, cone, at);
 }

@@ -1,4 +1,4 @@
-// Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000 (perception/pattanaik.h): responses of cones and rods and
+// Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000 (vision/pattanaik.h): responses of cones and rods and
 // the exponent of colour, as a table over ln luminance. For adapt.comp.
 
 const float kDisplayCones = 25.0;  // cd/m^2 that the display's observer is adapted to
@@ -26,9 +26,9 @@ float pigment_after(float pigment, float goal, float tau, float half_bleached, f
 }
 
 // `scotopic`: of the goal, scotopic cd/m^2.
-LaggingEye lagging_after(LaggingEye before, float goal, float scotopic, float seconds, bool first) {
-    if (first || !(before.cones > 0.0)) return LaggingEye(goal, scotopic, 2e6 / (2e6 + goal), 0.04 / (0.04 + scotopic));
-    return LaggingEye(approach(before.cones, goal, seconds / 0.080), approach(before.rods, scotopic, seconds / 0.150),
+PattanaikState lagging_after(PattanaikState before, float goal, float scotopic, float seconds, bool first) {
+    if (first || !(before.cones > 0.0)) return PattanaikState(goal, scotopic, 2e6 / (2e6 + goal), 0.04 / (0.04 + scotopic));
+    return PattanaikState(approach(before.cones, goal, seconds / 0.080), approach(before.rods, scotopic, seconds / 0.150),
                       pigment_after(before.cone_pigment, goal, 110.0, 2e6, seconds),
                       pigment_after(before.rod_pigment, scotopic, 400.0, 0.04, seconds));
 }
@@ -40,7 +40,7 @@ struct Appearance {
     float range;  // of the observer's responses, from black to white
 };
 
-Appearance appearance_of(LaggingEye eye, float cone_sigma, float rod_sigma) {
+Appearance appearance_of(PattanaikState eye, float cone_sigma, float rod_sigma) {
     const float display_sigma = hunt_cone_sigma(kDisplayCones);
     const float display_white = response(kWhiteOver * kDisplayCones, display_sigma), display_black = response(kBlackOver * kDisplayCones, display_sigma);
     const float white = eye.cone_pigment * response(kWhiteOver * eye.cones, cone_sigma) + eye.rod_pigment * response(kWhiteOver * eye.rods, rod_sigma);
@@ -52,7 +52,7 @@ Appearance appearance_of(LaggingEye eye, float cone_sigma, float rod_sigma) {
 }
 
 // Node `index` of kMaxNodes + 1.
-vec4 lagging_node(LaggingEye eye, uint index) {
+vec4 lagging_node(PattanaikState eye, uint index) {
     const float cone_sigma = hunt_cone_sigma(eye.cones), rod_sigma = hunt_rod_sigma(eye.rods);
     const Appearance as = appearance_of(eye, cone_sigma, rod_sigma);
     const float luminance = exp(mix(kTableLow, kTableHigh, float(index) / float(kMaxNodes)));

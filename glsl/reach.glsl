@@ -1,9 +1,9 @@
 // Whether a light may give the threshold somewhere in a volume: what may be said without looking at single points. Needs
-// `samplerBuffer lights`, `samplerBuffer maps` and the constants kPowers and kMaps.
+// `samplerBuffer lamps`, `samplerBuffer maps` and the constants kPowers and kMaps.
 
-#include "maps.glsl"
+#include "tables.glsl"
 #include "shared/cluster.h"
-#include "shared/light.h"
+#include "shared/lamp.h"
 
 const float kSlack = 1.001;  // float rounding never costs a light
 
@@ -26,7 +26,7 @@ float largest_cone(float lobe_a, float lobe_b, float cosine) {
 }
 float largest_power(float exponent, float cosine) { return cosine > 0.0 ? exp2(exponent * log2(cosine)) : 0.0; }
 
-// The shortest window (shared/maps.h) that holds bin `first` and `more` bins after it, of `count`.
+// The shortest window (shared/tables.h) that holds bin `first` and `more` bins after it, of `count`.
 int window_of(int first, int more, int count) {
     int level = more > 0 ? (floatBitsToInt(float(more)) >> 23) - 126 : 0;  // 2^level is more than that
     const int stride_bits = max(level - 1, 0);
@@ -49,14 +49,14 @@ float largest_map(vec3 to, vec2 cosines, vec4 start_map, vec4 pole_last, float r
     const int first = around ? 0 : int(sector), more = around ? int(kSectors) - 1 : min(int(sector + sectors) - first, int(kSectors) - 1);
     const int ring = window_of(int(rings.x), int(rings.y) - int(rings.x), int(kRings)), column = window_of(first & int(kSectors) - 1, more, int(kSectors));
     const int value = ring * int(3u * kSectors) + column;
-    const vec4 four = texelFetch(maps, int(start_map.w) - int(kWindowTexels) + (value >> 2));
+    const vec4 four = texelFetch(tables, int(start_map.w) - int(kWindowTexels) + (value >> 2));
     const float even = (value & 2) == 0 ? four.x : four.z, odd = (value & 2) == 0 ? four.y : four.w;
     return (value & 1) == 0 ? even : odd;
 }
 
 // Largest intensity towards the sphere, cd, of the light that begins with texel `at`, which is `a`.
 float largest_intensity(int at, vec4 a, bool cone, bool map, vec3 centre, float radius) {
-    const vec4 b = texelFetch(lights, at + (map ? 3 : 1)), c = texelFetch(lights, at + (map ? 4 : 2));
+    const vec4 b = texelFetch(lamps, at + (map ? 3 : 1)), c = texelFetch(lamps, at + (map ? 4 : 2));
     const vec2 cosines = cosines_to(a.xyz, map ? c.xyz : b.xyz, centre, radius);
     float relative = largest_cone(b.w, c.w, cosines.x);
     if (kPowers != 0u) relative = cone ? relative : largest_power(b.w, cosines.x);

@@ -3,9 +3,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 
-// Light selection, one block of pixels per invocation: of the lights listed for the froxels that the block's pixels lie
+// Light selection, one block of pixels per invocation: of the lamps listed for the froxels that the block's pixels lie
 // in, those that can light what is drawn there. A box around the positions is tighter than a froxel, and a box around the
-// normals tells which lights are behind every surface. What is left out gives nothing to any pixel of the block. A few
+// normals tells which lamps are behind every surface. What is left out gives nothing to any pixel of the block. A few
 // slices of depth at a time share their boxes, so that a light listed in several of them is taken once.
 
 #include "blocks.glsl"
@@ -17,12 +17,12 @@ layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
 layout(constant_id = 1) const uint kMaps = 1u;    // measured distributions
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
-layout(binding = 1) uniform samplerBuffer lights;
+layout(binding = 1) uniform samplerBuffer lamps;
 layout(binding = 2) uniform usamplerBuffer counts;
 layout(binding = 3) uniform usamplerBuffer indices;
 layout(binding = 4, r32ui) writeonly uniform uimageBuffer block_counts;
 layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
-layout(binding = 6) uniform samplerBuffer maps;
+layout(binding = 6) uniform samplerBuffer tables;
 layout(binding = 7) uniform usamplerBuffer block_slices;
 layout(push_constant, scalar) uniform Push { SelectPush push; };
 
@@ -61,13 +61,13 @@ vec3 largest_product(vec3 a_low, vec3 a_high, vec3 b_low, vec3 b_high) {
 }
 
 bool lights_block(uint light) {
-    const bool map = kMaps != 0u && light >= push.view.lights.cones + push.view.lights.powers;
-    const int at = int(light * kTexelsPerLight);
-    const vec4 a = texelFetch(lights, at);
+    const bool map = kMaps != 0u && light >= push.view.lamps.cones + push.view.lamps.powers;
+    const int at = int(light * kTexelsPerLamp);
+    const vec4 a = texelFetch(lamps, at);
     const vec3 centre = 0.5 * (position_low + position_high);
     const float radius = kSlack * 0.5 * distance(position_low, position_high);
     const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
-    const float largest = largest_intensity(at, a, light < push.view.lights.cones, map, centre, radius);
+    const float largest = largest_intensity(at, a, light < push.view.lamps.cones, map, centre, radius);
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);
     const float slack = 1e-5 * (abs(facing.x) + abs(facing.y) + abs(facing.z));
@@ -94,7 +94,7 @@ uint open_lists(uvec2 tile, inout uint slices) {
         const uint cell = (slice * grid.tiles_y + tile.y) * grid.tiles_x + tile.x;
         const uint cones = texelFetch(counts, int(2u * cell)).r;
         const uint others = texelFetch(counts, int(2u * cell + 1u)).r;
-        const bool overflowed = cones == kAllLights;
+        const bool overflowed = cones == kAllLamps;
         list_at[k] = cell * grid.capacity;
         list_end[k] = list_at[k] + (any && !overflowed ? cones + others : 0u);
         next_light[k] = read_list(k);
@@ -132,7 +132,7 @@ void main() {
         // silently ends the loops of an invocation after 65,535 turns in all.
         for (uint light = fits ? take_light() : ~0u; light != ~0u && turns < kMaxTurns; light = take_light()) {
             ++turns;
-            const bool cone = light < push.view.lights.cones;
+            const bool cone = light < push.view.lamps.cones;
             if (!lights_block(light)) continue;
             const uint at = cone ? cones : push.capacity - 1u - others;
             if (cones + others < push.capacity) imageStore(entries, int(base + at), uvec4(entry_of(light, first, last)));
@@ -141,6 +141,6 @@ void main() {
         }
         fits = fits && cones + others <= push.capacity && turns < kMaxTurns;
     }
-    imageStore(block_counts, int(2u * block), uvec4(fits ? cones : kAllLights));
-    imageStore(block_counts, int(2u * block + 1u), uvec4(fits ? others : kAllLights));
+    imageStore(block_counts, int(2u * block), uvec4(fits ? cones : kAllLamps));
+    imageStore(block_counts, int(2u * block + 1u), uvec4(fits ? others : kAllLamps));
 }

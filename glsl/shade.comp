@@ -6,7 +6,7 @@
 
 // Photometric shading: L = sum_k E_k (rho lambert + specular) + ambient + emission in cd/m^2, without any windowing of
 // the inverse square. Every invocation shades kRows pixels of one column, so that a light is fetched once for all of them.
-// Every block of pixels has a list of lights, of which its pixels take those for their own slice, and the sum of others
+// Every block of pixels has a list of lamps, of which its pixels take those for their own slice, and the sum of others
 // (shared/gather.h). A dispatch does the blocks of one class, side by side in workgroups, whatever their places in the image.
 
 #include "blocks.glsl"
@@ -16,7 +16,7 @@
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 2) const uint kRows = 1u;
-layout(constant_id = 3) const uint kEveryLight = 0u;  // ignore the lists, for comparison
+layout(constant_id = 3) const uint kEveryLamp = 0u;  // ignore the lists, for comparison
 layout(constant_id = 4) const uint kCones = 1u;       // there are points and spots,
 layout(constant_id = 5) const uint kPowers = 1u;      // cosine powers,
 layout(constant_id = 6) const uint kMaps = 1u;        // measured distributions
@@ -29,10 +29,10 @@ layout(constant_id = 11) const uint kRetro = 1u;      // retroreflective surface
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) uniform image2D scene_image;  // emission in, luminance out
-layout(binding = 3) uniform samplerBuffer lights;
+layout(binding = 3) uniform samplerBuffer lamps;
 layout(binding = 4) uniform usamplerBuffer block_counts;
 layout(binding = 5) uniform usamplerBuffer entries;
-layout(binding = 6) uniform samplerBuffer maps;
+layout(binding = 6) uniform samplerBuffer tables;
 layout(binding = 7) uniform samplerBuffer retro_classes;
 layout(binding = 8) uniform samplerBuffer gathered;
 layout(binding = 9) uniform usamplerBuffer class_counts;
@@ -87,7 +87,7 @@ bool returns_light(uint r, vec3 toward_light, float normal_light) {
 }
 
 // Adds a lamp to the pixels of some slices, a bit for each.
-void add_lamp(Lamp lamp, uint slices, bool cone) {
+void add_lamp(FetchedLamp lamp, uint slices, bool cone) {
     float returned[kRows];  // of what a retroreflective pixel returns, the illuminance facing the lamp, lx
     bool any_returned = false;
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
@@ -124,11 +124,11 @@ struct List {
 };
 
 List list_of(uint block) {
-    const uint others = push.lights.powers + push.lights.maps;
-    const List every_light = List(push.lights.cones, others, 0u, push.lights.cones + others - 1u, true);
-    if (kEveryLight != 0u) return every_light;
+    const uint others = push.lamps.powers + push.lamps.tables;
+    const List every_lamp = List(push.lamps.cones, others, 0u, push.lamps.cones + others - 1u, true);
+    if (kEveryLamp != 0u) return every_lamp;
     const uint cones = texelFetch(block_counts, int(2u * block)).r;
-    if (cones == kAllLights) return every_light;
+    if (cones == kAllLamps) return every_lamp;
     const uint first = block * push.capacity;
     return List(cones, texelFetch(block_counts, int(2u * block + 1u)).r, first, first + push.capacity - 1u, false);
 }
@@ -136,7 +136,7 @@ List list_of(uint block) {
 void add_entry(List list, uint at, uint number, bool cone) {
     const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
     const uint light = list.all_of_them ? number : light_of(entry);
-    add_lamp(fetch(light, cone, push.lights.cones + push.lights.powers), list.all_of_them ? ~0u : slices_of(entry), cone);
+    add_lamp(fetch(light, cone, push.lamps.cones + push.lamps.powers), list.all_of_them ? ~0u : slices_of(entry), cone);
 }
 
 void add_lamps(List list) {
@@ -147,9 +147,9 @@ void add_lamps(List list) {
 }
 
 void add_directional() {
-    const uint first = push.lights.cones + push.lights.powers + push.lights.maps;
-    for (uint i = 0u; i < push.lights.directional; ++i) {
-        const Lamp lamp = fetch(first + i, true, 0u);
+    const uint first = push.lamps.cones + push.lamps.powers + push.lamps.tables;
+    for (uint i = 0u; i < push.lamps.directional; ++i) {
+        const FetchedLamp lamp = fetch(first + i, true, 0u);
         [[unroll]] for (uint r = 0u; r < kRows; ++r) {
             const float normal_light = max(dot(normal[r], -lamp.axis), 0.0);
             const bool road = kRoads != 0u && roads[r].tan_cells > 0.0;

@@ -11,7 +11,7 @@ layout(constant_id = 4) const uint kPrimaries = 0u;  // the display has others t
 layout(binding = 0, rgba32f) readonly uniform image2D scene_image;
 layout(binding = 1) uniform samplerBuffer curve;
 layout(binding = 2, rgba32f) readonly uniform image2D luminance_glare;  // cd/m^2; the scene itself where there is none
-layout(binding = 3) uniform sampler2D ldr_glare;                        // displayed light; likewise
+layout(binding = 3) uniform sampler2D bloom;                        // displayed light; likewise
 layout(push_constant, scalar) uniform Push { CompositePush push; };
 
 vec3 of_the_display(vec3 rgb) {
@@ -31,6 +31,6 @@ vec3 scene_light(uvec2 at) {
 
 vec3 glare_light(uvec2 at) {
     // The glare texture covers whole blocks: its last row and column may reach beyond the image.
-    const vec2 blocks = vec2(textureSize(ldr_glare, 0));
-    return push.ldr_glare * textureLod(ldr_glare, (vec2(at) + 0.5) / (float(kGlareShrink) * blocks), 0.0).rgb;
+    const vec2 blocks = vec2(textureSize(bloom, 0));
+    return push.bloom * textureLod(bloom, (vec2(at) + 0.5) / (float(kGlareShrink) * blocks), 0.0).rgb;
 }

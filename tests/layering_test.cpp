@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 const fs::path kSource = VESPER_SOURCE_DIR;
 const std::regex kInclude(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"([^"]+)")re");
 
-// What the files of each folder of engine/ may include, besides their own; "" is the top level, "glsl" the headers
+// What the files of each folder of engine/ may include, besides their own; "glsl" the headers
 // of glsl/shared/ and the embedded shaders. Folders that do not appear here are refused, so a new one has to find its
 // place.
 const std::map<std::string, std::set<std::string>> kMayInclude{
@@ -27,17 +27,16 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"base", {}},
     {"io", {"base"}},
     {"photometry", {"base", "io"}},
-    {"perception", {"base", "io", "photometry"}},
-    {"scene", {"base", "io", "photometry", "perception"}},
-    {"roads", {"base", "io", "photometry", "perception", "scene"}},
-    {"simulation", {"base", "io", "photometry", "perception", "scene", "roads"}},
+    {"vision", {"base", "io", "photometry"}},
+    {"scene", {"base", "io", "photometry", "vision"}},
+    {"roads", {"base", "io", "photometry", "vision", "scene"}},
+    {"traffic", {"base", "io", "photometry", "vision", "scene", "roads"}},
     {"gpu", {"base"}},
     {"window", {"base", "gpu", "glsl"}},
     {"graph", {"base", "gpu"}},
-    {"resident", {"base", "photometry", "perception", "scene", "gpu", "glsl"}},
-    {"passes", {"base", "photometry", "perception", "scene", "gpu", "graph", "resident", "glsl"}},
-    {"api", {"", "base", "io", "photometry", "perception", "scene", "gpu", "graph", "resident", "passes", "glsl"}},
-    {"", {"base", "io", "photometry", "perception", "scene", "roads", "gpu", "graph", "resident", "passes", "glsl"}},
+    {"gpu_scene", {"base", "photometry", "vision", "scene", "gpu", "glsl"}},
+    {"render", {"base", "photometry", "vision", "scene", "gpu", "graph", "gpu_scene", "glsl"}},
+    {"api", {"base", "io", "photometry", "vision", "scene", "gpu", "graph", "gpu_scene", "render", "glsl"}},
 };
 
 std::string text_of(const fs::path& file) {
@@ -68,7 +67,7 @@ std::string objection(const fs::path& from, const std::string& what) {
     const std::string layer = glsl ? "glsl" : top;
     // Pictures are part of a scene and are decoded by io; that is all io knows of it, and no header of scene knows io.
     if (folder == "io" && what == "scene/scene.h") return {};
-    if ((folder == "scene" || folder == "simulation") && layer == "io" && from.extension() != ".cpp") return "is a header of " + folder + "/";
+    if ((folder == "scene" || folder == "traffic") && layer == "io" && from.extension() != ".cpp") return "is a header of " + folder + "/";
     if (layer != folder && !kMayInclude.at(folder).contains(layer)) return "is a step up";
     return {};
 }
@@ -98,18 +97,18 @@ TEST(Layering, TheRulesRefuse) {
     EXPECT_NE(objection("gpu/kernel.h", "graph/plan.h"), "");
     EXPECT_NE(objection("scene/scene.h", "io/image_file.h"), "");
     EXPECT_NE(objection("io/image_file.h", "scene/convert.h"), "");
-    EXPECT_NE(objection("passes/a.cpp", "io/image_file.h"), "");
+    EXPECT_NE(objection("render/passes/a.cpp", "io/image_file.h"), "");
     EXPECT_NE(objection("graph/plan.h", "../gpu/kernel.h"), "");
     EXPECT_NE(objection("elsewhere/a.cpp", "base/error.h"), "");
     EXPECT_EQ(objection("scene/gltf.cpp", "io/image_file.h"), "");
     EXPECT_EQ(objection("io/image_file.h", "scene/scene.h"), "");
-    EXPECT_EQ(objection("passes/a.cpp", "graph/plan.h"), "");
+    EXPECT_EQ(objection("render/passes/a.cpp", "graph/plan.h"), "");
     EXPECT_EQ(objection("renderer.cpp", "io/image_file.h"), "");
 }
 
 TEST(Layering, EveryPassHasAReferenceAndATest) {
     const fs::path tests = kSource / "tests" / "passes";
-    for (const fs::path& file : files_under(kSource / "engine" / "passes", {".cpp"})) {
+    for (const fs::path& file : files_under(kSource / "engine" / "render" / "passes", {".cpp"})) {
         const std::string text = text_of(file), pass = file.stem().string();
         if (pass == "operators") continue;  // the table of what the passes of the tone chain are told
         EXPECT_TRUE(text.find(".dispatch(") != text.npos || text.find(".raster(") != text.npos) << pass << " declares no pass";

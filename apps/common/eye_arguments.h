@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tone_chain.h"
+#include "render/tone_chain.h"
 
 namespace vesper {
 

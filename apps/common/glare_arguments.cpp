@@ -72,8 +72,8 @@ void add_glare_options(CLI::App& command, GlareArguments& a) {
     help_group(command);
 }
 
-std::vector<OutsideLamp> read_lamps(const std::string& file) {
-    std::vector<OutsideLamp> lamps;
+std::vector<OffscreenLamp> read_lamps(const std::string& file) {
+    std::vector<OffscreenLamp> lamps;
     if (file.empty()) return lamps;
     const std::vector<uint8_t> bytes = read_file(file, kMostLampBytes);
     LineReader lines(bytes, one_line(file));
@@ -98,14 +98,14 @@ std::vector<OutsideLamp> read_lamps(const std::string& file) {
     return lamps;
 }
 
-GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& settings, const ToneMapped& shown, const ImageAngles& image, const std::vector<OutsideLamp>& outside) {
-    std::vector<DazzlingLight> lights;
-    for (const OutsideLamp& lamp : outside) lights.push_back({lamp.direction, luminance(lamp.illuminance)});
+GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& settings, const ToneMapped& shown, const ImageAngles& image, const std::vector<OffscreenLamp>& outside) {
+    std::vector<DazzlingLight> lamps;
+    for (const OffscreenLamp& lamp : outside) lamps.push_back({lamp.direction, luminance(lamp.illuminance)});
     GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze)};
     if (const auto& t = arguments.target; t.size() == 4) question.target = MarkedTarget{{t[0], t[1]}, {t[2], t[3]}};
     GlareReport report;
     try {
-        report = report_glare(image, shown.scene, lights, question);
+        report = report_glare(image, shown.scene, lamps, question);
     } catch (const Error& error) {
         throw Error(std::string("--target: ") + error.what());
     }

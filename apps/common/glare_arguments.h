@@ -7,11 +7,11 @@
 #include <CLI/CLI.hpp>
 
 #include "io/image_file.h"
-#include "perception/glare_report.h"
-#include "resident/eye_scatter.h"
-#include "resident/sources.h"
+#include "vision/glare_report.h"
+#include "gpu_scene/eye_scatter.h"
+#include "gpu_scene/luminaires.h"
 #include "scene/scene.h"
-#include "tone_chain.h"
+#include "render/tone_chain.h"
 
 namespace vesper {
 
@@ -23,10 +23,10 @@ void add_glare_options(CLI::App&, GlareArguments&);
 
 /// Lamps on other screens, one a line: azimuth to the right, elevation, degrees from the middle of the view, lx at the eye, on a
 /// plane facing the lamp. Empty lines, lines of # and a heading of words are passed by. Throws Error, naming file and line.
-std::vector<OutsideLamp> read_lamps(const std::string& file);
+std::vector<OffscreenLamp> read_lamps(const std::string& file);
 
 /// What glare hides in a frame, whose `scene` was brought back: a pixel of more than 100 times the log average is a source.
-GlareReport glare_of(const GlareArguments&, const ToneChainSettings&, const ToneMapped&, const ImageAngles&, const std::vector<OutsideLamp>& outside);
+GlareReport glare_of(const GlareArguments&, const ToneChainSettings&, const ToneMapped&, const ImageAngles&, const std::vector<OffscreenLamp>& outside);
 /// Throws Error where a target is asked of an operator that shows no luminances.
 void check_target(const GlareArguments&, const ToneChainSettings&);
 /// How visible the marked target is, in a line.

@@ -10,7 +10,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
-#include "perception/relative_picture.h"
+#include "vision/relative_picture.h"
 
 namespace vesper {
 namespace {

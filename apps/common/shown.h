@@ -1,7 +1,7 @@
 // What a tone curve does to one luminance, on the host. SPDX-License-Identifier: MIT
 #pragma once
 
-#include "perception/display.h"
+#include "vision/display.h"
 #include "shared/tone.h"
 
 namespace vesper {

@@ -8,7 +8,7 @@
 
 #include "eye_arguments.h"
 #include "io/image_file.h"
-#include "tone_chain.h"
+#include "render/tone_chain.h"
 
 namespace vesper {
 

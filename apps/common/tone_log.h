@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "perception/glare_report.h"
-#include "tone_chain.h"
+#include "vision/glare_report.h"
+#include "render/tone_chain.h"
 
 namespace vesper {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "perception/display.h"
+#include "vision/display.h"
 
 namespace vesper {
 

@@ -179,7 +179,7 @@ void add_bench(CLI::App& program) {
     program.add_option("--scene", a->scenes, "rivoli: the night street; rivoli-measured: with measured lamps and road; street: generated; or a .gltf or .glb")->delimiter(',')->capture_default_str();
     program.add_option("--camera,-c", a->run.camera, "Name of a camera of the scene (default: the first)");
     program.add_option("--size,-s", a->sizes, "WIDTHxHEIGHT of a channel, px")->delimiter(',')->capture_default_str();
-    program.add_option("--lamps", a->lamps, "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")->delimiter(',')->check(CLI::Range(0u, kMostLights));
+    program.add_option("--lamps", a->lamps, "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")->delimiter(',')->check(CLI::Range(0u, kMaxLamps));
     program.add_option("--luminaire", a->luminaires, "Of the street, in place of its spots of 1,500 cd: point (1,500 cd), none, or a file of a distribution (.ies, .ldt, .csv, .exr), scaled to the flux that the point sends down")->delimiter(',');
     program.add_option("--triangles", a->triangles, "Of the street: at least so many")->check(CLI::Range(0u, 100'000'000u))->capture_default_str();
     program.add_option("--channels", a->channels, "Views in every frame, side by side")->delimiter(',')->check(CLI::Range(1u, 16u))->capture_default_str();

@@ -135,7 +135,7 @@ RunResult measure(const RunPlan& plan, const Scene& scene, const std::function<v
         }
     }
     summarize(samples, result);
-    settings.lamps = drive.last().lights;
+    settings.lamps = drive.last().lamps;
     settings.triangles = drive.renderer().scene().triangles();
     result.host_bytes = double(peak_host_bytes()), result.device_bytes = double(device.use().peak_bytes);
     result.pipelines = device.use().pipelines, result.pipelines_ms = device.use().pipeline_ms;

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "renderer.h"
+#include "render/renderer.h"
 #include "result.h"
 
 namespace vesper {

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "own_data.h"
-#include "resident/cameras.h"
+#include "gpu_scene/cameras.h"
 #include "scene/convert.h"
 #include "street.h"
 
@@ -63,12 +63,12 @@ void keep_nearest_lamps(Scene& scene, glm::vec3 eye, uint32_t count) {
     const std::vector<glm::dmat4> world = world_transforms(scene, 0);
     std::vector<uint32_t> lamps;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].light != kNone) lamps.push_back(i);
+        if (scene.nodes[i].lamp != kNone) lamps.push_back(i);
     if (lamps.size() < count) throw Error("--lamps " + std::to_string(count) + ": the scene has " + std::to_string(lamps.size()));
     std::stable_sort(lamps.begin(), lamps.end(), [&](uint32_t a, uint32_t b) {
         return glm::distance(glm::vec3(world[a][3]), eye) < glm::distance(glm::vec3(world[b][3]), eye);
     });
-    for (const uint32_t node : std::span(lamps).subspan(count)) scene.nodes[node].light = kNone;
+    for (const uint32_t node : std::span(lamps).subspan(count)) scene.nodes[node].lamp = kNone;
 }
 
 }  // namespace vesper

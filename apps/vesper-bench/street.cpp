@@ -33,18 +33,18 @@ Mesh patch(const std::string& name, glm::vec3 corner, glm::vec3 u, glm::vec3 v, 
 }
 
 /// What the lamps of the street are (street.h). Measured ones go into the scene's distributions.
-Light luminaire_of(const std::string& name, Scene& scene) {
-    Light light{.name = "lamp", .kind = Light::Kind::Point, .intensity = kCandela};
-    if (name == "point") return light;
+Lamp luminaire_of(const std::string& name, Scene& scene) {
+    Lamp lamp{.name = "lamp", .kind = Lamp::Kind::Point, .intensity = kCandela};
+    if (name == "point") return lamp;
     if (name.empty()) {
-        light.kind = Light::Kind::Spot, light.inner_cone = 0.8f, light.outer_cone = 80 * std::numbers::pi_v<float> / 180;
-        return light;
+        lamp.kind = Lamp::Kind::Spot, lamp.inner_cone = 0.8f, lamp.outer_cone = 80 * std::numbers::pi_v<float> / 180;
+        return lamp;
     }
     scene.distributions.push_back(read_distribution(name));
     const double flux = luminous_flux(scene.distributions.back());
     if (!(flux > 1e-6)) throw Error(name + ": no light");
-    light.kind = Light::Kind::Measured, light.distribution = 0, light.intensity = float(2 * std::numbers::pi * double(kCandela) / flux);
-    return light;
+    lamp.kind = Lamp::Kind::Measured, lamp.distribution = 0, lamp.intensity = float(2 * std::numbers::pi * double(kCandela) / flux);
+    return lamp;
 }
 
 }  // namespace
@@ -68,13 +68,13 @@ Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminai
             scene.nodes.push_back({.name = scene.meshes[mesh].name, .translation = {0, 0, kSpacing * (1 - float(piece))}, .mesh = mesh});
 
     const bool dark = luminaire == "none";
-    if (!dark) scene.lights.push_back(luminaire_of(luminaire, scene));
+    if (!dark) scene.lamps.push_back(luminaire_of(luminaire, scene));
     const glm::quat down = glm::angleAxis(-std::numbers::pi_v<float> / 2, glm::vec3(1, 0, 0));
     for (uint32_t i = 0; i < lamps && !dark; ++i)
         scene.nodes.push_back({.name = "lamp",
                                .translation = {i % 2 ? w - 1 : 1 - w, kHeight, -float(i / 2) * kSpacing},
                                .rotation = down,
-                               .light = 0});
+                               .lamp = 0});
 
     const glm::vec3 eye(1.75f, 1.2f, 0);
     scene.cameras.push_back({.name = "driver"});

@@ -10,7 +10,7 @@ using glm::dvec2, glm::dvec3;
 constexpr int kGuard = LightElsewhere::kGuard;
 
 // Lamps of the scene, but for what any of the pictures has of them. One that several have a part of is taken to be wholly in them.
-std::vector<UnseenLamp> unseen(const std::vector<Frame>& frames, std::span<const EyePicture> pictures, const std::vector<OutsideLamp>& others) {
+std::vector<UnseenLamp> unseen(const std::vector<Frame>& frames, std::span<const EyePicture> pictures, const std::vector<OffscreenLamp>& others) {
     struct Seen {
         UnseenLamp lamp;
         double inside = 0;
@@ -22,14 +22,14 @@ std::vector<UnseenLamp> unseen(const std::vector<Frame>& frames, std::span<const
     std::vector<UnseenLamp> left;
     for (const auto& [node, seen] : lamps)
         if (seen.inside < 1) left.push_back({seen.lamp.direction, (1 - seen.inside) * seen.lamp.illuminance});
-    for (const OutsideLamp& lamp : others) left.push_back({glm::normalize(lamp.direction), lamp.illuminance});
+    for (const OffscreenLamp& lamp : others) left.push_back({glm::normalize(lamp.direction), lamp.illuminance});
     return left;
 }
 
 // Of the lamps, what lies beside what is shown; those in the border wholly.
-std::vector<OutsideLamp> beside(const Frame& frame, const EyePicture& picture, const std::vector<OutsideLamp>& others) {
-    std::vector<OutsideLamp> lamps;
-    for (const OutsideLamp& lamp : others) lamps.push_back({glm::transpose(picture.turn) * lamp.direction, lamp.illuminance});
+std::vector<OffscreenLamp> beside(const Frame& frame, const EyePicture& picture, const std::vector<OffscreenLamp>& others) {
+    std::vector<OffscreenLamp> lamps;
+    for (const OffscreenLamp& lamp : others) lamps.push_back({glm::transpose(picture.turn) * lamp.direction, lamp.illuminance});
     for (const GlareSource& source : frame.glare_sources) {
         const dvec2 at = picture.image.pixels_at(dvec2(source.direction) / -source.direction.z), far = glm::abs(at - 0.5 * dvec2(picture.image.width, picture.image.height));
         const bool shown = far.x < 0.5 * picture.image.width - kGuard && far.y < 0.5 * picture.image.height - kGuard;
@@ -74,8 +74,8 @@ void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View>
         pictures_ = pictures, settings_ = settings.scatter;
     }
     for (size_t i = 0; i < frames.size(); ++i) sums_[i].take(frames[i].retina);
-    const std::vector<UnseenLamp> lamps = unseen(frames, pictures_, settings.lamps_elsewhere);
-    std::vector<LightBeyond> beyond;
+    const std::vector<UnseenLamp> lamps = unseen(frames, pictures_, settings.offscreen_lamps);
+    std::vector<OffscreenLight> beyond;
     for (const LightElsewhere& elsewhere : elsewhere_) beyond.push_back(elsewhere.of(sums_, lamps));
     for (size_t i = 0; i < frames.size(); ++i) {
         Frame& frame = frames[i];
@@ -86,7 +86,7 @@ void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View>
         frame.scene = without_border(frame.retina, extent);
         frame.retina = without_border(seen.retina, extent);
         frame.extent = {extent.width - 2 * kGuard, extent.height - 2 * kGuard};
-        frame.outside = beside(frame, pictures_[i], settings.lamps_elsewhere);
+        frame.outside = beside(frame, pictures_[i], settings.offscreen_lamps);
         frame.timings.insert(frame.timings.end(), seen.timings.begin(), seen.timings.end());
         frame.pupil = seen.pupil, frame.pattern_milliseconds = seen.pattern_milliseconds;
         frame.milliseconds += seen.milliseconds;

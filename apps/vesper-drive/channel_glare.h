@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "perception/light_elsewhere.h"
-#include "renderer.h"
-#include "tone_mapper.h"
+#include "vision/light_elsewhere.h"
+#include "render/renderer.h"
+#include "render/tone_mapper.h"
 
 namespace vesper {
 

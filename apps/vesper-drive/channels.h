@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "channel_glare.h"
-#include "renderer.h"
-#include "tone_mapper.h"
+#include "render/renderer.h"
+#include "render/tone_mapper.h"
 
 namespace vesper {
 

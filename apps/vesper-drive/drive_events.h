@@ -11,7 +11,7 @@
 
 #include <glm/glm.hpp>
 
-#include "simulation/driver.h"
+#include "traffic/driver.h"
 
 namespace vesper {
 

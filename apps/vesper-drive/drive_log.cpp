@@ -88,7 +88,7 @@ void DriveLog::add(const Session& session, const View& view, const Frame& frame)
     double device = 0;
     for (const Timing& timing : frame.timings) device += timing.milliseconds;
     // Every lamp counts: froxels whose lists overflow look at all of them.
-    file_.append(line + format(",%u,%u,0,%u,%.3f,%.3f\n", frame.lights, frame.sources, frame.histogram.non_finite, device, frame.milliseconds));
+    file_.append(line + format(",%u,%u,0,%u,%.3f,%.3f\n", frame.lamps, frame.luminaires, frame.histogram.non_finite, device, frame.milliseconds));
 }
 
 }  // namespace vesper

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "controllers.h"
-#include "simulation/driver.h"
+#include "traffic/driver.h"
 
 namespace vesper {
 

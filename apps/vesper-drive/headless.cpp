@@ -109,7 +109,7 @@ public:
         if (film_ && !video_) video_ = std::make_unique<Video>(arguments_.video, extent_.width, extent_.height, fps, display);
         if (video_) video_->add(shown.display);
         if (names_ && !exr_) write_codes(names_->at(index), shown, display);
-        if (names_ && exr_) write_exr(names_->at(index), extent_.width, extent_.height, shown.scene, header(session, shown, logged.lights));
+        if (names_ && exr_) write_exr(names_->at(index), extent_.width, extent_.height, shown.scene, header(session, shown, logged.lamps));
         if (log_) log_->add(session, view, logged);
     }
     void finish() {
@@ -136,7 +136,7 @@ private:
         others.writes("--video", file);
         spare(read, "--video", file);
     }
-    Header header(const Session& session, const ToneMapped& frame, uint32_t lights) const {
+    Header header(const Session& session, const ToneMapped& frame, uint32_t lamps) const {
         std::string options;  // settings other than the defaults
         for (const auto& [name, value] : session.settings().values()) options += (options.empty() ? "" : " ") + in_shell("--" + name) + " " + in_shell(value);
         const std::string scene = session.scenery().scene().name, own = own_data_name(scene);
@@ -145,7 +145,7 @@ private:
                     {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
                     {"vesper:options", options},
                     {"vesper:seconds", digits(session.world().seconds())},
-                    {"vesper:lights", std::to_string(lights)}};
+                    {"vesper:lights", std::to_string(lamps)}};
         const Header tone = describe_tone(session.settings().render(), frame);
         made.insert(made.end(), tone.begin(), tone.end());
         return made;

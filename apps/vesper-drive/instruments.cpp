@@ -8,7 +8,7 @@
 #include "arguments.h"
 #include "base/luminance.h"
 #include "panel_layout.h"
-#include "passes/operators.h"
+#include "render/passes/operators.h"
 #include "plot.h"
 #include "tone_arguments.h"
 
@@ -174,7 +174,7 @@ void Instruments::draw_performance(const Moment& now) {
         for (const Timing& timing : now.frame.timings) total += timing.milliseconds;
         ImGui::TextWrapped("%.1f pictures/s shown, %s", now.shown_per_second, now.screen.describe().c_str());
         ImGui::TextWrapped("frame %.2f ms, passes %.2f ms, %u x %u px", now.frame.milliseconds, total, now.frame.extent.width, now.frame.extent.height);
-        ImGui::Text("%u lamps, %u seen, %u froxels overflowed", now.frame.lights, now.frame.sources, now.frame.clusters.overflowed);
+        ImGui::Text("%u lamps, %u seen, %u froxels overflowed", now.frame.lamps, now.frame.luminaires, now.frame.clusters.overflowed);
         ImGui::Separator();
         for (const Timing& timing : now.frame.timings) {
             ImGui::ProgressBar(total > 0 ? float(timing.milliseconds / total) : 0, {60, 0}, "");

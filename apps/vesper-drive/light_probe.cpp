@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/light.h"
+#include "scene/lamp.h"
 
 namespace vesper {
 namespace {
@@ -71,13 +71,13 @@ std::optional<SurfacePoint> surface_at(const Scene& scene, const SceneFrame& fra
 double lamp_illuminance(const Scene& scene, const SceneFrame& frame, const SurfacePoint& point) {
     double sum = 0;
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
-        if (scene.nodes[n].light == kNone) continue;
-        const Light& light = scene.lights[scene.nodes[n].light];
+        if (scene.nodes[n].lamp == kNone) continue;
+        const Lamp& lamp = scene.lamps[scene.nodes[n].lamp];
         const glm::dmat4 m(frame.world[n]);
         const auto unit = [&](int column) { return glm::normalize(dvec3(m[column])); };
         const double dimming = double(frame.dimming_of(n));
-        if (light.kind == Light::Kind::Directional) {
-            sum += dimming * double(light.intensity) * std::max(glm::dot(unit(2), point.normal), 0.0);
+        if (lamp.kind == Lamp::Kind::Directional) {
+            sum += dimming * double(lamp.intensity) * std::max(glm::dot(unit(2), point.normal), 0.0);
             continue;
         }
         const dvec3 to_lamp = dvec3(m[3]) - point.position;
@@ -85,7 +85,7 @@ double lamp_illuminance(const Scene& scene, const SceneFrame& frame, const Surfa
         const double cosine = glm::dot(to_lamp, point.normal) / std::sqrt(squared);
         if (!(cosine > 0) || !(dimming > 0)) continue;
         const dvec3 from_lamp(-glm::dot(to_lamp, unit(0)), -glm::dot(to_lamp, unit(1)), -glm::dot(to_lamp, unit(2)));
-        sum += dimming * luminous_intensity(light, scene.distributions, from_lamp) * cosine / squared;
+        sum += dimming * luminous_intensity(lamp, scene.distributions, from_lamp) * cosine / squared;
     }
     return sum;
 }

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "resident/lights.h"
-#include "resident/view.h"
+#include "gpu_scene/lamps.h"
+#include "gpu_scene/view.h"
 #include "scene/scene.h"
 
 namespace vesper {

@@ -8,7 +8,7 @@
 #include "instruments.h"
 #include "light_probe.h"
 #include "panel_layout.h"
-#include "passes/operators.h"
+#include "render/passes/operators.h"
 #include "plot.h"
 #include "shown.h"
 

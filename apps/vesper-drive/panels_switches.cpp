@@ -6,8 +6,8 @@
 #include <imgui.h>
 
 #include "instruments.h"
-#include "passes/operators.h"
-#include "perception/display.h"
+#include "render/passes/operators.h"
+#include "vision/display.h"
 #include "tone_arguments.h"
 
 namespace vesper {

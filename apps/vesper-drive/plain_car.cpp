@@ -34,26 +34,26 @@ void add_box(Primitive& p, glm::vec3 low, glm::vec3 high) {
 
 glm::vec3 of_luminance_one(glm::vec3 c) { return c / (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b); }
 
-uint32_t light_of(Scene& scene, const Light& light) {
-    const auto known = std::find_if(scene.lights.begin(), scene.lights.end(), [&](const Light& l) { return l.name == light.name && l.opening.area() > 0; });
-    if (known != scene.lights.end()) return uint32_t(known - scene.lights.begin());
-    scene.lights.push_back(light);
-    return uint32_t(scene.lights.size() - 1);
+uint32_t light_of(Scene& scene, const Lamp& lamp) {
+    const auto known = std::find_if(scene.lamps.begin(), scene.lamps.end(), [&](const Lamp& l) { return l.name == lamp.name && l.opening.area() > 0; });
+    if (known != scene.lamps.end()) return uint32_t(known - scene.lamps.begin());
+    scene.lamps.push_back(lamp);
+    return uint32_t(scene.lamps.size() - 1);
 }
 
 uint32_t beam(Scene& scene, const std::string& name, const std::string& file) {
-    Light light{.name = name, .kind = Light::Kind::Measured, .intensity = 1, .colour = colour_of_temperature(kHalogen), .opening = {.length = 0.265, .width = 0.14}};
+    Lamp lamp{.name = name, .kind = Lamp::Kind::Measured, .intensity = 1, .colour = colour_of_temperature(kHalogen), .opening = {.length = 0.265, .width = 0.14}};
     const auto known = std::find_if(scene.distributions.begin(), scene.distributions.end(), [&](const Distribution& d) { return d.name == name; });
-    light.distribution = uint32_t(known - scene.distributions.begin());
+    lamp.distribution = uint32_t(known - scene.distributions.begin());
     if (known == scene.distributions.end()) {
         scene.distributions.push_back(standard_lamp(file));
         scene.distributions.back().name = name;
     }
-    return light_of(scene, light);
+    return light_of(scene, lamp);
 }
 
 uint32_t signal(Scene& scene, const std::string& name, float candela, float outer, glm::vec3 colour, double width, double height) {
-    return light_of(scene, {.name = name, .kind = Light::Kind::Spot, .intensity = candela, .colour = of_luminance_one(colour), .inner_cone = 10 * kDegree, .outer_cone = outer * kDegree,
+    return light_of(scene, {.name = name, .kind = Lamp::Kind::Spot, .intensity = candela, .colour = of_luminance_one(colour), .inner_cone = 10 * kDegree, .outer_cone = outer * kDegree,
                             .opening = {.length = width, .width = height}});
 }
 
@@ -82,12 +82,12 @@ void add_plain_body(Scene& scene, uint32_t root, const PlainBody& body) {
     scene.nodes[root].mesh = uint32_t(scene.meshes.size() - 1);
     if (!body.lamps) return;
     const glm::quat back = glm::angleAxis(std::numbers::pi_v<float>, glm::vec3(0, 1, 0));
-    const auto hang = [&](uint32_t light, float side, float height, bool front) {
+    const auto hang = [&](uint32_t lamp, float side, float height, bool front) {
         // Measured lamps are known by their node's name.
-        Node lamp{.name = scene.lights[light].name, .parent = root, .light = light};
-        lamp.translation = {middle.x + side * 0.75f * half.x, height, middle.z + (front ? -half.z - 0.02f : half.z + 0.02f)};
-        if (!front) lamp.rotation = back;
-        scene.nodes.push_back(lamp);
+        Node node{.name = scene.lamps[lamp].name, .parent = root, .lamp = lamp};
+        node.translation = {middle.x + side * 0.75f * half.x, height, middle.z + (front ? -half.z - 0.02f : half.z + 0.02f)};
+        if (!front) node.rotation = back;
+        scene.nodes.push_back(node);
     };
     const float lamp_height = std::min(0.65f, middle.y), tail_height = std::min(0.85f, middle.y + 0.1f);
     for (const float side : {-1.0f, 1.0f}) {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scene/scene.h"
-#include "simulation/world_file.h"
+#include "traffic/world_file.h"
 
 namespace vesper {
 

@@ -174,8 +174,8 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
     if (switched) made.lenses = lenses_of(made.scene, network, *recorded, made.notes);
     for (Node& node : made.scene.nodes) {
         // Lamps go by what they are; by day those of the road are off, and signals are not.
-        if (node.light != kNone) {
-            node.name = made.scene.lights[node.light].name;
+        if (node.lamp != kNone) {
+            node.name = made.scene.lamps[node.lamp].name;
             if (node.name != "street lamp" && std::find(made.world.by_day.begin(), made.world.by_day.end(), node.name) == made.world.by_day.end()) made.world.by_day.push_back(node.name);
         }
     }

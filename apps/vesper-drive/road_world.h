@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 #include "signal_lens.h"
-#include "simulation/world_file.h"
+#include "traffic/world_file.h"
 
 namespace vesper {
 

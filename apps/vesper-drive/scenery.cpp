@@ -17,7 +17,7 @@
 #include "scene/colour.h"
 #include "scene/convert.h"
 #include "scene_notes.h"
-#include "simulation/daylight.h"
+#include "traffic/daylight.h"
 
 namespace vesper {
 namespace {
@@ -82,8 +82,8 @@ WorldFile plain_world(const Scene& scene, uint32_t camera) {
 }
 
 const std::string& lamp_name(const Scene& scene, uint32_t node) {
-    const Light& light = scene.lights[scene.nodes[node].light];
-    return light.kind == Light::Kind::Measured || light.name.empty() ? scene.nodes[node].name : light.name;
+    const Lamp& lamp = scene.lamps[scene.nodes[node].lamp];
+    return lamp.kind == Lamp::Kind::Measured || lamp.name.empty() ? scene.nodes[node].name : lamp.name;
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
@@ -165,8 +165,8 @@ void Scenery::find_lamps(const LampRoles& roles, const std::vector<std::string>&
     std::vector<uint32_t> lens(scene_.nodes.size(), kNone);
     for (uint32_t i = 0; i < lenses_.size(); ++i) lens[lenses_[i].node] = i;
     for (uint32_t i = 0; i < scene_.nodes.size(); ++i) {
-        if (scene_.nodes[i].light == kNone) continue;
-        Lamp lamp{i, rider[i], kFixed, true, lens[i], lamp_name(scene_, i)};
+        if (scene_.nodes[i].lamp == kNone) continue;
+        SwitchedLamp lamp{i, rider[i], kFixed, true, lens[i], lamp_name(scene_, i)};
         if (lamp.actor != kNone)
             for (size_t r = 0; r < kLampRoles.size(); ++r)
                 if (contains(roles.*kLampRoles[r].second, lamp.name)) lamp.role = Role(kLow + r);
@@ -177,13 +177,13 @@ void Scenery::find_lamps(const LampRoles& roles, const std::vector<std::string>&
 
 std::vector<LampGroup> Scenery::lamp_groups() const {
     std::map<std::string, LampGroup> groups;
-    for (const Lamp& lamp : lamps_) {
-        const Light& light = scene_.lights[scene_.nodes[lamp.node].light];
-        if (light.kind == Light::Kind::Directional) continue;  // has no intensity
-        const double largest = light.kind == Light::Kind::Measured ? largest_intensity(scene_.distributions[light.distribution]) : 1;
-        LampGroup& group = groups[lamp.name];
-        group.name = lamp.name;
-        ++group.lamps, group.candela = std::max(group.candela, double(light.intensity) * largest);
+    for (const SwitchedLamp& switched : lamps_) {
+        const Lamp& lamp = scene_.lamps[scene_.nodes[switched.node].lamp];
+        if (lamp.kind == Lamp::Kind::Directional) continue;  // has no intensity
+        const double largest = lamp.kind == Lamp::Kind::Measured ? largest_intensity(scene_.distributions[lamp.distribution]) : 1;
+        LampGroup& group = groups[switched.name];
+        group.name = switched.name;
+        ++group.lamps, group.candela = std::max(group.candela, double(lamp.intensity) * largest);
     }
     std::vector<LampGroup> sorted;
     for (auto& [name, group] : groups)
@@ -201,13 +201,13 @@ void Scenery::require_lamps(const std::vector<std::string>& names, const std::st
 }
 
 void Scenery::require_lamp(const std::string& name, const std::string& place) const {
-    if (std::any_of(lamps_.begin(), lamps_.end(), [&](const Lamp& lamp) { return lamp.name == name; })) return;
+    if (std::any_of(lamps_.begin(), lamps_.end(), [&](const SwitchedLamp& lamp) { return lamp.name == name; })) return;
     std::string names;
     for (const LampGroup& group : lamp_groups()) names += (names.empty() ? "" : ", ") + group.name;
     throw Error(place + ": the scene has no lamp of that name; it has " + (names.empty() ? "none" : one_line(names, 1000)));
 }
 
-bool Scenery::shines(const Lamp& lamp, const std::vector<Actor>& actors, bool bright) const {
+bool Scenery::shines(const SwitchedLamp& lamp, const std::vector<Actor>& actors, bool bright) const {
     if (lamp.role == kFixed) return lamp.by_day || !bright;
     const VehicleLamps& lit = actors[lamp.actor].lamps;
     switch (lamp.role) {
@@ -234,7 +234,7 @@ SceneFrame Scenery::frame(const std::vector<Actor>& actors, double seconds, cons
         made.ambient->sky += light / std::numbers::pi_v<float>;
         made.tunnels = tunnels_;
     }
-    for (const Lamp& lamp : lamps_) {
+    for (const SwitchedLamp& lamp : lamps_) {
         const auto factor = settings.lamps().find(lamp.name);
         const double wanted = factor == settings.lamps().end() ? 1 : factor->second;
         const bool on = shines(lamp, actors, outside > kPhotocell) && (lamp.lens == kNone || lenses_[lamp.lens].shines(seconds));

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "renderer.h"
+#include "render/renderer.h"
 #include "settings.h"
 #include "signal_lens.h"
-#include "simulation/world_file.h"
+#include "traffic/world_file.h"
 
 namespace vesper {
 
@@ -43,7 +43,7 @@ public:
 
 private:
     enum Role : uint8_t { kFixed, kLow, kHigh, kTail, kBrake, kLeft, kRight };  // in the order of kLampRoles
-    struct Lamp {
+    struct SwitchedLamp {
         uint32_t node;
         uint32_t actor;  // index, kNone: fixed
         Role role;
@@ -57,7 +57,7 @@ private:
     void require_lamp(const std::string& name, const std::string& place) const;
     void require_lamps(const std::vector<std::string>& names, const std::string& place) const;
     void find_lamps(const LampRoles&, const std::vector<std::string>& by_day);
-    bool shines(const Lamp&, const std::vector<Actor>&, bool bright) const;
+    bool shines(const SwitchedLamp&, const std::vector<Actor>&, bool bright) const;
 
     Scene scene_;
     std::shared_ptr<const WorldDescription> world_;
@@ -68,7 +68,7 @@ private:
         glm::dmat4 offset;  // from the actor's pose
     };
     std::vector<Rider> riders_;       // nodes that move
-    std::vector<Lamp> lamps_;
+    std::vector<SwitchedLamp> lamps_;
     std::vector<SignalLens> lenses_;
     std::string camera_;              // of the driver's eye; empty: none
     AmbientLight night_;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "perception/display.h"
+#include "vision/display.h"
 #include "window.h"
 #include "window/presenter.h"
 

@@ -26,7 +26,7 @@
 #include "drive_file.h"
 #include "gpu/device.h"
 #include "settings.h"
-#include "simulation/world.h"
+#include "traffic/world.h"
 #include "scenery.h"
 
 namespace vesper {

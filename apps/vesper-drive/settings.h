@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "renderer.h"
+#include "render/renderer.h"
 
 namespace vesper {
 

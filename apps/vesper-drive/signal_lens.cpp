@@ -72,7 +72,7 @@ std::optional<std::vector<Mode>> lenses_in(const std::string& state, const std::
 std::vector<SignalLens> lenses_of(const Scene& scene, const RoadNetwork& network, const EsminiRun& run, std::vector<std::string>& notes) {
     std::map<std::string, uint32_t> lamps;  // by the names of their nodes
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].light != kNone) lamps.try_emplace(scene.nodes[i].name, i);
+        if (scene.nodes[i].lamp != kNone) lamps.try_emplace(scene.nodes[i].name, i);
     std::map<std::string, std::vector<size_t>> set;  // events by signal
     for (size_t i = 0; i < run.signals.size(); ++i) set[run.signals[i].signal].push_back(i);
 

@@ -14,7 +14,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
-#include "passes/operators.h"
+#include "render/passes/operators.h"
 #include "picture_arguments.h"
 #include "tone_arguments.h"
 

@@ -5,7 +5,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "passes/operators.h"
+#include "render/passes/operators.h"
 #include "tone_arguments.h"
 #include "windowed.h"
 

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "io/atomic_file.h"
-#include "perception/display_fit.h"
+#include "vision/display_fit.h"
 #include "picture_arguments.h"
 #include "scene/display_file.h"
 #include "test_patterns.h"

@@ -31,7 +31,7 @@ std::string lamps_text(const SceneReport& report) {
     size_t number = 0;
     for (const LampReport& lamp : report.lamps) {
         number += lamp.number;
-        if (lamp.kind == Light::Kind::Directional) {
+        if (lamp.kind == Lamp::Kind::Directional) {
             text += column(one_line(lamp.name), 26) + format("  %-12s %7zu   %10.4g lx\n", name_of(lamp.kind), lamp.number, lamp.candela);
             continue;
         }
@@ -69,7 +69,7 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
                                    {"lamps", nlohmann::ordered_json::array()},
                                    {"materials", nlohmann::ordered_json::array()}};
     for (const LampReport& l : report.lamps) {
-        const bool sun = l.kind == Light::Kind::Directional;
+        const bool sun = l.kind == Lamp::Kind::Directional;
         nlohmann::ordered_json lamp = {{"name", l.name}, {"kind", name_of(l.kind)}, {"number", l.number}};
         lamp[sun ? "illuminance_lx" : "intensity_cd"] = l.candela;
         if (!sun) lamp["luminous_flux_lm"] = l.lumens;

@@ -17,7 +17,7 @@
 #include "numbered_files.h"
 #include "picture_arguments.h"
 #include "progress.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "scene_notes.h"
 #include "statistics.h"
 #include "tone_arguments.h"
@@ -59,7 +59,7 @@ Header describe_frame(const RenderArguments& arguments, const Device& device, co
             {"vesper:worldToView", pose},
             {"vesper:tangents", digits(double(view.tangent_low.x)) + " " + digits(double(view.tangent_low.y)) + " " + digits(double(view.tangent_high.x)) + " " + digits(double(view.tangent_high.y))},
             {"vesper:seconds", digits(seconds)},
-            {"vesper:lights", std::to_string(frame.lights)},
+            {"vesper:lights", std::to_string(frame.lamps)},
             {"vesper:illuminanceThreshold", digits(double(arguments.settings.clusters.threshold))},
             {"vesper:lambert", arguments.lambert},
             {"vesper:device", device.name() + ", " + device.driver()}};
@@ -75,7 +75,7 @@ void print_statistics(const RenderArguments& arguments, const Device& device, co
     std::printf("%s on %s (%s)\n", arguments.scene.c_str(), device.name().c_str(), device.driver().c_str());
     std::printf("%ux%u, %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width, frame.extent.height,
                 name_of(arguments.settings.tone_operator).c_str(), static_cast<unsigned long long>(renderer.scene().triangles()),
-                frame.lights, double(renderer.device_bytes()) / (1 << 20));
+                frame.lamps, double(renderer.device_bytes()) / (1 << 20));
     std::printf("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
                 double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
     std::printf("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n", double(frame.curve.adaptation),
@@ -183,7 +183,7 @@ void run(RenderArguments& arguments) {
     Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs) (output.ends_with(".png") ? outputs.display : outputs.scene) = true;
 
-    arguments.settings.lamps_elsewhere = read_lamps(arguments.glare.lamps);
+    arguments.settings.offscreen_lamps = read_lamps(arguments.glare.lamps);
     // Glare is read off luminances.
     const bool ldr = arguments.settings.tone_operator == Operator::Ldr;
     const bool logs_glare = !arguments.log_file.empty() && !ldr;
@@ -273,7 +273,7 @@ void add_render(CLI::App& program) {
     add_tone_options(*command, a->tone);
     add_glare_options(*command, a->glare);
     help_group(*command, "Light");
-    command->add_flag("--all-lights", a->settings.all_lights, "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what is below the threshold");
+    command->add_flag("--all-lights", a->settings.all_lamps, "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what is below the threshold");
     help_group(*command);
     command->footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"

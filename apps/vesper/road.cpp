@@ -27,7 +27,7 @@ struct RoadArguments {
 /// The road as a scene whose luminaires are seen, too, where their file states an opening.
 Scene lit_road(const RoadLayout& road) {
     Scene scene = road_scene(road);
-    for (Light& light : scene.lights) light.opening = road.distribution.opening;
+    for (Lamp& lamp : scene.lamps) lamp.opening = road.distribution.opening;
     return scene;
 }
 

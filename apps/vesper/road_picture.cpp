@@ -4,7 +4,7 @@
 #include "arguments.h"
 #include "false_colour.h"
 #include "io/image_file.h"
-#include "resident/road_view.h"
+#include "gpu_scene/road_view.h"
 #include "road_render.h"
 #include "scene/colour.h"
 

@@ -7,8 +7,8 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
-#include "renderer.h"
-#include "resident/road_view.h"
+#include "render/renderer.h"
+#include "gpu_scene/road_view.h"
 #include "scene/road_scene.h"
 
 namespace vesper {
@@ -72,7 +72,7 @@ Scene with_luminaires(Scene scene, const std::vector<bool>& wanted) {
     scene.beyond_tables = false;
     size_t lamp = 0;
     for (Node& node : scene.nodes)
-        if (node.light != kNone && !wanted.at(lamp++)) node.light = kNone;
+        if (node.lamp != kNone && !wanted.at(lamp++)) node.lamp = kNone;
     return scene;
 }
 
@@ -102,7 +102,7 @@ GlareReport read_glare(const RoadLayout& road, const RoadObserver& observer, Dev
     const View view = road_glare_view(observer.glare_eye);
     const Frame frame = renderer.render(road_settings(), view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
     std::vector<DazzlingLight> beside;
-    for (const OutsideLamp& lamp : frame.outside)
+    for (const OffscreenLamp& lamp : frame.outside)
         if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z) beside.push_back({lamp.direction, luminance(lamp.illuminance)});
     const ImageAngles image = angles_of(view);
     const double average = observer.average_luminance / road.maintenance_factor;

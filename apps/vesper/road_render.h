@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "perception/glare_report.h"
+#include "vision/glare_report.h"
 #include "photometry/road.h"
-#include "resident/view.h"
+#include "gpu_scene/view.h"
 
 namespace vesper {
 

@@ -10,7 +10,7 @@
 #include "study_page.h"
 #include "study_picture.h"
 #include "tone_arguments.h"
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 
 namespace vesper {
 

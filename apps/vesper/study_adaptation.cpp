@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "arguments.h"
-#include "perception/pattanaik.h"
+#include "vision/pattanaik.h"
 #include "shown.h"
 #include "study.h"
 
@@ -50,7 +50,7 @@ Sensitivity of_lagging(const ToneMapped& got, double luminance) {
         const double x = std::pow(luminance / pattanaik::cone_sigma(adaptation), kExponent);
         return pigment * kExponent * x / (luminance * (1 + x) * (1 + x));
     };
-    const double adaptation = double(got.eye.lagging.cones), pigment = double(got.eye.lagging.cone_pigment);
+    const double adaptation = double(got.eye.pattanaik.cones), pigment = double(got.eye.pattanaik.cone_pigment);
     const pattanaik::State adapted = pattanaik::adapted(luminance, luminance);
     return {pigment, pattanaik::cone_sigma(adaptation), {}, slope(adapted.cones, adapted.cone_pigment) / slope(adaptation, pigment)};
 }
@@ -92,7 +92,7 @@ void study_adaptation(Study& study) {
             for (const double t : times) {
                 const ToneMapped got = look(study, settings, step.to, t - before);
                 before = t;
-                const Sensitivity s = info.model == shared::kModelLagging ? of_lagging(got, step.to) : of_eye(got, settings.tone.observer, step.to);
+                const Sensitivity s = info.model == shared::kModelPattanaik ? of_lagging(got, step.to) : of_eye(got, settings.tone.observer, step.to);
                 const double light = shown_luminance(got.curve, info.form, step.to, settings.display);
                 ratio.lines.back().points.push_back({t, s.ratio});
                 sigma.lines.back().points.push_back({t, s.sigma});

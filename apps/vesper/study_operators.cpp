@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "arguments.h"
-#include "perception/visibility.h"
+#include "vision/visibility.h"
 #include "shown.h"
 #include "study.h"
 

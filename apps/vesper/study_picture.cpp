@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "picture_arguments.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "scene_notes.h"
 #include "shared/photometry.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "picture_arguments.h"
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 
 namespace vesper {
 

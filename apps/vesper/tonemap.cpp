@@ -16,7 +16,7 @@
 #include "picture_arguments.h"
 #include "progress.h"
 #include "tone_arguments.h"
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 #include "video.h"
 
 namespace vesper {
@@ -114,7 +114,7 @@ struct Shown {
 };
 
 /// `held`: see PictureRequest.
-Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, const std::vector<OutsideLamp>& lamps, ToneMapper& mapper,
+Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, const std::vector<OffscreenLamp>& lamps, ToneMapper& mapper,
            const Job& job, bool wants_codes, double held) {
     const HdrImage image = read_hdr_image(job.input, {}, arguments.layer);
     Shown shown;
@@ -123,10 +123,10 @@ Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings,
                                        .angle_matters = settings.glare == Glare::Scatter || !arguments.glare.target.empty(),
                                        .to_white = settings.tone_operator == Operator::Ldr,
                                        .held = held});
-    Outputs outputs{.display = wants_codes, .scene = false, .light = false};
-    for (const std::string& output : job.outputs) (output.ends_with(".png") ? outputs.display : outputs.light) = true;
+    Outputs outputs{.display = wants_codes, .scene = false, .display_light = false};
+    for (const std::string& output : job.outputs) (output.ends_with(".png") ? outputs.display : outputs.display_light) = true;
     const double vertical = shown.meaning.fov * std::numbers::pi / 180;
-    const bool asks_glare = settings.tone_operator != Operator::Ldr && (outputs.light || arguments.statistics || !arguments.glare.target.empty());
+    const bool asks_glare = settings.tone_operator != Operator::Ldr && (outputs.display_light || arguments.statistics || !arguments.glare.target.empty());
     outputs.scene = asks_glare;
     try {
         shown.picture = mapper.map(settings, {.extent = {image.width, image.height}, .values = image.rgb, .channels = 3, .scale = float(shown.meaning.scale), .vertical_fov = vertical, .outside = lamps},
@@ -160,7 +160,7 @@ void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& s
         header.insert(header.end(), tone.begin(), tone.end());
         const Header dazzled = describe_glare(settings, shown.glare);
         header.insert(header.end(), dazzled.begin(), dazzled.end());
-        write_exr(output, picture.extent.width, picture.extent.height, picture.light, header);
+        write_exr(output, picture.extent.width, picture.extent.height, picture.display_light, header);
     }
 }
 
@@ -211,7 +211,7 @@ void run(const TonemapArguments& arguments) {
     const ToneChainSettings settings = tone_settings(arguments.tone);
     check_target(arguments.glare, settings);
     const Plan plan = plan_of(arguments);
-    const std::vector<OutsideLamp> lamps = read_lamps(arguments.glare.lamps);
+    const std::vector<OffscreenLamp> lamps = read_lamps(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs)
         if (output.ends_with('/') && !fs::is_directory(output)) throw Error("-o " + one_line(output) + ": there is no such folder");
 

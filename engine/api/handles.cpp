@@ -130,10 +130,10 @@ VesperOutputs outputs_of(const VesperOutputs* given) {
     return to;
 }
 
-Outputs wanted(const VesperOutputs& to) { return {.display = to.codes != nullptr, .scene = to.luminance != nullptr, .light = to.display_light != nullptr}; }
+Outputs wanted(const VesperOutputs& to) { return {.display = to.codes != nullptr, .scene = to.luminance != nullptr, .display_light = to.display_light != nullptr}; }
 
 void give(const ToneMapped& frame, const VesperOutputs& to) {
-    give(frame.display, to.codes), give(frame.scene, to.luminance), give(frame.light, to.display_light);
+    give(frame.display, to.codes), give(frame.scene, to.luminance), give(frame.display_light, to.display_light);
     if (to.report) give_known(report_of(frame), to.report);
 }
 

@@ -11,8 +11,8 @@
 #include <optional>
 #include <string>
 
-#include "renderer.h"
-#include "tone_mapper.h"
+#include "render/renderer.h"
+#include "render/tone_mapper.h"
 
 struct VesperDevice {
     explicit VesperDevice(const vesper::DeviceOptions& options) : device(options), name(device.name()) {}

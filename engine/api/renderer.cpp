@@ -81,7 +81,7 @@ VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float 
         require(renderer, VesperRenderer::kNone);
         require_node(*renderer, node);
         require(factor >= 0 && factor <= 1e6f, "a lamp is dimmed by a factor of 0 to 1e6");
-        require(renderer->scene.scene.nodes[node].light != kNone, "there is no lamp at this node");
+        require(renderer->scene.scene.nodes[node].lamp != kNone, "there is no lamp at this node");
         renderer->dimming[node] = factor;
     });
 }

@@ -78,7 +78,7 @@ uint32_t distribution_of(VesperScene& scene, const std::string& file) {
 }
 
 /// A lamp, but for what was measured.
-Light light_of(const VesperLamp& l) {
+Lamp lamp_of(const VesperLamp& l) {
     require(finite(l.position) && finite(l.axis) && finite(l.up) && finite(l.colour) && l.intensity >= 0 && std::isfinite(l.intensity), "a lamp has a place, an axis, at least 0 cd and a colour");
     const auto [y, colour] = split(l.colour, "a lamp's colour has no negative part");
     require(y > 0, "a lamp's colour has luminance");
@@ -86,12 +86,12 @@ Light light_of(const VesperLamp& l) {
     require(l.opening_width >= 0 && l.opening_width <= 1000 && l.opening_height >= 0 && l.opening_height <= 1000, "a lamp's opening is 0 to 1000 m wide and high");
     require((l.opening_width > 0) == (l.opening_height > 0), "a lamp's opening has a width and a height, or neither");
     require(!l.distribution || (l.inner_cone == 0 && l.outer_cone == 0), "a lamp has cones or a distribution");
-    Light light;
-    light.intensity = l.intensity, light.colour = colour;
-    light.inner_cone = l.inner_cone, light.outer_cone = l.outer_cone;
-    light.kind = l.distribution ? Light::Kind::Measured : l.outer_cone > 0 ? Light::Kind::Spot : Light::Kind::Point;
-    if (l.opening_width > 0 && l.opening_height > 0) light.opening = {l.opening_width, l.opening_height, 0, false};
-    return light;
+    Lamp lamp;
+    lamp.intensity = l.intensity, lamp.colour = colour;
+    lamp.inner_cone = l.inner_cone, lamp.outer_cone = l.outer_cone;
+    lamp.kind = l.distribution ? Lamp::Kind::Measured : l.outer_cone > 0 ? Lamp::Kind::Spot : Lamp::Kind::Point;
+    if (l.opening_width > 0 && l.opening_height > 0) lamp.opening = {l.opening_width, l.opening_height, 0, false};
+    return lamp;
 }
 
 void add(Scene& scene, Node node, uint32_t* number) {
@@ -168,18 +168,18 @@ VesperResult vesper_scene_add_lamp(VesperScene* scene, const VesperLamp* lamp, u
     return guarded(error, [&] {
         require(scene, "no scene");
         const VesperLamp l = known(lamp, "a lamp without its size");
-        Light light = light_of(l);
+        Lamp made = lamp_of(l);
         Node placed;
-        placed.name = "lamp", placed.light = uint32_t(scene->scene.lights.size());
+        placed.name = "lamp", placed.lamp = uint32_t(scene->scene.lamps.size());
         placed.translation = vector(l.position);
-        if (light.kind != Light::Kind::Point) placed.rotation = turned(l);
+        if (made.kind != Lamp::Kind::Point) placed.rotation = turned(l);
         if (l.distribution) {
-            light.distribution = distribution_of(*scene, l.distribution);
-            if (light.opening.length == 0) light.opening = scene->scene.distributions[light.distribution].opening;
+            made.distribution = distribution_of(*scene, l.distribution);
+            if (made.opening.length == 0) made.opening = scene->scene.distributions[made.distribution].opening;
         }
         add(scene->scene, std::move(placed), nullptr);
         try {
-            scene->scene.lights.push_back(std::move(light));
+            scene->scene.lamps.push_back(std::move(made));
         } catch (...) {
             scene->scene.nodes.pop_back();
             throw;
@@ -210,7 +210,7 @@ VesperResult vesper_scene_remove(VesperScene* scene, uint32_t node, VesperError*
             if (!below[i]) continue;
             scene->gone[i] = true;
             unused.insert(nodes[i].mesh);
-            nodes[i].mesh = nodes[i].light = nodes[i].camera = kNone;
+            nodes[i].mesh = nodes[i].lamp = nodes[i].camera = kNone;
         }
         for (const Node& left : nodes) unused.erase(left.mesh);  // kNone, too: that of the node itself
         for (const uint32_t mesh : unused) scene->scene.meshes[mesh].primitives = {};

@@ -119,19 +119,19 @@ void look(Scene& scene, const std::string& name, glm::dvec3 from, glm::dvec3 at)
 
 void add_headlamps(RoadBuild& build, uint32_t car) {
     Scene& scene = build.scene;
-    Light light{.name = "low beam", .kind = Light::Kind::Measured};
-    light.intensity = 1;
-    light.colour = colour_of_temperature(4000);
-    light.distribution = static_cast<uint32_t>(scene.distributions.size());
+    Lamp lamp{.name = "low beam", .kind = Lamp::Kind::Measured};
+    lamp.intensity = 1;
+    lamp.colour = colour_of_temperature(4000);
+    lamp.distribution = static_cast<uint32_t>(scene.distributions.size());
     scene.distributions.push_back(standard_lamp("low-beam"));
     scene.distributions.back().name = "low beam";
     for (const char* side : {"left", "right"}) {
         Node lamp{.name = std::string("car_ego/headlamp_") + side, .parent = car};
         lamp.translation = glm::vec3((side[0] == 'l' ? -1 : 1) * kLampSide, kLampHeight, -kLampAhead);
-        lamp.light = static_cast<uint32_t>(scene.lights.size());
+        lamp.lamp = static_cast<uint32_t>(scene.lamps.size());
         scene.nodes.push_back(lamp);
     }
-    scene.lights.push_back(light);
+    scene.lamps.push_back(lamp);
 }
 
 }  // namespace

@@ -27,15 +27,15 @@ bool has_pole(const Road& road, const RoadSignal& signal) {
 }
 
 uint32_t lens_light(RoadBuild& build, const char* name, glm::vec3 colour, double diameter) {
-    for (uint32_t i = 0; i < build.scene.lights.size(); ++i)
-        if (build.scene.lights[i].name == name && build.scene.lights[i].opening.length == diameter) return i;
-    Light light{.name = name, .kind = Light::Kind::Spot};
-    light.intensity = static_cast<float>(kLensCandela * diameter * diameter / (kLens * kLens));
-    light.colour = glm::vec3(glm::dvec3(colour) / luminance(glm::dvec3(colour)));
-    light.inner_cone = 0.09f, light.outer_cone = 0.7f;
-    light.opening.length = light.opening.width = diameter, light.opening.round = true;
-    build.scene.lights.push_back(light);
-    return static_cast<uint32_t>(build.scene.lights.size() - 1);
+    for (uint32_t i = 0; i < build.scene.lamps.size(); ++i)
+        if (build.scene.lamps[i].name == name && build.scene.lamps[i].opening.length == diameter) return i;
+    Lamp lamp{.name = name, .kind = Lamp::Kind::Spot};
+    lamp.intensity = static_cast<float>(kLensCandela * diameter * diameter / (kLens * kLens));
+    lamp.colour = glm::vec3(glm::dvec3(colour) / luminance(glm::dvec3(colour)));
+    lamp.inner_cone = 0.09f, lamp.outer_cone = 0.7f;
+    lamp.opening.length = lamp.opening.width = diameter, lamp.opening.round = true;
+    build.scene.lamps.push_back(lamp);
+    return static_cast<uint32_t>(build.scene.lamps.size() - 1);
 }
 
 struct SignalBuilder {
@@ -68,7 +68,7 @@ struct SignalBuilder {
 
     /// A housing with lenses, the lit one or all of them as lamps. Without a scenario, cars wait: red for them, green for
     /// people on foot.
-    void light(const RoadSignal& s) {
+    void lamp(const RoadSignal& s) {
         const bool on_foot = is_for_pedestrians(s);
         const int lenses = on_foot ? 2 : 3;
         const double height = s.height > 0.1 ? s.height : on_foot ? 0.6 : 0.9, width = s.width > 0.05 ? s.width : 0.3;
@@ -86,7 +86,7 @@ struct SignalBuilder {
             const BodyFrame out = frame.moved(0.01, 0, height - (place + 0.5) * pitch);
             // It shines along -Z, its X to the right of who stands behind it.
             Node node = node_at(build, name + "/" + colour, out.origin, -out.y, out.z, -out.x);
-            node.light = lens_light(build, (std::string(colour) + " signal").c_str(), rgb, lens);
+            node.lamp = lens_light(build, (std::string(colour) + " signal").c_str(), rgb, lens);
             build.scene.nodes.push_back(node);
         };
         lamp("red", {1, 0.05f, 0.02f}, 0);
@@ -119,17 +119,17 @@ struct SignalBuilder {
 
 void build_signals(RoadBuild& build) {
     RoadMesh mesh(build.network);
-    size_t signs = 0, lights = 0;
+    size_t signs = 0, lamps = 0;
     for (const Road& road : build.network.roads) {
         if (road.sections.empty()) continue;
         SignalBuilder builder{build, road, mesh};
         for (const RoadSignal& signal : road.signals) {
-            if (signs + lights >= kMaxSignals) break;
+            if (signs + lamps >= kMaxSignals) break;
             if (is_painted(signal)) {
                 builder.stop_line(signal);
             } else if (is_traffic_light(signal)) {
-                builder.light(signal);
-                ++lights;
+                builder.lamp(signal);
+                ++lamps;
             } else {
                 builder.sign(signal);
                 ++signs;
@@ -137,8 +137,8 @@ void build_signals(RoadBuild& build) {
             mesh.place(build.scene, build.materials, "signal " + signal.id);
         }
     }
-    if (signs + lights > 0)
-        build.notes.push_back("signals: " + std::to_string(signs) + " signs, " + std::to_string(lights) +
+    if (signs + lamps > 0)
+        build.notes.push_back("signals: " + std::to_string(signs) + " signs, " + std::to_string(lamps) +
                               " traffic lights");
 }
 

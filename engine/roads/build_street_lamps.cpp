@@ -11,7 +11,7 @@
 namespace vesper {
 namespace {
 
-constexpr size_t kMaxLamps = 20'000;
+constexpr size_t kMaxStreetLamps = 20'000;
 constexpr double kHead = 0.6, kHeadWidth = 0.3;  // m, of the luminaire; its opening is that
 constexpr double kVerge = 0.7;                   // m from the edge of the road to the pole
 constexpr double kDesignHeight = 8;              // m, for which the standard luminaire gives its 18 lx
@@ -23,21 +23,21 @@ uint32_t lamp_light(RoadBuild& build, double height) {
     const StreetLampOptions options = lamp_options(build);
     const auto factor =
         static_cast<float>(options.luminaire ? 1.0 : std::max(1.0, height * height / (kDesignHeight * kDesignHeight)));
-    for (uint32_t i = 0; i < build.scene.lights.size(); ++i)
-        if (build.scene.lights[i].name == "street lamp" && build.scene.lights[i].intensity == factor) return i;
-    Light light{.name = "street lamp", .kind = Light::Kind::Measured};
-    light.intensity = factor;
-    light.colour = colour_of_temperature(std::clamp(options.colour_temperature, 1000.0, 25000.0));
-    light.opening.length = kHead, light.opening.width = kHeadWidth;
-    light.distribution = static_cast<uint32_t>(build.scene.distributions.size());
+    for (uint32_t i = 0; i < build.scene.lamps.size(); ++i)
+        if (build.scene.lamps[i].name == "street lamp" && build.scene.lamps[i].intensity == factor) return i;
+    Lamp lamp{.name = "street lamp", .kind = Lamp::Kind::Measured};
+    lamp.intensity = factor;
+    lamp.colour = colour_of_temperature(std::clamp(options.colour_temperature, 1000.0, 25000.0));
+    lamp.opening.length = kHead, lamp.opening.width = kHeadWidth;
+    lamp.distribution = static_cast<uint32_t>(build.scene.distributions.size());
     for (uint32_t i = 0; i < build.scene.distributions.size(); ++i)
-        if (build.scene.distributions[i].name == "street lamp") light.distribution = i;
-    if (light.distribution == build.scene.distributions.size()) {
+        if (build.scene.distributions[i].name == "street lamp") lamp.distribution = i;
+    if (lamp.distribution == build.scene.distributions.size()) {
         build.scene.distributions.push_back(options.luminaire ? *options.luminaire : standard_lamp("street-lamp"));
         build.scene.distributions.back().name = "street lamp";
     }
-    build.scene.lights.push_back(light);
-    return static_cast<uint32_t>(build.scene.lights.size() - 1);
+    build.scene.lamps.push_back(lamp);
+    return static_cast<uint32_t>(build.scene.lamps.size() - 1);
 }
 
 struct Row {
@@ -112,7 +112,7 @@ void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& opt
             // It stands on what is there: a pavement, or the ground.
             frame.origin.z =
                 std::max(frame.origin.z - 0.3, std::min(frame.origin.z, build.ground.height(glm::dvec2(frame.origin))));
-            if (++count > kMaxLamps) return;
+            if (++count > kMaxStreetLamps) return;
             add_street_lamp(build, frame, height, -side);
         }
     }
@@ -148,7 +148,7 @@ void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, in
     const double side = towards;
     Node node = node_at(build, std::string(name) + "/light", frame.at(0, overhang, height), frame.x * side,
                         frame.y * side, frame.z);
-    node.light = lamp_light(build, height);
+    node.lamp = lamp_light(build, height);
     build.scene.nodes.push_back(node);
 }
 
@@ -157,17 +157,17 @@ void build_street_lamps(RoadBuild& build) {
     if (options.spacing <= 0) return;
     if (options.spacing < 2)
         throw Error("street lamps every " + std::to_string(options.spacing) + " m: at least 2 m are expected");
-    const bool has_own = std::any_of(build.scene.lights.begin(), build.scene.lights.end(),
-                                     [](const Light& light) { return light.name == "street lamp"; });
+    const bool has_own = std::any_of(build.scene.lamps.begin(), build.scene.lamps.end(),
+                                     [](const Lamp& lamp) { return lamp.name == "street lamp"; });
     if (has_own && !(build.options.lamps && options.beside_own)) return;
     size_t count = 0;
     const std::vector<double> highest = highest_points(build.lanes);
     for (const Road& road : build.network.roads)
         if (road.junction == kNoRoad && !road.sections.empty() && road.length > 5)
             light_road(build, road, options, highest, count);
-    if (count > kMaxLamps)
-        build.notes.push_back("street lamps: more than " + std::to_string(kMaxLamps) + ": the rest is left out");
-    build.notes.push_back("street lamps: " + std::to_string(std::min(count, kMaxLamps)) + ", every " +
+    if (count > kMaxStreetLamps)
+        build.notes.push_back("street lamps: more than " + std::to_string(kMaxStreetLamps) + ": the rest is left out");
+    build.notes.push_back("street lamps: " + std::to_string(std::min(count, kMaxStreetLamps)) + ", every " +
                           std::to_string(std::lround(options.spacing)) + " m");
 }
 

@@ -25,7 +25,7 @@ struct ActionReader {
 
     void leave_out(const XmlElement& element, const std::string& why) { story.note(element.place() + ": " + why + ": left out"); }
 
-    void light(const XmlElement& element) {
+    void lamp(const XmlElement& element) {
         const auto type = element.child("LightType"), state = element.child("LightState");
         const auto vehicle = type ? type->child("VehicleLight") : std::nullopt;
         if (!vehicle || !state) return leave_out(element, "no vehicle light");
@@ -155,7 +155,7 @@ struct ActionReader {
             if (name == "AppearanceAction" || name == "RoutingAction" || name == "LongitudinalAction" || name == "LateralAction")
                 private_part(each);
             else if (name == "LightStateAction")
-                light(each);
+                lamp(each);
             else if (name == "TeleportAction")
                 made.push_back({{}, [](RunEntity&, int) { return Progress{}; }, StoryAction::kLongitudinal | StoryAction::kLateral});
             else if (!is_without_effect(name))

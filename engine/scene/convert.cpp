@@ -107,7 +107,7 @@ void check_count(const Conversion& conversion, const std::filesystem::path& phot
     size_t placed = conversion.photometry.directional.size();
     for (const auto& nodes : conversion.lamp_nodes)
         placed += static_cast<size_t>(std::count_if(nodes.begin(), nodes.end(), [&](uint32_t node) { return conversion.original.node_of[node] != kNone; }));
-    const size_t most = conversion.original.limits.lights;
+    const size_t most = conversion.original.limits.lamps;
     if (placed > most)
         throw Error(one_line(photometry.string()) + ": /lamps: " + std::to_string(placed) + " lamps, more than the limit of " + std::to_string(most));
 }

@@ -34,9 +34,9 @@ namespace {
 
 void check_lamps(Conversion& conversion) {
     for (const LampRule& rule : conversion.photometry.lamps) {
-        double candela = rule.light.intensity;
-        if (rule.light.kind == Light::Kind::Measured)
-            candela *= largest_intensity(conversion.photometry.measured[rule.light.distribution].distribution);
+        double candela = rule.lamp.intensity;
+        if (rule.lamp.kind == Lamp::Kind::Measured)
+            candela *= largest_intensity(conversion.photometry.measured[rule.lamp.distribution].distribution);
         if (candela < kFaintestLamp || candela > kBrightestLamp)
             conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": " + decimal(candela) +
                                                  " cd is beyond the lamps of a street (0.1 to 1e6 cd)");

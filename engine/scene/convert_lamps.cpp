@@ -7,7 +7,7 @@
 
 #include "photometry/ies.h"
 #include "scene/convert_rules.h"
-#include "scene/light.h"
+#include "scene/lamp.h"
 #include "scene/photometry_measured.h"
 #include "scene/uri.h"
 
@@ -38,17 +38,17 @@ void remove_from_list(json& root, const char* list) {
 }
 
 void remove_lights(Conversion& conversion) {
-    const std::vector<Light>& lights = conversion.original.scene.lights;
+    const std::vector<Lamp>& lamps = conversion.original.scene.lamps;
     json& root = conversion.document.edit();
     remove_extension(root);
     if (root.contains("nodes"))
         for (json& node : root["nodes"]) remove_extension(node);
     remove_from_list(root, "extensionsUsed");
     remove_from_list(root, "extensionsRequired");
-    if (lights.empty()) return;
+    if (lamps.empty()) return;
     const auto suns = static_cast<size_t>(
-        std::count_if(lights.begin(), lights.end(), [](const Light& l) { return l.kind == Light::Kind::Directional; }));
-    conversion.report.changes.push_back("lights: removed " + number_of(lights.size(), "light") + " of the original");
+        std::count_if(lamps.begin(), lamps.end(), [](const Lamp& l) { return l.kind == Lamp::Kind::Directional; }));
+    conversion.report.changes.push_back("lights: removed " + number_of(lamps.size(), "light") + " of the original");
     if (suns > 0)
         conversion.report.warnings.push_back("lights: " + number_of(suns, "directional light") +
                                              " of the original (sun or sky) removed");
@@ -63,16 +63,16 @@ std::vector<std::string> path_of(std::span<const JsonValue> nodes, const std::ve
 }
 
 json light_of(const LampRule& rule) {
-    const Light& light = rule.light;
+    const Lamp& lamp = rule.lamp;
     // The format wants components of at most 1; the intensity makes up for it, so that intensity * Y(color) is in cd.
-    const glm::dvec3 colour(light.colour);
+    const glm::dvec3 colour(lamp.colour);
     const double brightest = std::max({colour.r, colour.g, colour.b});
     json made = {{"name", rule.name},
-                 {"type", light.kind == Light::Kind::Point ? "point" : "spot"},
-                 {"intensity", light.intensity * brightest},
+                 {"type", lamp.kind == Lamp::Kind::Point ? "point" : "spot"},
+                 {"intensity", lamp.intensity * brightest},
                  {"color", {colour.r / brightest, colour.g / brightest, colour.b / brightest}}};
-    if (light.kind != Light::Kind::Point)
-        made["spot"] = {{"innerConeAngle", light.inner_cone}, {"outerConeAngle", light.outer_cone}};
+    if (lamp.kind != Lamp::Kind::Point)
+        made["spot"] = {{"innerConeAngle", lamp.inner_cone}, {"outerConeAngle", lamp.outer_cone}};
     return made;
 }
 
@@ -104,9 +104,9 @@ void add_opening(Conversion& conversion, const char* of, size_t index, const Lum
 
 /// Puts the file of a measured lamp into the document, once for all rules that name it.
 size_t profile_of(Conversion& conversion, const LampRule& rule) {
-    const LuminousOpening& opening = rule.light.opening;
+    const LuminousOpening& opening = rule.lamp.opening;
     const auto [known, is_new] =
-        conversion.profiles.try_emplace({rule.light.distribution, opening.length, opening.width, opening.round});
+        conversion.profiles.try_emplace({rule.lamp.distribution, opening.length, opening.width, opening.round});
     if (!is_new) return known->second;
     json& root = conversion.document.edit();
     json& extension =
@@ -114,7 +114,7 @@ size_t profile_of(Conversion& conversion, const LampRule& rule) {
     if (!extension.contains("lights")) extension["lights"] = json::array();
     if (!root.contains("bufferViews")) root["bufferViews"] = json::array();
     use_extension(root, kMeasured);
-    const Distribution& distribution = conversion.photometry.measured[rule.light.distribution].distribution;
+    const Distribution& distribution = conversion.photometry.measured[rule.lamp.distribution].distribution;
     const std::string text = write_ies(distribution);
     root["bufferViews"].push_back({{"buffer", root.contains("buffers") ? root["buffers"].size() : 0},
                                    {"byteOffset", conversion.profile_bytes.size()},
@@ -136,26 +136,26 @@ void add_profile_buffer(Conversion& conversion) {
 }
 
 Reference reference_of(Conversion& conversion, const LampRule& rule) {
-    if (rule.light.kind == Light::Kind::Measured) {
+    if (rule.lamp.kind == Lamp::Kind::Measured) {
         // As for intensity: multiplier * Y(color) is the factor.
-        const glm::dvec3 colour(rule.light.colour);
+        const glm::dvec3 colour(rule.lamp.colour);
         const double brightest = std::max({colour.r, colour.g, colour.b});
         return {kMeasured,
                 {{"light", profile_of(conversion, rule)},
-                 {"multiplier", rule.light.intensity * brightest},
+                 {"multiplier", rule.lamp.intensity * brightest},
                  {"color", {colour.r / brightest, colour.g / brightest, colour.b / brightest}}}};
     }
     json& root = conversion.document.edit();
     json& extension =
         object_member(conversion.document, object_member(conversion.document, root, "extensions"), kLights);
     if (!extension.contains("lights")) extension["lights"] = json::array();
-    const size_t light = extension["lights"].size();
+    const size_t lamp = extension["lights"].size();
     extension["lights"].push_back(light_of(rule));
     use_extension(root, kLights);
-    if (rule.light.kind == Light::Kind::CosinePower)
-        conversion.lobes.push_back({{"light", light}, {"type", "cosine_power"}, {"exponent", rule.light.exponent}});
-    add_opening(conversion, "light", light, rule.light.opening);
-    return {kLights, {{"light", light}}};
+    if (rule.lamp.kind == Lamp::Kind::CosinePower)
+        conversion.lobes.push_back({{"light", lamp}, {"type", "cosine_power"}, {"exponent", rule.lamp.exponent}});
+    add_opening(conversion, "light", lamp, rule.lamp.opening);
+    return {kLights, {{"light", lamp}}};
 }
 
 void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& reference, uint32_t node,
@@ -182,29 +182,29 @@ void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& ref
 }
 
 /// What the opening of a lamp shows on its axis.
-std::string seen(Light light, const Distribution& distribution) {
-    if (!(light.opening.area() > 0)) return "";
-    light.distribution = 0;
-    return ", " + decimal(axis_luminance(light, {&distribution, 1})) + " cd/m^2 over " + decimal(light.opening.area()) + " m^2";
+std::string seen(Lamp lamp, const Distribution& distribution) {
+    if (!(lamp.opening.area() > 0)) return "";
+    lamp.distribution = 0;
+    return ", " + decimal(axis_luminance(lamp, {&distribution, 1})) + " cd/m^2 over " + decimal(lamp.opening.area()) + " m^2";
 }
 
 std::string describe(const Conversion& conversion, const LampRule& rule, size_t nodes) {
-    const Light& light = rule.light;
-    if (light.kind == Light::Kind::Measured) {
-        const MeasuredLamp& lamp = conversion.photometry.measured[light.distribution];
-        return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + in_quotes(lamp.file) +
-               (lamp.mirror ? " mirrored, " : ", ") + decimal(light.intensity * largest_intensity(lamp.distribution)) +
+    const Lamp& lamp = rule.lamp;
+    if (lamp.kind == Lamp::Kind::Measured) {
+        const MeasuredLamp& measured = conversion.photometry.measured[lamp.distribution];
+        return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + in_quotes(measured.file) +
+               (measured.mirror ? " mirrored, " : ", ") + decimal(lamp.intensity * largest_intensity(measured.distribution)) +
                " cd at most, " + (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
-               decimal(light.intensity * luminous_flux(lamp.distribution)) + " lm each" + seen(light, lamp.distribution);
+               decimal(lamp.intensity * luminous_flux(measured.distribution)) + " lm each" + seen(lamp, measured.distribution);
     }
     const double degrees = 180 / std::numbers::pi;
     std::string lobe = "point";
-    if (light.kind == Light::Kind::Spot)
-        lobe = "spot " + decimal(light.inner_cone * degrees) + "-" + decimal(light.outer_cone * degrees) + " deg";
-    if (light.kind == Light::Kind::CosinePower) lobe = "cosine power " + decimal(light.exponent);
+    if (lamp.kind == Lamp::Kind::Spot)
+        lobe = "spot " + decimal(lamp.inner_cone * degrees) + "-" + decimal(lamp.outer_cone * degrees) + " deg";
+    if (lamp.kind == Lamp::Kind::CosinePower) lobe = "cosine power " + decimal(lamp.exponent);
     return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + lobe + ", " +
-           decimal(light.intensity) + " cd, " + (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
-           decimal(luminous_flux(light)) + " lm each" + seen(light, {});
+           decimal(lamp.intensity) + " cd, " + (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
+           decimal(luminous_flux(lamp)) + " lm each" + seen(lamp, {});
 }
 
 void warn_of_instances(Conversion& conversion, const JsonValue& node, const LampRule& rule) {
@@ -225,8 +225,8 @@ bool is_symmetric(const Distribution& d) {
 
 /// A scale of negative determinant turns a beam for right-hand traffic into one for left-hand, which no lamp does.
 void warn_of_mirrors(Conversion& conversion, const LampRule& rule, const std::vector<uint32_t>& nodes, const std::vector<glm::dmat4>& world) {
-    if (rule.light.kind != Light::Kind::Measured) return;
-    const MeasuredLamp& lamp = conversion.photometry.measured[rule.light.distribution];
+    if (rule.lamp.kind != Lamp::Kind::Measured) return;
+    const MeasuredLamp& lamp = conversion.photometry.measured[rule.lamp.distribution];
     if (lamp.mirror || is_symmetric(lamp.distribution)) return;
     size_t mirrored_nodes = 0;
     std::string first;

@@ -26,7 +26,7 @@ void add_directional(Conversion& conversion, const DirectionalRule& rule) {
     json& extension = object_member(conversion.document, object_member(conversion.document, root, "extensions"),
                                     "KHR_lights_punctual");
     if (!extension.contains("lights")) extension["lights"] = json::array();
-    const size_t light = extension["lights"].size();
+    const size_t lamp = extension["lights"].size();
     const double brightest = std::max({rule.colour.r, rule.colour.g, rule.colour.b});
     extension["lights"].push_back(
         {{"name", rule.name},
@@ -37,7 +37,7 @@ void add_directional(Conversion& conversion, const DirectionalRule& rule) {
     const glm::dquat turn = turn_to(rule.direction);
     add_root_node(root, {{"name", rule.name},
                          {"rotation", {turn.x, turn.y, turn.z, turn.w}},
-                         {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+                         {"extensions", {{"KHR_lights_punctual", {{"light", lamp}}}}}});
     conversion.report.changes.push_back("directional " + in_quotes(rule.name) + ": " + decimal(rule.illuminance) +
                                         " lx");
 }

@@ -6,7 +6,7 @@
 
 #include "io/atomic_file.h"
 #include "scene/convert_rules.h"
-#include "scene/light.h"
+#include "scene/lamp.h"
 
 namespace vesper {
 namespace {
@@ -20,19 +20,19 @@ struct Placed {
     uint32_t node;
     dvec3 position, axis;             // world; m, unit length
     struct Side {
-        double area = 0, light = 0;  // emitting area, m^2, and its integral of luminance, cd
+        double area = 0, lamp = 0;  // emitting area, m^2, and its integral of luminance, cd
     } front, back;                   // towards the axis and away from it
 };
 
 double axis_intensity(const Conversion& conversion, const LampRule& rule) {
-    Light light = rule.light;
-    if (light.kind != Light::Kind::Measured) return luminous_intensity(light, {}, {0, 0, -1});
-    light.distribution = 0;
-    const Distribution& distribution = conversion.photometry.measured[rule.light.distribution].distribution;
-    return luminous_intensity(light, {&distribution, 1}, {0, 0, -1});
+    Lamp lamp = rule.lamp;
+    if (lamp.kind != Lamp::Kind::Measured) return luminous_intensity(lamp, {}, {0, 0, -1});
+    lamp.distribution = 0;
+    const Distribution& distribution = conversion.photometry.measured[rule.lamp.distribution].distribution;
+    return luminous_intensity(lamp, {&distribution, 1}, {0, 0, -1});
 }
 
-std::vector<Placed> placed_lamps(const Conversion& conversion, const std::vector<glm::dmat4>& world, size_t rule_index) {
+std::vector<Placed> reported_lamps(const Conversion& conversion, const std::vector<glm::dmat4>& world, size_t rule_index) {
     const LampRule& rule = conversion.photometry.lamps[rule_index];
     const dvec3 aim = rule.turn ? *rule.turn * dvec3(0, 0, -1) : rule.aim.value_or(dvec3(0, 0, -1));
     std::vector<Placed> lamps;
@@ -95,7 +95,7 @@ void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_s
         const double facing = glm::dot(area, nearest->axis), seen = facing > 0 || double_sided ? std::abs(facing) : 0;
         Placed::Side& lit = facing > 0 ? nearest->front : nearest->back;
         lit.area += seen;
-        lit.light += seen * (picture ? emitter.scale * picture->over(uv) : emitter.luminance);
+        lit.lamp += seen * (picture ? emitter.scale * picture->over(uv) : emitter.luminance);
     }
 }
 
@@ -112,7 +112,7 @@ bool disagree(double a, double b) { return a > kAgreement * b || b > kAgreement 
 void check_named(Conversion& conversion, const EmitterRule& emitter) {
     for (const LampRule& lamp : conversion.photometry.lamps) {
         if (std::find(emitter.lamps.begin(), emitter.lamps.end(), lamp.name) == emitter.lamps.end()) continue;
-        const double intensity = axis_intensity(conversion, lamp), area = lamp.light.opening.area();
+        const double intensity = axis_intensity(conversion, lamp), area = lamp.lamp.opening.area();
         if (emitter.luminance > 0 && area > 0 && disagree(intensity / area, emitter.luminance))
             conversion.report.warnings.push_back(disagreement(emitter, lamp, emitter.luminance, intensity, area));
     }
@@ -145,7 +145,7 @@ void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::ve
     std::vector<dvec3> lamps;
     for (size_t r = 0; r < conversion.photometry.lamps.size(); ++r)
         if (std::find(emitter.lamps.begin(), emitter.lamps.end(), conversion.photometry.lamps[r].name) != emitter.lamps.end())
-            for (const Placed& lamp : placed_lamps(conversion, world, r)) lamps.push_back(lamp.position);
+            for (const Placed& lamp : reported_lamps(conversion, world, r)) lamps.push_back(lamp.position);
     size_t surfaces = 0, dark = 0;
     std::string first;
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
@@ -174,7 +174,7 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
     const auto shines = [&](const Primitive& p) {
         return std::find(shining.begin(), shining.end(), p.material) != shining.end();
     };
-    std::vector<Placed> lamps = placed_lamps(conversion, world, rule_index);
+    std::vector<Placed> lamps = reported_lamps(conversion, world, rule_index);
     const Neighbours neighbours(scene, lamps);
     std::optional<PictureMeans> means;
     if (emitter.picture != kNone) means.emplace(conversion.photometry.pictures[emitter.picture].picture);
@@ -193,14 +193,14 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
     size_t glazed = 0, wrong = 0;
     double worst = 0, its_area = 0, its_luminance = 0;
     for (const Placed& lamp : lamps) {
-        const auto [area, light] = lamp.front.area > 0 ? lamp.front : lamp.back;
-        if (!(area > 0) || !(light > 0) || !(intensity > 0)) continue;
+        const auto [area, candela] = lamp.front.area > 0 ? lamp.front : lamp.back;
+        if (!(area > 0) || !(candela > 0) || !(intensity > 0)) continue;
         ++glazed;
-        const double off = std::abs(std::log(intensity / light));
-        if (disagree(intensity, light)) ++wrong;
-        if (off > worst) worst = off, its_area = area, its_luminance = light / area;
+        const double off = std::abs(std::log(intensity / candela));
+        if (disagree(intensity, candela)) ++wrong;
+        if (off > worst) worst = off, its_area = area, its_luminance = candela / area;
     }
-    if (glazed > 0 && rule.light.opening.area() > 0)
+    if (glazed > 0 && rule.lamp.opening.area() > 0)
         conversion.report.warnings.push_back("emitter " + in_quotes(emitter.name) + ": lies where lamp " +
                                              in_quotes(rule.name) + " shows its opening and would be seen twice: give it \"lamp\": \"" +
                                              one_line(rule.name) + "\"");

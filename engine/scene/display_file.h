@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "perception/display.h"
+#include "vision/display.h"
 
 namespace vesper {
 

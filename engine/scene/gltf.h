@@ -20,7 +20,7 @@ struct SceneLimits {
     uint64_t texels = scaled_limit(512ull << 20);    ///< of all images together
     uint32_t image_side = 16384;                     ///< px
     uint32_t nodes = static_cast<uint32_t>(scaled_limit(1'000'000));
-    uint32_t lights = kMostLights;
+    uint32_t lamps = kMaxLamps;
     uint64_t candela = scaled_limit(16'000'000);     ///< intensities of all measured distributions together
 };
 

@@ -30,8 +30,8 @@ void read_distributions(GltfReader& reader) {
     const auto extension = extensions ? extensions->find("EXT_lights_ies") : std::nullopt;
     if (!extension) return;
     const auto profiles = extension->elements_of("lights");
-    if (profiles.size() > reader.limits.lights)
-        extension->fail("more lights than the limit of " + std::to_string(reader.limits.lights));
+    if (profiles.size() > reader.limits.lamps)
+        extension->fail("more lights than the limit of " + std::to_string(reader.limits.lamps));
     uint64_t bytes = 0, candela = 0;
     for (const JsonValue& profile : profiles) {
         reader.scene.distributions.push_back(read_profile(reader, profile, bytes));
@@ -53,18 +53,18 @@ uint32_t read_measured_light(GltfReader& reader, const JsonValue& use) {
     const auto key = std::tuple(index, static_cast<float>(multiplier), static_cast<float>(colour.r),
                                 static_cast<float>(colour.g), static_cast<float>(colour.b));
     const auto [known, is_new] =
-        reader.measured_lights.try_emplace(key, static_cast<uint32_t>(reader.scene.lights.size()));
+        reader.measured_lights.try_emplace(key, static_cast<uint32_t>(reader.scene.lamps.size()));
     if (!is_new) return known->second;
-    Light light;
-    light.kind = Light::Kind::Measured;
-    light.distribution = index;
-    light.name = reader.scene.distributions[index].name;
-    if (index < reader.profile_openings.size()) light.opening = reader.profile_openings[index];
+    Lamp lamp;
+    lamp.kind = Lamp::Kind::Measured;
+    lamp.distribution = index;
+    lamp.name = reader.scene.distributions[index].name;
+    if (index < reader.profile_openings.size()) lamp.opening = reader.profile_openings[index];
     const double y = luminance(colour);
-    light.intensity = static_cast<float>(multiplier * y);
-    if (y > 0) light.colour = glm::vec3(colour / y);
-    if (!std::isfinite(light.colour.r + light.colour.g + light.colour.b)) use.fail("the colour is too dark");
-    reader.scene.lights.push_back(std::move(light));
+    lamp.intensity = static_cast<float>(multiplier * y);
+    if (y > 0) lamp.colour = glm::vec3(colour / y);
+    if (!std::isfinite(lamp.colour.r + lamp.colour.g + lamp.colour.b)) use.fail("the colour is too dark");
+    reader.scene.lamps.push_back(std::move(lamp));
     return known->second;
 }
 

@@ -17,56 +17,56 @@ glm::vec3 rgb_of(const JsonValue& value) {
 
 /// KHR_lights_punctual multiplies colour by intensity; we keep a colour of luminance 1, so that intensity is what a
 /// photometer measures.
-void normalise(Light& light, double stored_intensity, glm::vec3 stored_colour, const JsonValue& source) {
+void normalise(Lamp& lamp, double stored_intensity, glm::vec3 stored_colour, const JsonValue& source) {
     const double y = luminance(stored_colour);
-    light.intensity = static_cast<float>(stored_intensity * y);
-    light.colour = y > 0 ? glm::vec3(glm::dvec3(stored_colour) / y) : glm::vec3(1);
-    if (!std::isfinite(light.intensity) || !std::isfinite(light.colour.r + light.colour.g + light.colour.b))
+    lamp.intensity = static_cast<float>(stored_intensity * y);
+    lamp.colour = y > 0 ? glm::vec3(glm::dvec3(stored_colour) / y) : glm::vec3(1);
+    if (!std::isfinite(lamp.intensity) || !std::isfinite(lamp.colour.r + lamp.colour.g + lamp.colour.b))
         source.fail("intensity times colour is not finite");
 }
 
-void read_cones(Light& light, const JsonValue& source) {
+void read_cones(Lamp& lamp, const JsonValue& source) {
     constexpr double kRight = std::numbers::pi / 2;
     // Blender and others write a hair more than a right angle.
-    light.outer_cone =
+    lamp.outer_cone =
         static_cast<float>(std::min(source.number_or("outerConeAngle", kRight / 2, 0, kRight + 0.01), kRight));
-    light.inner_cone = static_cast<float>(source.number_or("innerConeAngle", 0, 0, kRight + 0.01));
-    if (light.outer_cone < 1e-3f) source.fail("outerConeAngle must be more than 0.001");
+    lamp.inner_cone = static_cast<float>(source.number_or("innerConeAngle", 0, 0, kRight + 0.01));
+    if (lamp.outer_cone < 1e-3f) source.fail("outerConeAngle must be more than 0.001");
     // The ramp between the cones must have a width.
-    light.inner_cone = std::min(light.inner_cone, light.outer_cone * 0.9999f);
+    lamp.inner_cone = std::min(lamp.inner_cone, lamp.outer_cone * 0.9999f);
 }
 
-Light read_light(GltfReader& reader, const JsonValue& source) {
-    Light light;
-    light.name = source.text_or("name", "");
+Lamp read_light(GltfReader& reader, const JsonValue& source) {
+    Lamp lamp;
+    lamp.name = source.text_or("name", "");
     const std::string& type = source.at("type").text();
     if (type == "point")
-        light.kind = Light::Kind::Point;
+        lamp.kind = Lamp::Kind::Point;
     else if (type == "spot")
-        light.kind = Light::Kind::Spot;
+        lamp.kind = Lamp::Kind::Spot;
     else if (type == "directional")
-        light.kind = Light::Kind::Directional;
+        lamp.kind = Lamp::Kind::Directional;
     else {
         reader.notes.add("a light of a type that glTF does not have is left out");
-        reader.unknown_lights.insert(static_cast<uint32_t>(reader.scene.lights.size()));
+        reader.unknown_lights.insert(static_cast<uint32_t>(reader.scene.lamps.size()));
     }
     const auto colour = source.find("color");
-    normalise(light, source.number_or("intensity", 1, 0), colour ? rgb_of(*colour) : glm::vec3(1), source);
-    if (const auto spot = source.find("spot"); spot && light.kind == Light::Kind::Spot) {
-        read_cones(light, *spot);
+    normalise(lamp, source.number_or("intensity", 1, 0), colour ? rgb_of(*colour) : glm::vec3(1), source);
+    if (const auto spot = source.find("spot"); spot && lamp.kind == Lamp::Kind::Spot) {
+        read_cones(lamp, *spot);
         constexpr double kNarrow = 0.5 * std::numbers::pi / 180;
-        if (light.outer_cone < kNarrow) reader.notes.add("a spot light of less than 0.5 degrees to either side gives more light than it says, and wider");
+        if (lamp.outer_cone < kNarrow) reader.notes.add("a spot light of less than 0.5 degrees to either side gives more light than it says, and wider");
     }
     if (source.find("range")) reader.notes.add("the range of a light is ignored: light follows the square law");
-    return light;
+    return lamp;
 }
 
 void read_lobe(GltfReader& reader, const JsonValue& lobe) {
     lobe.allow_only({"light", "type", "exponent"});
-    Light& light = reader.scene.lights[lobe.at("light").index(reader.scene.lights.size(), "lights")];
+    Lamp& lamp = reader.scene.lamps[lobe.at("light").index(reader.scene.lamps.size(), "lights")];
     if (lobe.at("type").text() != "cosine_power") lobe.at("type").fail("is no lobe this version knows: cosine_power");
-    light.kind = Light::Kind::CosinePower;
-    light.exponent = static_cast<float>(lobe.at("exponent").number(0, 1e5));
+    lamp.kind = Lamp::Kind::CosinePower;
+    lamp.exponent = static_cast<float>(lobe.at("exponent").number(0, 1e5));
 }
 
 /// Where the light of a punctual light, or of all uses of a light profile, comes out.
@@ -82,9 +82,9 @@ void read_opening(GltfReader& reader, const JsonValue& source) {
         reader.profile_openings[profile->index(reader.scene.distributions.size(), "profiles")] = opening;
         return;
     }
-    Light& light = reader.scene.lights[source.at("light").index(reader.scene.lights.size(), "lights")];
-    if (light.kind == Light::Kind::Directional) source.at("light").fail("a directional light has no opening");
-    light.opening = opening;
+    Lamp& lamp = reader.scene.lamps[source.at("light").index(reader.scene.lamps.size(), "lights")];
+    if (lamp.kind == Lamp::Kind::Directional) source.at("light").fail("a directional light has no opening");
+    lamp.opening = opening;
 }
 
 /// {"<quantity>": number, "colour": [r, g, b]}; the colour is brought to luminance 1.
@@ -104,11 +104,11 @@ void read_lights(GltfReader& reader) {
     const auto extensions = reader.document.root().find("extensions");
     const auto punctual = extensions ? extensions->find("KHR_lights_punctual") : std::nullopt;
     if (!punctual) return;
-    const auto lights = punctual->elements_of("lights");
-    if (lights.size() > reader.limits.lights)
-        punctual->fail("more lights than the limit of " + std::to_string(reader.limits.lights));
-    for (const JsonValue& light : lights) reader.scene.lights.push_back(read_light(reader, light));
-    reader.punctual_lights = static_cast<uint32_t>(lights.size());
+    const auto lamps = punctual->elements_of("lights");
+    if (lamps.size() > reader.limits.lamps)
+        punctual->fail("more lights than the limit of " + std::to_string(reader.limits.lamps));
+    for (const JsonValue& lamp : lamps) reader.scene.lamps.push_back(read_light(reader, lamp));
+    reader.punctual_lights = static_cast<uint32_t>(lamps.size());
 }
 
 void read_photometry_block(GltfReader& reader) {

@@ -177,17 +177,17 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
                                   camera_shared);
     Node second;  // a node has one light: a measured one beside another becomes a child's
     if (extensions) {
-        if (const auto light = extensions->find("KHR_lights_punctual"))
-            if (const uint32_t used = light->at("light").index(reader.punctual_lights, "lights"); !reader.unknown_lights.contains(used)) node.light = used;
-        if (const auto light = extensions->find("EXT_lights_ies"))
-            (node.light == kNone ? node : second).light = read_measured_light(reader, *light);
+        if (const auto lamp = extensions->find("KHR_lights_punctual"))
+            if (const uint32_t used = lamp->at("light").index(reader.punctual_lights, "lights"); !reader.unknown_lights.contains(used)) node.lamp = used;
+        if (const auto lamp = extensions->find("EXT_lights_ies"))
+            (node.lamp == kNone ? node : second).lamp = read_measured_light(reader, *lamp);
     }
     const bool has_mesh = node.mesh != kNone;
     // Where nothing else hangs on it, the node with the mesh in place, which follows, takes its place and name.
-    if (skinned && node.camera == kNone && node.light == kNone && second.light == kNone && !source.find("children")) return;
+    if (skinned && node.camera == kNone && node.lamp == kNone && second.lamp == kNone && !source.find("children")) return;
     const uint32_t made = add_node(reader, source, std::move(node));
     reader.node_of[index] = made;
-    if (second.light != kNone) {
+    if (second.lamp != kNone) {
         second.name = reader.scene.nodes[made].name;
         second.parent = made;
         add_node(reader, source, std::move(second));
@@ -248,9 +248,9 @@ void read_nodes(GltfReader& reader) {
     read_skinned(reader, parents);
 
     const auto lit = std::count_if(reader.scene.nodes.begin(), reader.scene.nodes.end(),
-                                   [](const Node& n) { return n.light != kNone; });
-    if (static_cast<uint64_t>(lit) > reader.limits.lights)
-        reader.document.root().fail("more lights than the limit of " + std::to_string(reader.limits.lights));
+                                   [](const Node& n) { return n.lamp != kNone; });
+    if (static_cast<uint64_t>(lit) > reader.limits.lamps)
+        reader.document.root().fail("more lights than the limit of " + std::to_string(reader.limits.lamps));
     check_drawn(reader);
     if (reader.scene.nodes.empty() && !reader.document.list("meshes").empty())
         reader.notes.add("no node shows any of the file's meshes: the scene is empty");

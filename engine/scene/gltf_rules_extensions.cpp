@@ -52,17 +52,17 @@ bool may_stand(const std::string& extension, const std::string& kind) {
 }
 
 void check_lights(const json& punctual, const RuleNote& note) {
-    const std::string lights = "/extensions/KHR_lights_punctual/lights";
+    const std::string lamps = "/extensions/KHR_lights_punctual/lights";
     const auto list = punctual.find("lights");
     if (list == punctual.end()) return note("/extensions/KHR_lights_punctual", "has no lights");
     if (!list->is_array()) return;
-    if (list->empty()) return note(lights, "is empty");
+    if (list->empty()) return note(lamps, "is empty");
     for (size_t i = 0; i < list->size(); ++i) {
-        const json& light = (*list)[i];
-        if (!light.is_object() || text_member(light, "type") != "spot") continue;
-        const std::string at = lights + "/" + std::to_string(i);
-        const auto spot = light.find("spot");
-        if (spot == light.end()) {
+        const json& lamp = (*list)[i];
+        if (!lamp.is_object() || text_member(lamp, "type") != "spot") continue;
+        const std::string at = lamps + "/" + std::to_string(i);
+        const auto spot = lamp.find("spot");
+        if (spot == lamp.end()) {
             note(at, "has no spot to its type");
         } else if (spot->is_object()) {
             const json inner = spot->value("innerConeAngle", json(0.0)), outer = spot->value("outerConeAngle", json(0.785398163397448));  // the defaults

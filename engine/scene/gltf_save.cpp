@@ -127,32 +127,32 @@ void add_opening(json& openings, const char* of, size_t index, const LuminousOpe
 std::vector<json> write_lights(Writer& writer, json& block) {
     std::vector<json> uses;
     json punctual = json::array(), profiles = json::array(), openings = json::array(), lobes = json::array();
-    for (const Light& light : writer.scene.lights) {
-        const auto [colour, factor] = stored(light.colour);
-        if (light.kind == Light::Kind::Measured) {
+    for (const Lamp& lamp : writer.scene.lamps) {
+        const auto [colour, factor] = stored(lamp.colour);
+        if (lamp.kind == Lamp::Kind::Measured) {
             // One profile for each light: openings belong to profiles.
-            const Distribution& distribution = writer.scene.distributions.at(light.distribution);
+            const Distribution& distribution = writer.scene.distributions.at(lamp.distribution);
             const std::string text = write_ies(distribution);
-            profiles.push_back({{"name", light.name},
+            profiles.push_back({{"name", lamp.name},
                                 {"bufferView", writer.view(text.data(), text.size())},
                                 {"mimeType", "application/x-ies-lm-63"}});
-            add_opening(openings, "profile", profiles.size() - 1, light.opening);
+            add_opening(openings, "profile", profiles.size() - 1, lamp.opening);
             uses.push_back(
                 {{"EXT_lights_ies",
-                  {{"light", profiles.size() - 1}, {"multiplier", light.intensity * factor}, {"color", colour}}}});
+                  {{"light", profiles.size() - 1}, {"multiplier", lamp.intensity * factor}, {"color", colour}}}});
             continue;
         }
-        const bool spot = light.kind == Light::Kind::Spot || light.kind == Light::Kind::CosinePower;
-        json made = {{"name", light.name},
-                     {"intensity", light.intensity * factor},
+        const bool spot = lamp.kind == Lamp::Kind::Spot || lamp.kind == Lamp::Kind::CosinePower;
+        json made = {{"name", lamp.name},
+                     {"intensity", lamp.intensity * factor},
                      {"color", colour},
-                     {"type", light.kind == Light::Kind::Point         ? "point"
-                              : light.kind == Light::Kind::Directional ? "directional"
+                     {"type", lamp.kind == Lamp::Kind::Point         ? "point"
+                              : lamp.kind == Lamp::Kind::Directional ? "directional"
                                                                        : "spot"}};
-        if (spot) made["spot"] = {{"innerConeAngle", light.inner_cone}, {"outerConeAngle", light.outer_cone}};
-        if (light.kind == Light::Kind::CosinePower)
-            lobes.push_back({{"light", punctual.size()}, {"type", "cosine_power"}, {"exponent", light.exponent}});
-        add_opening(openings, "light", punctual.size(), light.opening);
+        if (spot) made["spot"] = {{"innerConeAngle", lamp.inner_cone}, {"outerConeAngle", lamp.outer_cone}};
+        if (lamp.kind == Lamp::Kind::CosinePower)
+            lobes.push_back({{"light", punctual.size()}, {"type", "cosine_power"}, {"exponent", lamp.exponent}});
+        add_opening(openings, "light", punctual.size(), lamp.opening);
         uses.push_back({{"KHR_lights_punctual", {{"light", punctual.size()}}}});
         punctual.push_back(std::move(made));
     }
@@ -166,7 +166,7 @@ std::vector<json> write_lights(Writer& writer, json& block) {
     return uses;
 }
 
-void write_nodes(Writer& writer, const std::vector<json>& lights) {
+void write_nodes(Writer& writer, const std::vector<json>& lamps) {
     json roots = json::array();
     for (size_t i = 0; i < writer.scene.nodes.size(); ++i) {
         const Node& node = writer.scene.nodes[i];
@@ -182,7 +182,7 @@ void write_nodes(Writer& writer, const std::vector<json>& lights) {
         }
         if (node.mesh != kNone) made["mesh"] = node.mesh;
         if (node.camera != kNone) made["camera"] = node.camera;
-        if (node.light != kNone) made["extensions"] = lights.at(node.light);
+        if (node.lamp != kNone) made["extensions"] = lamps.at(node.lamp);
         if (node.parent == kNone)
             roots.push_back(i);
         else

@@ -55,31 +55,31 @@ std::vector<std::string> read_patterns(const JsonValue& rule, const char* key) {
 
 namespace {
 
-void read_lobe(Light& light, const JsonValue& rule) {
+void read_lobe(Lamp& lamp, const JsonValue& rule) {
     const JsonValue type = rule.at("type");
     if (type.text() == "point") {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
                          "opening"});
-        light.kind = Light::Kind::Point;
+        lamp.kind = Lamp::Kind::Point;
     } else if (type.text() == "spot") {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
                          "opening", "aim", "inner_cone_deg", "outer_cone_deg"});
-        light.kind = Light::Kind::Spot;
+        lamp.kind = Lamp::Kind::Spot;
         const double outer = rule.at("outer_cone_deg").number(0.5, 90);
         const double inner = rule.number_or("inner_cone_deg", 0, 0, 90);
         if (inner > outer) rule.at("inner_cone_deg").fail("must not be more than outer_cone_deg");
-        light.outer_cone = static_cast<float>(outer * kRadians);
+        lamp.outer_cone = static_cast<float>(outer * kRadians);
         // KHR_lights_punctual wants the inner angle to be less.
-        light.inner_cone = static_cast<float>(std::min(inner, outer * 0.9999) * kRadians);
+        lamp.inner_cone = static_cast<float>(std::min(inner, outer * 0.9999) * kRadians);
     } else if (type.text() == "cosine_power") {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
                          "opening", "aim", "exponent"});
-        light.kind = Light::Kind::CosinePower;
-        light.exponent = static_cast<float>(rule.at("exponent").number(0, 1e5));
+        lamp.kind = Lamp::Kind::CosinePower;
+        lamp.exponent = static_cast<float>(rule.at("exponent").number(0, 1e5));
         // For viewers that know only spots: the cone ends where the lobe has fallen to a thousandth.
-        const double edge = std::acos(std::pow(1e-3, 1 / std::max<double>(light.exponent, 1e-3)));
-        light.inner_cone = 0;
-        light.outer_cone = static_cast<float>(std::min(edge, std::numbers::pi / 2));
+        const double edge = std::acos(std::pow(1e-3, 1 / std::max<double>(lamp.exponent, 1e-3)));
+        lamp.inner_cone = 0;
+        lamp.outer_cone = static_cast<float>(std::min(edge, std::numbers::pi / 2));
     } else {
         type.fail("is none of point, spot, cosine_power and distribution");
     }
@@ -87,9 +87,9 @@ void read_lobe(Light& light, const JsonValue& rule) {
 
 /// Intensity and axis of a lamp that has a lobe.
 void read_shape(LampRule& rule, const JsonValue& source) {
-    read_lobe(rule.light, source);
-    rule.light.intensity = static_cast<float>(source.at("intensity_cd").number(0, 1e9));
-    if (!(rule.light.intensity > 0)) source.at("intensity_cd").fail("must be more than 0");
+    read_lobe(rule.lamp, source);
+    rule.lamp.intensity = static_cast<float>(source.at("intensity_cd").number(0, 1e9));
+    if (!(rule.lamp.intensity > 0)) source.at("intensity_cd").fail("must be more than 0");
     if (const auto aim = source.find("aim")) {
         const glm::dvec3 axis = read_vector(*aim);
         if (!(glm::length(axis) > 1e-6)) aim->fail("must not be of length 0");
@@ -102,8 +102,8 @@ LuminousOpening read_opening(const JsonValue& source, const LampRule& rule, cons
     constexpr double kSmallest = 1e-4, kLargest = 100;
     if (source.json().is_string()) {
         if (source.text() != "file") source.fail("is neither an object nor \"file\"");
-        if (rule.light.kind != Light::Kind::Measured) source.fail("\"file\" is for lamps of type distribution");
-        const LuminousOpening& stated = made.measured[rule.light.distribution].distribution.opening;
+        if (rule.lamp.kind != Lamp::Kind::Measured) source.fail("\"file\" is for lamps of type distribution");
+        const LuminousOpening& stated = made.measured[rule.lamp.distribution].distribution.opening;
         if (std::min(stated.length, stated.width) < kSmallest || std::max(stated.length, stated.width) > kLargest)
             source.fail("the file states no luminous area that can be seen");
         return {.length = stated.length, .width = stated.width, .height = 0, .round = stated.round};
@@ -125,10 +125,10 @@ LampRule read_lamp(const JsonValue& source, const std::filesystem::path& folder,
         read_shape(rule, source);
     rule.nodes = read_patterns(source, "nodes");
     rule.name = source.text_or("name", rule.nodes.front());
-    rule.light.name = rule.name;
-    rule.light.colour = glm::vec3(read_colour(source, &rule.kelvin));
+    rule.lamp.name = rule.name;
+    rule.lamp.colour = glm::vec3(read_colour(source, &rule.kelvin));
     if (const auto offset = source.find("offset_m")) rule.offset = read_vector(*offset);
-    if (const auto opening = source.find("opening")) rule.light.opening = read_opening(*opening, rule, made);
+    if (const auto opening = source.find("opening")) rule.lamp.opening = read_opening(*opening, rule, made);
     return rule;
 }
 
@@ -216,9 +216,9 @@ Photometry read_photometry(const std::filesystem::path& file) {
             made.sky = read_quantity(*sky, "luminance_cd_m2", 1e6);
     }
     for (const JsonValue& rule : root.elements_of("directional")) made.directional.push_back(read_directional(rule));
-    if (const auto lights = root.find("lights")) {
-        lights->allow_only({"keep"});
-        made.keep_lights = lights->boolean_or("keep", false);
+    if (const auto lamps = root.find("lights")) {
+        lamps->allow_only({"keep"});
+        made.keep_lights = lamps->boolean_or("keep", false);
     }
     for (const JsonValue& rule : root.elements_of("lamps"))
         made.lamps.push_back(read_lamp(rule, file.parent_path(), made));

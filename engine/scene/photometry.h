@@ -15,7 +15,7 @@ namespace vesper {
 struct LampRule {
     std::string name;
     std::vector<std::string> nodes;  ///< patterns
-    Light light;                     ///< intensity, lobe, colour, opening; Measured: the factor, an index into measured
+    Lamp lamp;                     ///< intensity, lobe, colour, opening; Measured: the factor, an index into measured
     double kelvin = 0;               ///< colour temperature, K; 0 where a colour was given
     std::optional<glm::dvec3> aim;   ///< axis of the lobe in the node's frame, unit length; -Z where missing
     std::optional<glm::dquat> turn;  ///< Measured: from the luminaire's frame to the node's, where they differ

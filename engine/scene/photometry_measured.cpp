@@ -103,11 +103,11 @@ void read_measured(const JsonValue& source, const std::filesystem::path& folder,
     source.allow_only({"name", "nodes", "type", "file", "lamp_set", "mirror", "flux_lm", "flux_scale",
                        "maintenance_factor", "dimming", "colour_temperature_K", "colour_rgb", "offset_m", "aim", "up",
                        "c0", "rotation_deg", "pitch_deg", "yaw_deg", "opening"});
-    rule.light.kind = Light::Kind::Measured;
-    rule.light.distribution = measured_lamp(source, folder, made);
-    const Distribution& distribution = made.measured[rule.light.distribution].distribution;
-    rule.light.intensity = static_cast<float>(factor_of(source, distribution));
-    if (!std::isfinite(rule.light.intensity)) source.fail("the factors multiply to a number that is not finite");
+    rule.lamp.kind = Lamp::Kind::Measured;
+    rule.lamp.distribution = measured_lamp(source, folder, made);
+    const Distribution& distribution = made.measured[rule.lamp.distribution].distribution;
+    rule.lamp.intensity = static_cast<float>(factor_of(source, distribution));
+    if (!std::isfinite(rule.lamp.intensity)) source.fail("the factors multiply to a number that is not finite");
     const glm::dquat pose = pose_of(source, distribution.goniometry);
     if (std::abs(pose.w) < 1 - 1e-12) rule.turn = pose;
 }

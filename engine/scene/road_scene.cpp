@@ -31,17 +31,17 @@ Primitive carriageway(const RoadLayout& road, double first, double last) {
 
 void add_luminaires(Scene& scene, const RoadLayout& road, const std::vector<RoadLuminaire>& lamps, double factor, const LuminousOpening& opening) {
     scene.distributions.push_back(road.distribution);
-    Light light{.name = road.distribution.name, .kind = Light::Kind::Measured};
-    light.intensity = static_cast<float>(road.flux_factor * factor);
-    light.opening = opening;
-    if (road.colour_temperature > 0) light.colour = glm::vec3(colour_of_temperature(road.colour_temperature));
-    light.distribution = 0;
-    scene.lights.push_back(light);
+    Lamp lamp{.name = road.distribution.name, .kind = Lamp::Kind::Measured};
+    lamp.intensity = static_cast<float>(road.flux_factor * factor);
+    lamp.opening = opening;
+    if (road.colour_temperature > 0) lamp.colour = glm::vec3(colour_of_temperature(road.colour_temperature));
+    lamp.distribution = 0;
+    scene.lamps.push_back(lamp);
     for (const RoadLuminaire& lamp : lamps) {
         Node node{.name = "luminaire " + std::to_string(scene.nodes.size() + 1)};
         node.translation = glm::vec3(road_to_world(lamp.position));
         node.rotation = glm::quat(glm::normalize(glm::quat_cast(kToWorld * lamp.axes)));
-        node.light = 0;
+        node.lamp = 0;
         scene.nodes.push_back(node);
     }
 }

@@ -98,10 +98,10 @@ struct Mesh {
 
 /// Lamps that a frame can have, on every device: loops over them must end by themselves. Lavapipe ends those of an invocation after 65,535 turns in
 /// all, and a lamp that a retroreflective pixel returns takes three.
-inline constexpr uint32_t kMostLights = 21'000;
+inline constexpr uint32_t kMaxLamps = 21'000;
 
 /// A lamp's distribution of luminous intensity about its axis (local -Z).
-struct Light {
+struct Lamp {
     enum class Kind : uint8_t { Point, Spot, CosinePower, Directional, Measured };
     std::string name;
     Kind kind = Kind::Point;
@@ -129,7 +129,7 @@ struct Node {
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1};
     std::optional<glm::dmat4> matrix;  ///< replaces the three above where the file gave one
-    uint32_t mesh = kNone, light = kNone, camera = kNone;
+    uint32_t mesh = kNone, lamp = kNone, camera = kNone;
 };
 
 /// Key frames of one property of one node. Times in s, ascending.
@@ -151,7 +151,7 @@ struct Scene {
     std::vector<LuminancePicture> luminance_pictures;  ///< times Material::emission they are cd/m^2
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
-    std::vector<Light> lights;
+    std::vector<Lamp> lamps;
     std::vector<Distribution> distributions;
     std::vector<ReflectionTable> reflection_tables;  ///< as published,
     bool beyond_tables = true;                       ///< and rendered as extended(); false: as they are, for comparison with a calculation of theirs

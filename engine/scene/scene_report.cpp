@@ -12,14 +12,14 @@
 
 #include "base/srgb.h"
 #include "scene/colour.h"
-#include "scene/light.h"
+#include "scene/lamp.h"
 #include "scene/reflectance.h"
 #include "scene/scene_warnings.h"
 
 namespace vesper {
 namespace {
 
-struct PlacedLamp {
+struct ReportedLamp {
     glm::dvec3 position{0};
     size_t report = 0;
     double lowest = HUGE_VAL, highest = -HUGE_VAL;  // surfaces in the lamp's vertical, m
@@ -35,7 +35,7 @@ std::string stem_of(std::string name) {
 }
 
 /// What lamps that are reported together share.
-auto group_of(const Light& l) {
+auto group_of(const Lamp& l) {
     return std::tuple(stem_of(l.name), l.kind, l.intensity, l.colour.r, l.colour.g, l.colour.b, l.inner_cone, l.outer_cone,
                       l.exponent, l.distribution);
 }
@@ -50,36 +50,36 @@ double largest_luminance(glm::vec3 colour, const Image& image) {
     return largest;
 }
 
-std::vector<PlacedLamp> placed_lamps(const Scene& scene, const std::vector<glm::dmat4>& world, SceneReport& report) {
-    std::vector<PlacedLamp> lamps;
+std::vector<ReportedLamp> reported_lamps(const Scene& scene, const std::vector<glm::dmat4>& world, SceneReport& report) {
+    std::vector<ReportedLamp> lamps;
     std::map<decltype(group_of({})), size_t> place;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        const uint32_t index = scene.nodes[i].light;
+        const uint32_t index = scene.nodes[i].lamp;
         if (index == kNone) continue;
-        const Light& light = scene.lights[index];
-        const auto [entry, added] = place.try_emplace(group_of(light), report.lamps.size());
+        const Lamp& lamp = scene.lamps[index];
+        const auto [entry, added] = place.try_emplace(group_of(lamp), report.lamps.size());
         if (added) {
-            LampReport made{.name = light.name, .kind = light.kind, .candela = static_cast<double>(light.intensity)};
-            made.colour = light.colour;
-            if (light.kind == Light::Kind::Measured) {
-                const Distribution& d = scene.distributions[light.distribution];
+            LampReport made{.name = lamp.name, .kind = lamp.kind, .candela = static_cast<double>(lamp.intensity)};
+            made.colour = lamp.colour;
+            if (lamp.kind == Lamp::Kind::Measured) {
+                const Distribution& d = scene.distributions[lamp.distribution];
                 made.lumens = made.candela * luminous_flux(d);
                 made.candela *= largest_intensity(d);
-            } else if (light.kind != Light::Kind::Directional) {
-                made.lumens = luminous_flux(light);
+            } else if (lamp.kind != Lamp::Kind::Directional) {
+                made.lumens = luminous_flux(lamp);
             }
             report.lamps.push_back(made);
         }
-        LampReport& lamp = report.lamps[entry->second];
-        ++lamp.number;
-        report.lumens += lamp.lumens;
-        if (light.kind != Light::Kind::Directional) lamps.push_back({glm::dvec3(world[i][3]), entry->second});
+        LampReport& alike = report.lamps[entry->second];
+        ++alike.number;
+        report.lumens += alike.lumens;
+        if (lamp.kind != Lamp::Kind::Directional) lamps.push_back({glm::dvec3(world[i][3]), entry->second});
     }
     return lamps;
 }
 
 /// Notes a triangle that crosses the vertical through a lamp.
-void look_for(PlacedLamp& lamp, const std::array<glm::dvec3, 3>& corner) {
+void look_for(ReportedLamp& lamp, const std::array<glm::dvec3, 3>& corner) {
     const glm::dvec2 p(lamp.position.x, lamp.position.z);
     const auto flat = [&](size_t i) { return glm::dvec2(corner[i].x, corner[i].z) - p; };
     const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
@@ -123,9 +123,9 @@ std::optional<double> area_factor(const glm::dmat4& m) {
 
 class Measure {
 public:
-    Measure(const Scene& scene, std::vector<PlacedLamp>& lamps) : lamps_(lamps), area_(scene.materials.size()) {
+    Measure(const Scene& scene, std::vector<ReportedLamp>& lamps) : lamps_(lamps), area_(scene.materials.size()) {
         std::sort(lamps_.begin(), lamps_.end(),
-                  [](const PlacedLamp& a, const PlacedLamp& b) { return a.position.x < b.position.x; });
+                  [](const ReportedLamp& a, const ReportedLamp& b) { return a.position.x < b.position.x; });
     }
     /// Triangles are gone through only where the figures of the whole do not tell: a mesh may be shown by a million nodes.
     void add(const Primitive& primitive, const glm::dmat4& world) {
@@ -158,8 +158,8 @@ private:
             if (lamp->position.z >= low.z - margin.z && lamp->position.z <= high.z + margin.z) return true;
         return false;
     }
-    std::vector<PlacedLamp>::iterator first_lamp(double x) const {
-        return std::lower_bound(lamps_.begin(), lamps_.end(), x, [](const PlacedLamp& a, double from) { return a.position.x < from; });
+    std::vector<ReportedLamp>::iterator first_lamp(double x) const {
+        return std::lower_bound(lamps_.begin(), lamps_.end(), x, [](const ReportedLamp& a, double from) { return a.position.x < from; });
     }
     void look_at_triangles(const Primitive& primitive, const glm::dmat4& world, bool add_area) {
         const glm::dvec3 none(HUGE_VAL);
@@ -178,14 +178,14 @@ private:
         }
     }
 
-    std::vector<PlacedLamp>& lamps_;
+    std::vector<ReportedLamp>& lamps_;
     std::vector<double> area_;
     std::unordered_map<const Primitive*, PrimitiveSize> sizes_;
     glm::dvec3 low_{HUGE_VAL}, high_{-HUGE_VAL};
 };
 
-void report_heights(const std::vector<PlacedLamp>& lamps, SceneReport& report) {
-    for (const PlacedLamp& lamp : lamps) {
+void report_heights(const std::vector<ReportedLamp>& lamps, SceneReport& report) {
+    for (const ReportedLamp& lamp : lamps) {
         LampReport& into = report.lamps[lamp.report];
         const double height = lamp.position.y - lamp.lowest;
         if (height >= 0 && height < HUGE_VAL) {
@@ -203,7 +203,7 @@ void report_heights(const std::vector<PlacedLamp>& lamps, SceneReport& report) {
 SceneReport report_scene(const Scene& scene) {
     SceneReport report;
     const std::vector<glm::dmat4> world = world_transforms(scene, 0);
-    std::vector<PlacedLamp> lamps = placed_lamps(scene, world, report);
+    std::vector<ReportedLamp> lamps = reported_lamps(scene, world, report);
     Measure measure(scene, lamps);
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
@@ -246,17 +246,17 @@ SceneReport report_scene(const Scene& scene) {
     return report;
 }
 
-const char* name_of(Light::Kind kind) {
+const char* name_of(Lamp::Kind kind) {
     switch (kind) {
-        case Light::Kind::Point:
+        case Lamp::Kind::Point:
             return "point";
-        case Light::Kind::Spot:
+        case Lamp::Kind::Spot:
             return "spot";
-        case Light::Kind::CosinePower:
+        case Lamp::Kind::CosinePower:
             return "cosine_power";
-        case Light::Kind::Directional:
+        case Lamp::Kind::Directional:
             return "directional";
-        case Light::Kind::Measured:
+        case Lamp::Kind::Measured:
             return "measured";
     }
     return "";

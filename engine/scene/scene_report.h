@@ -12,7 +12,7 @@ namespace vesper {
 /// Lamps that shine alike and whose names differ by a number at most.
 struct LampReport {
     std::string name;
-    Light::Kind kind = Light::Kind::Point;
+    Lamp::Kind kind = Lamp::Kind::Point;
     size_t number = 0;                ///< of nodes that hold it
     double candela = 0;               ///< greatest; Directional: lx
     double lumens = 0;                ///< of one; Directional: 0
@@ -49,6 +49,6 @@ struct SceneReport {
 /// At the poses of t = 0.
 SceneReport report_scene(const Scene&);
 
-const char* name_of(Light::Kind);
+const char* name_of(Lamp::Kind);
 
 }  // namespace vesper

@@ -34,7 +34,7 @@ public:
     }
     void lamp(const LampReport& lamp) {
         const std::string name = "lamp " + in_quotes(lamp.name) + ": ";
-        if (lamp.kind == Light::Kind::Directional) {
+        if (lamp.kind == Lamp::Kind::Directional) {
             if (lamp.candela > kNightLight) add(name + decimal(lamp.candela) + " lx from the sky are no night");
             return;
         }

@@ -1,11 +1,11 @@
 // The froxel grid: square tiles of the image, cut by depth into slices of equal ratio. SPDX-License-Identifier: MIT
 #ifndef VESPER_SHARED_CLUSTER_H
 #define VESPER_SHARED_CLUSTER_H
-#include "light.h"
+#include "lamp.h"
 SHARED_BEGIN
 
 const uint kTileSize = 64u;       // px, side of a tile
-const uint kAllLights = ~0u;      // list length of a froxel that overflowed: every light is looked at
+const uint kAllLamps = ~0u;      // list length of a froxel that overflowed: every light is looked at
 
 // Maps pixels to view-frame rays and depths to slices. Depth z is the distance along the view axis, m.
 struct ClusterGrid {
@@ -22,7 +22,7 @@ SHARED_SIZE(ClusterGrid, 40)
 
 struct ClusterPush {
     ClusterGrid grid;
-    LightCounts lights;
+    LampCounts lamps;
     float threshold;      // illuminance below which a lamp counts as dark, lx, on a surface facing it
     float far;            // depth where the last slice ends, m
 };
@@ -43,8 +43,8 @@ SHARED_SIZE(ClusterLevelPush, 112)
 
 // What clustering has to report; zeroed every frame.
 struct ClusterReport {
-    uint overflowed;      // froxels whose lights did not fit
-    uint longest;         // lights of the fullest froxel
+    uint overflowed;      // froxels whose lamps did not fit
+    uint longest;         // lamps of the fullest froxel
     uint listed;          // sum of all list lengths
 };
 SHARED_SIZE(ClusterReport, 12)

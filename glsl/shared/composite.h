@@ -28,7 +28,7 @@ struct CompositePush {
     uvec2 size;           // px
     float display_low;    // cd/m^2
     float display_high;
-    float ldr_glare;      // gain of the LDR glare; 0: none
+    float bloom;      // gain of the LDR glare; 0: none
     EncodePush encode;    // of composite.comp only
     vec3 red, green, blue;  // of the display = dot(these, linear Rec. 709), where its primaries are others
     vec3 luminance;         // likewise: of each primary, over that of white

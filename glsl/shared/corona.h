@@ -1,4 +1,4 @@
-// Needles and halo of the brightest lamps of a picture, see perception/glare_pattern.h. SPDX-License-Identifier: MIT
+// Needles and halo of the brightest lamps of a picture, see vision/glare_pattern.h. SPDX-License-Identifier: MIT
 #ifndef VESPER_SHARED_CORONA_H
 #define VESPER_SHARED_CORONA_H
 #include "types.h"

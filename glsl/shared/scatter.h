@@ -1,4 +1,4 @@
-// Light scattered in the eye, see perception/scatter_fit.h. SPDX-License-Identifier: MIT
+// Light scattered in the eye, see vision/scatter_fit.h. SPDX-License-Identifier: MIT
 #ifndef VESPER_SHARED_SCATTER_H
 #define VESPER_SHARED_SCATTER_H
 #include "types.h"
@@ -30,7 +30,7 @@ struct ScatterDownPush {
 };
 SHARED_SIZE(ScatterDownPush, 36)
 
-// Light that pixels near the border keep, EdgeLight in perception/scatter_fit.h.
+// Light that pixels near the border keep, EdgeLight in vision/scatter_fit.h.
 struct ScatterEdgePush {
     uvec2 size;       // px
     uvec2 deep;       // columns and rows at either border, px

@@ -12,7 +12,7 @@ const float kRoadKind = -1.0;
 
 const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of blocks
 
-// A block of pixels has a list of its own: the lights of its froxels that can light what is drawn
+// A block of pixels has a list of its own: the lamps of its froxels that can light what is drawn
 // in it. An entry is a light's index and, above it, the first and the last slice whose pixels it is for.
 const uint kFirstSliceShift = 22u;
 const uint kLastSliceShift = 27u;
@@ -35,7 +35,7 @@ SHARED_SIZE(SelectPush, 80)
 struct ShadePush {
     uvec2 size;             // px
     ClusterGrid grid;
-    LightCounts lights;
+    LampCounts lamps;
     float threshold;        // lx, as in ClusterPush: the same rule decides here
     float lambert;          // L = E * reflectance * lambert: 1/pi, or 1 for the paper's L = E R
     float emission_limit;   // emission is clamped to this, cd/m^2; infinite except for the LDR baseline

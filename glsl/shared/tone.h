@@ -22,7 +22,7 @@ const uint kTonePhotopicRods = 0x400u;  // and without: rods take luminance for 
 const uint kModelFixed = 0u;      // the statistics of the frame: Reinhard, linear
 const uint kModelHistogram = 1u;  // histogram adjustment, anchored at what the eye is adapted to: Irawan et al. 2005
 const uint kModelTrimmed = 2u;    // histogram adjustment by trimming: Ward et al. 1997
-const uint kModelLagging = 3u;    // Pattanaik et al. 2000
+const uint kModelPattanaik = 3u;    // Pattanaik et al. 2000
 const uint kModelGains = 4u;      // two linear gains: Ferwerda et al. 1996; of the eye in its state: Durand and Dorsey 2000
 const uint kModels = 5u;
 
@@ -42,7 +42,7 @@ const uint kAdaptGazeMean = 1u;  // their mean: a headlamp there sets what every
 const uint kAdaptTexel = 2u;     // mean of the texel of the foveal level at the gaze
 const uint kAdaptAverage = 3u;   // the log average of the frame
 
-// Cones or rods, see perception/eye.h. Luminances cd/m^2, times s.
+// Cones or rods, see vision/eye.h. Luminances cd/m^2, times s.
 struct ReceptorParameters {
     float response_step;    // Delta R, times the factor of the observer
     float dark_sigma;
@@ -128,13 +128,13 @@ struct ReceptorMemory {
 SHARED_SIZE(ReceptorMemory, 12)
 
 // For Pattanaik et al. 2000.
-struct LaggingEye {
+struct PattanaikState {
     float cones;         // adaptation luminance, cd/m^2; 0 before the first frame
     float rods;
     float cone_pigment;  // unbleached part
     float rod_pigment;
 };
-SHARED_SIZE(LaggingEye, 16)
+SHARED_SIZE(PattanaikState, 16)
 
 // The first frame finds the pupil of a driver at night (of 1 cd/m^2, Moon and Spencer 1944), mm, which then follows with this time constant, s.
 const float kFirstPupil = 4.9f;
@@ -152,7 +152,7 @@ struct EyeState {
     float steps;          // of the curve below; 0: there is none
     float ln_low;
     float steps_per_ln;
-    LaggingEye lagging;
+    PattanaikState pattanaik;
     vec3 chroma;          // slow part of chromatic adaptation: ln of response over that to white of the same luminance, of each cone
     float node[kMaxBins + 1u];  // of the smoothed curve, ln of display luminance
 };

@@ -27,7 +27,7 @@ uint64_t triangles_of(const Scene& scene) {
 
 uint32_t lamps_of(const Scene& scene) {
     uint32_t total = 0;
-    for (const Node& node : scene.nodes) total += node.light != kNone;
+    for (const Node& node : scene.nodes) total += node.lamp != kNone;
     return total;
 }
 
@@ -68,7 +68,7 @@ TEST(BenchStreet, LampsStandAlongItAndShineDown) {
     const auto world = world_transforms(scene, 0);
     float first = -1, last = 0;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].light == kNone) continue;
+        if (scene.nodes[i].lamp == kNone) continue;
         const glm::vec3 at(world[i][3]), axis = glm::vec3(world[i] * glm::vec4(0, 0, -1, 0));
         EXPECT_NEAR(glm::distance(axis, glm::vec3(0, -1, 0)), 0, 1e-6);
         EXPECT_EQ(at.y, 6.5f);
@@ -86,10 +86,10 @@ TEST(BenchStreet, LampsStandAlongItAndShineDown) {
 TEST(BenchStreet, LampsCanBeOfAnotherKind) {
     const Scene measured = lamp_street(64, 0, VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies"), points = lamp_street(64, 0, "point"), dark = lamp_street(64, 0, "none");
     ASSERT_EQ(measured.distributions.size(), 1u);
-    EXPECT_EQ(measured.lights.at(0).kind, Light::Kind::Measured);
-    EXPECT_NEAR(double(measured.lights[0].intensity) * luminous_flux(measured.distributions[0]), 2 * std::numbers::pi * 1500, 0.01);
-    EXPECT_EQ(points.lights.at(0).kind, Light::Kind::Point);
-    EXPECT_EQ(points.lights[0].intensity, 1500);
+    EXPECT_EQ(measured.lamps.at(0).kind, Lamp::Kind::Measured);
+    EXPECT_NEAR(double(measured.lamps[0].intensity) * luminous_flux(measured.distributions[0]), 2 * std::numbers::pi * 1500, 0.01);
+    EXPECT_EQ(points.lamps.at(0).kind, Lamp::Kind::Point);
+    EXPECT_EQ(points.lamps[0].intensity, 1500);
     EXPECT_EQ(lamps_of(measured), 64u);
     EXPECT_EQ(lamps_of(points), 64u);
     EXPECT_EQ(lamps_of(dark), 0u);
@@ -103,7 +103,7 @@ TEST(BenchScenes, TheNearestLampsStay) {
     const auto world = world_transforms(scene, 0);
     EXPECT_EQ(lamps_of(scene), 6u);
     for (size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].light != kNone) {
+        if (scene.nodes[i].lamp != kNone) {
             EXPECT_LE(std::abs(world[i][3].z + 120), 12);
         }
     EXPECT_THROW(keep_nearest_lamps(scene, {}, 7), Error);

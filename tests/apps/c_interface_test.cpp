@@ -15,10 +15,10 @@
 #include <unistd.h>
 
 #include "io/atomic_file.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 
 namespace vesper::test {
 namespace {
@@ -78,9 +78,9 @@ TEST_F(CInterface, MapsAsTheEngineDoes) {
         ToneChainSettings same;
         same.tone_operator = Operator::Ward, same.histogram.bins = 64;
         same.display = known_displays().front().display, same.display.peak = 150;
-        const ToneMapped want = engine.map(same, {.extent = {width, height}, .values = rgb, .vertical_fov = double(0.7f)}, 0.5f, {.light = true});
+        const ToneMapped want = engine.map(same, {.extent = {width, height}, .values = rgb, .vertical_fov = double(0.7f)}, 0.5f, {.display_light = true});
         EXPECT_EQ(codes, want.display);
-        EXPECT_EQ(light, want.light);
+        EXPECT_EQ(light, want.display_light);
         EXPECT_EQ(report.adaptation, want.curve.adaptation);
         EXPECT_EQ(report.not_finite, 0u);
         EXPECT_GT(report.milliseconds, 0);

@@ -19,7 +19,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr uint32_t kSide = 96;
 
 // A wall 20 m ahead, evenly lit, and a lamp before it far to the left: to all sides, or to the eye alone.
-Scene wall_scene(float ambient, float candela, Light::Kind kind) {
+Scene wall_scene(float ambient, float candela, Lamp::Kind kind) {
     Scene scene;
     scene.name = "wall";
     scene.materials.push_back({.name = "grey", .base_colour = {0.3f, 0.3f, 0.3f, 1}});
@@ -31,8 +31,8 @@ Scene wall_scene(float ambient, float candela, Light::Kind kind) {
     wall.indices = {0, 1, 2, 0, 2, 3};
     scene.meshes.push_back({"wall", {wall}});
     scene.nodes.push_back({.name = "wall", .mesh = 0});
-    scene.lights.push_back({.name = "lamp", .kind = kind, .intensity = candela, .inner_cone = 0.1f, .outer_cone = 0.2f, .opening = {.length = 0.3f, .width = 0.3f}});
-    scene.nodes.push_back({.name = "lamp", .translation = {-19.0f * std::tan(float(32 * kDegree)), 0, -19}, .rotation = glm::angleAxis(float(212 * kDegree), glm::vec3(0, 1, 0)), .light = 0});
+    scene.lamps.push_back({.name = "lamp", .kind = kind, .intensity = candela, .inner_cone = 0.1f, .outer_cone = 0.2f, .opening = {.length = 0.3f, .width = 0.3f}});
+    scene.nodes.push_back({.name = "lamp", .translation = {-19.0f * std::tan(float(32 * kDegree)), 0, -19}, .rotation = glm::angleAxis(float(212 * kDegree), glm::vec3(0, 1, 0)), .lamp = 0});
     scene.ambient_illuminance = ambient;
     return scene;
 }
@@ -80,7 +80,7 @@ struct Rig {
 // Without glare, three screens are the picture they are cut from: the only lamp is on the left one. Luminances differ by what
 // shading adds up over blocks (0.1 %), codes by one.
 TEST(Channels, AreThePictureTheyAreCutFrom) {
-    Rig rig(wall_scene(0.5f, 300, Light::Kind::Point));
+    Rig rig(wall_scene(0.5f, 300, Lamp::Kind::Point));
     RenderSettings settings;
     const Wall wall = rig.wall.render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0, {.display = true, .scene = true});
     const Frame one = rig.renderer.render(settings, whole(), rig.frame, 0, {.display = true, .scene = true});
@@ -104,7 +104,7 @@ TEST(Channels, AreThePictureTheyAreCutFrom) {
 
 // The lamp dazzles: its light is scattered into the screens beside. Two pixels to either side of the seam the veil falls by what it does there, 5 %.
 TEST(Channels, GlareGoesOnAcrossTheSeam) {
-    Rig rig(wall_scene(0.02f, 20000, Light::Kind::Spot));
+    Rig rig(wall_scene(0.02f, 20000, Lamp::Kind::Spot));
     RenderSettings settings;
     settings.glare = Glare::Scatter;
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
@@ -227,7 +227,7 @@ TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
 
 // Lamps, too: what the left screen shows of it counts there, and not as a lamp besides.
 TEST(Channels, LampsOfOtherScreensCountOnce) {
-    Rig rig(wall_scene(0, 20000, Light::Kind::Spot));
+    Rig rig(wall_scene(0, 20000, Lamp::Kind::Spot));
     const Channels channels = turned_screens();
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
     const Wall wall = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true});
@@ -246,7 +246,7 @@ TEST(Channels, LampsOfOtherScreensCountOnce) {
 
 // One screen: the same picture and the same codes as without a file of screens, and the luminance of the scene.
 TEST(Channels, OneScreenIsAView) {
-    Rig rig(wall_scene(0.02f, 20000, Light::Kind::Spot));
+    Rig rig(wall_scene(0.02f, 20000, Lamp::Kind::Spot));
     Channels one;
     one.screens.push_back(three().screens[0]);
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
@@ -260,7 +260,7 @@ TEST(Channels, OneScreenIsAView) {
 
 // Needles are those of the one eye, which adapts and lives from frame to frame.
 TEST(Channels, NeedlesMoveWithTheOneEye) {
-    Rig rig(wall_scene(0.02f, 20000, Light::Kind::Spot));
+    Rig rig(wall_scene(0.02f, 20000, Lamp::Kind::Spot));
     RenderSettings settings = kScattering;
     settings.scatter.model = ScatterSettings::Model::Temporal;
     const auto left = [&](float seconds) { return rig.wall.render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, seconds, {.display = true}).channels.front(); };

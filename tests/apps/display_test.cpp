@@ -3,7 +3,7 @@
 
 #include "io/atomic_file.h"
 #include "io/image_file.h"
-#include "perception/display.h"
+#include "vision/display.h"
 #include "scene/display_file.h"
 #include "support/program.h"
 

@@ -221,8 +221,8 @@ TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
     session.set("lamp:high beam", "0");
     session.step({.beam = Beam::Low});
     const Frame dark = session.render(kSize, outputs);
-    EXPECT_EQ(dark.lights, 0u);
-    EXPECT_EQ(high.lights, low.lights + 2);  // of the driver's car
+    EXPECT_EQ(dark.lamps, 0u);
+    EXPECT_EQ(high.lamps, low.lamps + 2);  // of the driver's car
     EXPECT_GT(road_luminance(low), 2 * road_luminance(dark));
     EXPECT_GT(road_luminance(high), road_luminance(low));
     // They go with the car: the road before it stays lit.

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/hdr_image.h"
-#include "perception/glare.h"
+#include "vision/glare.h"
 #include "places.h"
 #include "support/exr_files.h"
 #include "support/program.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "places.h"
-#include "renderer.h"
+#include "render/renderer.h"
 
 namespace vesper {
 namespace {
@@ -30,9 +30,9 @@ Scene headlamp_and_wall() {
     plane.indices = {0, 1, 2, 0, 2, 3};
     scene.meshes.push_back({"wall", {plane}});
     scene.distributions.push_back(read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry/low-beam.csv"));
-    scene.lights.push_back({.name = "low beam", .kind = Light::Kind::Measured, .intensity = 1, .distribution = 0});
+    scene.lamps.push_back({.name = "low beam", .kind = Lamp::Kind::Measured, .intensity = 1, .distribution = 0});
     scene.nodes.resize(2);
-    scene.nodes[0].mesh = 0, scene.nodes[1].light = 0;
+    scene.nodes[0].mesh = 0, scene.nodes[1].lamp = 0;
     return scene;
 }
 

@@ -21,9 +21,9 @@ Scene ground() {
     }
     square.indices = {0, 1, 2, 0, 2, 3};
     scene.meshes.push_back({"square", {square}});
-    scene.lights.push_back({.name = "lamp", .kind = Light::Kind::Point, .intensity = 1000});
+    scene.lamps.push_back({.name = "lamp", .kind = Lamp::Kind::Point, .intensity = 1000});
     scene.nodes.push_back({.name = "ground", .scale = glm::vec3(10, 1, 10), .mesh = 0});
-    scene.nodes.push_back({.name = "lamp", .translation = {0, 5, 0}, .light = 0});
+    scene.nodes.push_back({.name = "lamp", .translation = {0, 5, 0}, .lamp = 0});
     return scene;
 }
 
@@ -72,8 +72,8 @@ TEST(LightProbe, IlluminanceIsCandelaCosineOverDistanceSquared) {
     frame.dimming = {1, 0.25f};
     EXPECT_NEAR(lamp_illuminance(scene, frame, below), 10, 1e-5);
     // A directional light of 100 lx from 60 degrees above the horizon, dimmed not at all.
-    scene.lights.push_back({.name = "moon", .kind = Light::Kind::Directional, .intensity = 100});
-    scene.nodes.push_back({.name = "moon", .rotation = glm::angleAxis(-std::numbers::pi_v<float> / 3, glm::vec3(1, 0, 0)), .light = 1});
+    scene.lamps.push_back({.name = "moon", .kind = Lamp::Kind::Directional, .intensity = 100});
+    scene.nodes.push_back({.name = "moon", .rotation = glm::angleAxis(-std::numbers::pi_v<float> / 3, glm::vec3(1, 0, 0)), .lamp = 1});
     frame = {.world = world_transforms(scene, 0), .dimming = {1, 0, 1}};
     EXPECT_NEAR(lamp_illuminance(scene, frame, below), 100 * std::sin(std::numbers::pi / 3), 1e-3);
 }

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "io/hdr_image.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "scene/convert.h"
 #include "scene/scene_files.h"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "places.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "scene/convert.h"
 #include "scene/gltf.h"
 #include "support/reference_chain.h"

@@ -1,7 +1,7 @@
 // A whole frame of a scene with a picture of the sky and a retroreflective sign. SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "renderer.h"
+#include "render/renderer.h"
 #include "support/scene_geometry.h"
 
 namespace vesper::test {
@@ -23,10 +23,10 @@ TEST(RendererSky, ASignUnderThePictureOfASky) {
     scene.materials = {sign};
     add_mesh(scene, rectangle({-10, -10, -100}, {20, 0, 0}, {0, 20, 0}), kRectangle, 0);
     const float off = 100 * std::tan(glm::radians(0.5f));
-    scene.lights = {Light{.name = "lamp", .kind = Light::Kind::Point, .intensity = 500}};
+    scene.lamps = {Lamp{.name = "lamp", .kind = Lamp::Kind::Point, .intensity = 500}};
     for (float side : {-off, off}) {
         Node node;
-        node.translation = {side, 0, 0}, node.light = 0;
+        node.translation = {side, 0, 0}, node.lamp = 0;
         scene.nodes.push_back(node);
     }
     Renderer renderer(device, scene);

@@ -89,11 +89,11 @@ TEST(RoadDrive, TheDriversCarHasAllItsLamps) {
         if (node.camera != kNone) {
             EXPECT_NEAR(node.translation.z, -0.14, 0.01);
         }
-        if (node.light == kNone) continue;
-        const Light& light = made.scene.lights[node.light];
+        if (node.lamp == kNone) continue;
+        const Lamp& light = made.scene.lamps[node.lamp];
         ++lamps[light.name];
         if (light.name.ends_with("beam")) {
-            EXPECT_EQ(light.kind, Light::Kind::Measured) << light.name;
+            EXPECT_EQ(light.kind, Lamp::Kind::Measured) << light.name;
         }
         const bool rear = light.name.find("rear") != light.name.npos || light.name == "tail lamp" || light.name == "brake lamp";
         EXPECT_EQ(node.translation.z > 0, rear) << light.name;
@@ -150,7 +150,7 @@ TEST(RoadDrive, UnknownStatesOfTrafficLightsAreNoted) {
     network.roads[0].signals[0].id = "7";
     for (const char* colour : {"red", "yellow", "green"}) {
         Node& node = scene.nodes.emplace_back();
-        node.name = std::string("signal_7/") + colour, node.light = 0;
+        node.name = std::string("signal_7/") + colour, node.lamp = 0;
     }
     EsminiRun run;
     run.signals = {{1, "7", "Green", "s.xosc:3"}, {2, "7", "purple", "s.xosc:4"}, {3, "7", "purple", "s.xosc:5"}, {4, "8", "red", "s.xosc:6"}};
@@ -174,7 +174,7 @@ TEST(RoadDrive, ARunSwitchesItsTrafficLights) {
         const SceneFrame frame = scenery.frame(world.actors(), seconds, DriveSettings());
         for (size_t i = 0; i < scenery.scene().nodes.size(); ++i) {
             const Node& node = scenery.scene().nodes[i];
-            if (node.light != kNone && frame.dimming[i] > 0) ++count[scenery.scene().lights[node.light].name];
+            if (node.lamp != kNone && frame.dimming[i] > 0) ++count[scenery.scene().lamps[node.lamp].name];
         }
         return std::vector<int>{count["red signal"], count["yellow signal"], count["green signal"]};
     };

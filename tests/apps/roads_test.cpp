@@ -32,7 +32,7 @@ TEST_F(Roads, LampsAreChosen) {
     const auto lamps = [&](const char* file) {
         const Scene scene = read_gltf(folder / file).scene;
         size_t count = 0;
-        for (const Node& node : scene.nodes) count += node.light != kNone && node.name.starts_with("street_lamp_");
+        for (const Node& node : scene.nodes) count += node.lamp != kNone && node.name.starts_with("street_lamp_");
         return count;
     };
     EXPECT_EQ(lamps("none.glb"), 0u);

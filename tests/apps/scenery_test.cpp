@@ -11,7 +11,7 @@
 #include "base/luminance.h"
 #include "scene/scene_files.h"
 #include "session.h"
-#include "simulation/world.h"
+#include "traffic/world.h"
 
 namespace vesper::test {
 namespace {

@@ -6,7 +6,7 @@
 #include "io/hdr_image.h"
 #include "support/reference_chain.h"
 #include "support/shared_data.h"
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 
 namespace vesper::test {
 namespace {

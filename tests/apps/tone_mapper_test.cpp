@@ -1,5 +1,5 @@
 // Pictures through the whole tone chain on the device, against its parts in double. SPDX-License-Identifier: MIT
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST_F(ToneMapperTest, GivesWhatIsAskedFor) {
     EXPECT_EQ(std::memcmp(both.scene.data(), pixels.data(), pixels.size() * 16), 0);
     const ToneMapped neither = map(pixels, {7, 5}, {}, 0, {.display = false, .scene = false});
     EXPECT_TRUE(neither.scene.empty() && neither.display.empty());
-    EXPECT_TRUE(neither.light.empty());
+    EXPECT_TRUE(neither.display_light.empty());
     EXPECT_EQ(std::memcmp(&neither.curve, &both.curve, sizeof both.curve), 0);
     EXPECT_NE(mapper.plan().find("adapt"), std::string::npos);
     for (const Timing& timing : neither.timings) EXPECT_NE(timing.pass, "composite") << "nobody looks";
@@ -75,11 +75,11 @@ TEST_F(ToneMapperTest, LightOfTheDisplayGoesBeyondWhite) {
     ToneChainSettings settings;
     settings.tone_operator = Operator::Reinhard;
     const std::vector<float> rgb{0, 0, 100, 1, 1, 1};
-    const ToneMapped got = mapper.map(settings, {.extent = {2, 1}, .values = rgb}, 0, {.light = true});
+    const ToneMapped got = mapper.map(settings, {.extent = {2, 1}, .values = rgb}, 0, {.display_light = true});
     const double low = double(settings.display.low()), high = double(settings.display.high());
-    ASSERT_EQ(got.light.size(), 8u);
-    EXPECT_NEAR(double(got.light[2]), low + (high - low) / 0.072192, 0.05);
-    EXPECT_NEAR(double(got.light[0]), low, 1e-5);
+    ASSERT_EQ(got.display_light.size(), 8u);
+    EXPECT_NEAR(double(got.display_light[2]), low + (high - low) / 0.072192, 0.05);
+    EXPECT_NEAR(double(got.display_light[0]), low, 1e-5);
     EXPECT_EQ(got.display[2], 255);
 }
 

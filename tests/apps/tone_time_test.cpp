@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "support/tones.h"
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 
 namespace vesper::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "arguments.h"
 #include "io/atomic_file.h"
-#include "perception/relative_picture.h"
+#include "vision/relative_picture.h"
 #include "support/exr_files.h"
 #include "support/program.h"
 

@@ -11,10 +11,10 @@
 
 #include "base/error.h"
 #include "places.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "scenery.h"
 #include "support/scene_geometry.h"
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 
 namespace vesper::test {
 namespace {
@@ -39,7 +39,7 @@ constexpr Limits kLimits[]{
 struct Picture {
     VkExtent2D extent;
     std::vector<float> pixels;  // RGBA, cd/m^2
-    std::vector<OutsideLamp> outside;
+    std::vector<OffscreenLamp> outside;
     double vertical_fov;        // rad
 };
 
@@ -82,8 +82,8 @@ std::vector<Picture> drive(Device& device, const std::filesystem::path& file, Vk
             SceneFrame moment = scenery.frame(world.actors(), world.seconds(), settings);
             uint32_t lamp = 0;
             for (size_t node = 0; node < scenery.scene().nodes.size() && every > 1; ++node) {
-                const uint32_t light = scenery.scene().nodes[node].light;
-                if (light == kNone || scenery.scene().lights[light].name != "street lamp") continue;
+                const uint32_t light = scenery.scene().nodes[node].lamp;
+                if (light == kNone || scenery.scene().lamps[light].name != "street lamp") continue;
                 if (moment.dimming.empty()) moment.dimming.assign(scenery.scene().nodes.size(), 1);
                 if (lamp++ % every != 0) moment.dimming[node] = 0;
             }
@@ -108,13 +108,13 @@ std::vector<Picture> empty_street(Device& device, VkExtent2D extent) {
         add_mesh(scene, rectangle({11, 0, z}, {0, 0, 20}, {0, 12.0f - float(i % 4) * 2, 0}), kRectangle, 1);
     }
     for (int i = 0; i < 10; ++i) {
-        Light light{.name = "lamp", .kind = Light::Kind::CosinePower, .intensity = 3000, .exponent = 0.5f};
+        Lamp light{.name = "lamp", .kind = Lamp::Kind::CosinePower, .intensity = 3000, .exponent = 0.5f};
         light.opening = {.length = 0.6, .width = 0.3, .height = 0, .round = false};
         Node node;
-        node.light = uint32_t(scene.lights.size());
+        node.lamp = uint32_t(scene.lamps.size());
         node.translation = {i % 2 ? 6.0 : -6.0, 8.0, -60.0 - 28 * i};
         node.rotation = glm::angleAxis(-glm::half_pi<float>(), glm::vec3(1, 0, 0));  // -Z down
-        scene.lights.push_back(light);
+        scene.lamps.push_back(light);
         scene.nodes.push_back(node);
     }
     Pictures pictures(device, scene);

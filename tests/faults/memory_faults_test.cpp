@@ -11,7 +11,7 @@
 #include "io/exif.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
-#include "perception/display_fit.h"
+#include "vision/display_fit.h"
 #include "photometry/distribution.h"
 #include "photometry/reflection_table.h"
 #include "photometry/response.h"
@@ -22,7 +22,7 @@
 #include "scene/photometry.h"
 #include "scene/road_file.h"
 #include "scene/scene_files.h"
-#include "simulation/world_file.h"
+#include "traffic/world_file.h"
 #include "support/shared_data.h"
 
 namespace vesper::test {

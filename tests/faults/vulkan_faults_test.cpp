@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "faults/faults.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "support/scene_geometry.h"
 
 namespace vesper::test {

@@ -5,7 +5,7 @@
 #include "io/exif.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
-#include "perception/display_fit.h"
+#include "vision/display_fit.h"
 #include "photometry/distribution.h"
 #include "photometry/eulumdat.h"
 #include "photometry/grid.h"
@@ -18,7 +18,7 @@
 #include "scene/gltf.h"
 #include "scene/photometry.h"
 #include "scene/road_file.h"
-#include "simulation/world_file.h"
+#include "traffic/world_file.h"
 
 namespace vesper::test {
 namespace {
@@ -28,7 +28,7 @@ using Bytes = std::span<const uint8_t>;
 
 // Small limits: a fuzzer looks for mistakes, not for memory.
 constexpr uint64_t kSmall = 1 << 16;
-const SceneLimits kFew{.file_bytes = 1 << 22, .vertices = kSmall, .indices = kSmall, .texels = kSmall, .image_side = 512, .nodes = 1000, .lights = 100, .candela = kSmall};
+const SceneLimits kFew{.file_bytes = 1 << 22, .vertices = kSmall, .indices = kSmall, .texels = kSmall, .image_side = 512, .nodes = 1000, .lamps = 100, .candela = kSmall};
 
 // A run of one car along 100 m, for scenarios to play on.
 constexpr const char* kRun = "time,id,name,x,y,z,h,p,r,speed,wheel_angle,wheel_rot\n0,0,Ego,0,-2,0,0,0,0,10,0,0\n1,0,Ego,10,-2,0,0,0,0,10,0,0\n2,0,Ego,20,-2,0,0,0,0,10,0,0\n";

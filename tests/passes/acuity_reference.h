@@ -2,7 +2,7 @@
 #pragma once
 
 #include "passes/pyramid_reference.h"
-#include "perception/thresholds.h"
+#include "vision/thresholds.h"
 
 namespace vesper::reference {
 

@@ -1,6 +1,6 @@
 // What the eye adapts to, its state and the tone curve, smoothed over time. SPDX-License-Identifier: MIT
 // Histogram adjustment: Ward Larson, Rushmeier and Piatko 1997, solved exactly for given ceilings; thresholds of
-// Ferwerda, Pattanaik, Shirley and Greenberg 1996; the eye of perception/eye.h; Reinhard, Stark, Shirley and Ferwerda 2002.
+// Ferwerda, Pattanaik, Shirley and Greenberg 1996; the eye of vision/eye.h; Reinhard, Stark, Shirley and Ferwerda 2002.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 #include "passes/anchor_reference.h"
 #include "passes/pyramid_reference.h"
-#include "perception/eye.h"
-#include "perception/pattanaik.h"
+#include "vision/eye.h"
+#include "vision/pattanaik.h"
 #include "shared/tone.h"
 
 namespace vesper::reference {
@@ -100,7 +100,7 @@ struct Adapted {
     Adjusted adjusted;
     ReceptorState cones, rods;
     std::vector<double> share;
-    pattanaik::State lagging;
+    pattanaik::State pattanaik;
     shared::ToneCurve tone{};
     shared::EyeState eye{};
 };
@@ -181,11 +181,11 @@ inline Adapted adapt(const AdaptInputs& in) {
     t.under_full = out.adjusted.under ? 1.0f : 0.0f;
     t.slack = float(out.adjusted.slack);
     for (size_t i = 0; i < out.adjusted.curve.node.size(); ++i) t.node[i].x = float(out.adjusted.curve.node[i]);
-    const shared::LaggingEye& lagging = in.previous.lagging;
-    out.lagging = {lagging.cones, lagging.rods, lagging.cone_pigment, lagging.rod_pigment};
-    if (in.model == shared::kModelLagging) {
-        out.lagging = first || !(lagging.cones > 0) ? pattanaik::adapted(adaptation, scotopic) : pattanaik::after(out.lagging, adaptation, scotopic, p.seconds);
-        const pattanaik::Appearance appearance(out.lagging, p.rod_constant);
+    const shared::PattanaikState& pattanaik = in.previous.pattanaik;
+    out.pattanaik = {pattanaik.cones, pattanaik.rods, pattanaik.cone_pigment, pattanaik.rod_pigment};
+    if (in.model == shared::kModelPattanaik) {
+        out.pattanaik = first || !(pattanaik.cones > 0) ? pattanaik::adapted(adaptation, scotopic) : pattanaik::after(out.pattanaik, adaptation, scotopic, p.seconds);
+        const pattanaik::Appearance appearance(out.pattanaik, p.rod_constant);
         t.ln_low = float(std::log(1e-4)), t.bins = float(shared::kMaxNodes), t.bins_per_ln = float(shared::kMaxNodes / std::log(1e12));
         t.response_offset = float(appearance.offset());
         t.response_unit = float(pattanaik::cone_sigma(25) / 125);
@@ -199,7 +199,7 @@ inline Adapted adapt(const AdaptInputs& in) {
     const double pupil = in.previous.pupil > 0 ? in.previous.pupil : 4.9, rest = pupil_moon_spencer(adaptation);
     out.eye.pupil = float(rest + (pupil - rest) * std::exp(-double(p.seconds) / 0.5));
     out.eye.cones = memory(out.cones), out.eye.rods = memory(out.rods);
-    out.eye.lagging = {float(out.lagging.cones), float(out.lagging.rods), float(out.lagging.cone_pigment), float(out.lagging.rod_pigment)};
+    out.eye.pattanaik = {float(out.pattanaik.cones), float(out.pattanaik.rods), float(out.pattanaik.cone_pigment), float(out.pattanaik.rod_pigment)};
     if (has_curve) out.eye.steps = float(steps), out.eye.ln_low = p.ln_low, out.eye.steps_per_ln = float(curve.bins_per_ln);
     for (size_t i = 0; i <= steps && has_curve; ++i) out.eye.node[i] = float(out.adjusted.curve.node[i]);
     return out;

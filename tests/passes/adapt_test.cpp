@@ -89,19 +89,19 @@ void expect_same(const Got& got, const reference::Adapted& want, const Frame& fr
     const double node_error = frame.tone.observer.use_rods ? kNodeErrorWithRods : kNodeError;
     Picture got_nodes(steps + 1, 1, 1), want_nodes = got_nodes;
     for (uint32_t i = 0; i <= steps; ++i) got_nodes.values[i] = got.curve.node[i].x, want_nodes.values[i] = want.adjusted.curve.node[i];
-    if (frame.op().model != shared::kModelLagging) {
+    if (frame.op().model != shared::kModelPattanaik) {
         EXPECT_TRUE(same_light("nodes", got_nodes, want_nodes, {0, 0}, [&] {
         Picture allowed(steps + 1, 1, 1);
         for (double& a : allowed.values) a = node_error;
         return allowed;
     }()));
     }
-    if (frame.op().model == shared::kModelLagging) {
+    if (frame.op().model == shared::kModelPattanaik) {
         // Two powers and a logarithm to base 10 in float, of responses up to 1.
         for (uint32_t i = 0; i <= shared::kMaxNodes; ++i)
             for (int k = 0; k < 3; ++k) EXPECT_NEAR(got.curve.node[i][k], want.tone.node[i][k], 2e-5 + 1e-4 * std::abs(want.tone.node[i][k])) << i << " " << k;
     }
-    for (uint32_t i = steps + 1; i <= shared::kMaxNodes && frame.op().model != shared::kModelLagging; ++i) EXPECT_EQ(got.curve.node[i], glm::vec4(0)) << "nodes beyond the last";
+    for (uint32_t i = steps + 1; i <= shared::kMaxNodes && frame.op().model != shared::kModelPattanaik; ++i) EXPECT_EQ(got.curve.node[i], glm::vec4(0)) << "nodes beyond the last";
     const shared::ToneCurve& w = want.tone;
     // 1e-5: one exponential and a few products in float. 5e-5: two logarithms to base 10 and back. 1e-3: a percentile in a bin that has
     // 1e-4 of the votes, of sums of which floats have 1e-7.
@@ -122,7 +122,7 @@ void expect_same(const Got& got, const reference::Adapted& want, const Frame& fr
     }
     EXPECT_FLOAT_EQ(got.curve.ln_low, w.ln_low);
     EXPECT_FLOAT_EQ(got.curve.bins_per_ln, w.bins_per_ln);
-    const shared::LaggingEye &lag = got.eye.lagging, &want_lag = want.eye.lagging;
+    const shared::PattanaikState &lag = got.eye.pattanaik, &want_lag = want.eye.pattanaik;
     EXPECT_TRUE(near(lag.cones, want_lag.cones, 5e-5) && near(lag.rods, want_lag.rods, 5e-5) && near(lag.cone_pigment, want_lag.cone_pigment, 1e-5) && near(lag.rod_pigment, want_lag.rod_pigment, 5e-5));
     EXPECT_NEAR(got.curve.response_offset, w.response_offset, 2e-5);
     EXPECT_TRUE(near(got.curve.response_unit, w.response_unit, 1e-5));

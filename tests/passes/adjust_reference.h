@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "perception/eye.h"
+#include "vision/eye.h"
 #include "shared/tone.h"
 
 namespace vesper::reference {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "passes/composite_reference.h"
-#include "perception/thresholds.h"
+#include "vision/thresholds.h"
 #include "shared/tone.h"
 
 namespace vesper::reference {

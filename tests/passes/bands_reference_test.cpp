@@ -1,6 +1,6 @@
 // Bands of contrast: what can be said of them by hand. SPDX-License-Identifier: MIT
 #include "passes/bands_reference.h"
-#include "perception/eye.h"
+#include "vision/eye.h"
 
 #include <algorithm>
 #include <random>

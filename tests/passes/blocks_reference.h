@@ -96,7 +96,7 @@ inline Extremes extremes_of(const Block& block, const OfPlace& f) {
 
 /// Whether the nodes and points between tell all of a lamp: they lie in a cone of directions no wider than half its beam (to where a
 /// ramp ends, or a power has fallen to exp(-1/2)) and 0.35 rad from its axis.
-inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, const Block& block, const shared::Light& light, LightKind kind, double slack = 1) {
+inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, const Block& block, const shared::Lamp& light, LightKind kind, double slack = 1) {
     const auto point = [&](dvec2 place) {
         const dvec3 ray = view_position(grid, place, 1);
         return ray * (plane.away / glm::dot(plane.normal, ray));
@@ -115,7 +115,7 @@ inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, c
 }
 
 /// The illuminance, lx, of a lamp on the plane where a pixel sees it.
-inline double light_on_plane(const BlockPlane& plane, const shared::ClusterGrid& grid, const shared::Light& light, LightKind kind, dvec2 place) {
+inline double light_on_plane(const BlockPlane& plane, const shared::ClusterGrid& grid, const shared::Lamp& light, LightKind kind, dvec2 place) {
     const dvec3 ray = view_position(grid, place, 1), point = ray * (plane.away / glm::dot(plane.normal, ray));
     const dvec3 path = dvec3(light.position) - point;
     const double d = glm::length(path), cosine = glm::dot(plane.normal, path) / d;

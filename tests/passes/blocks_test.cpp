@@ -58,7 +58,7 @@ struct Gathered {
     std::vector<glm::vec4> sums;
 
     uint32_t listed(uint32_t block) const { return counts[2 * block] + counts[2 * block + 1]; }
-    std::multiset<uint32_t> lights(uint32_t block) const {
+    std::multiset<uint32_t> lamps(uint32_t block) const {
         std::multiset<uint32_t> all;
         const size_t first = size_t(block) * blocks.capacity;
         for (uint32_t i = 0; i < counts[2 * block]; ++i) all.insert(entries[first + i] & ((1u << shared::kFirstSliceShift) - 1));
@@ -75,7 +75,7 @@ struct Gathered {
     }
 };
 
-Gathered gather(PassRig& rig, const Surfaces& s, const LightList& list, float tolerance = kTolerance, float far = 0) {
+Gathered gather(PassRig& rig, const Surfaces& s, const LampList& list, float tolerance = kTolerance, float far = 0) {
     FrameGraph graph;
     const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
     const GBuffer g = upload(graph, s);
@@ -99,25 +99,25 @@ TEST(Blocks, EveryLampIsListedOrAddedUp) {
     for (const auto& [extent, far] : {Case{{1, 1}, 0.0f}, {{7, 5}, 0.0f}, {{33, 9}, 0.0f}, {{203, 131}, 0.0f}, {{203, 131}, 60.0f}}) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", far " + std::to_string(far));
         const Surfaces s = canyon(extent);
-        const LightList list = street_lamps({20, 20, 0}, 300, extent.width);
+        const LampList list = street_lamps({20, 20, 0}, 300, extent.width);
         const Gathered got = gather(rig, s, list, kTolerance, far);
         uint32_t planes = 0, taken = 0, sliced = 0;
         for (uint32_t b = 0; b < got.blocks.count; ++b) {
             const reference::Block block = block_of(s, b % got.blocks.columns, b / got.blocks.columns);
             const auto plane = reference::plane_of(block, got.cluster.grid);
-            const std::multiset<uint32_t> listed = got.lights(b);
+            const std::multiset<uint32_t> listed = got.lamps(b);
             std::set<uint32_t> slices;
             for (const reference::SurfaceTexel& t : block.texels) slices.insert(reference::slice_of(got.cluster.grid, t.surface.z));
             const bool many = slices.size() > 3;  // a lamp is listed several times and may not be added up
             sliced += plane && many ? 1 : 0;
             glm::dvec3 expected[9]{}, possible[9]{};  // lamps that give the threshold nowhere may be left out
             bool doubtful = false;
-            for (uint32_t l = 0; plane && l < list.lamps(); ++l) {
-                const reference::OfPlace e = [&](glm::dvec2 p) { return reference::light_on_plane(*plane, got.cluster.grid, list.lights[l], reference::kind_of(l, list.counts), p); };
+            for (uint32_t l = 0; plane && l < list.placed(); ++l) {
+                const reference::OfPlace e = [&](glm::dvec2 p) { return reference::light_on_plane(*plane, got.cluster.grid, list.lamps[l], reference::kind_of(l, list.counts), p); };
                 const reference::Extremes of = reference::extremes_of(block, e);
                 const double threshold = double(got.cluster.threshold), bearable = std::max(kTolerance * of.least, 0.25 * threshold);
                 // Single precision: errors of a few 1e-6 of a value are a few 1e-3 of the tolerance.
-                const auto is_resolved = [&](double slack) { return reference::resolved(*plane, got.cluster.grid, block, list.lights[l], reference::kind_of(l, list.counts), slack); };
+                const auto is_resolved = [&](double slack) { return reference::resolved(*plane, got.cluster.grid, block, list.lamps[l], reference::kind_of(l, list.counts), slack); };
                 const bool smooth = of.least > 0 && of.error < bearable && is_resolved(1),
                            slight = std::none_of(block.pixels.begin(), block.pixels.end(), [&](glm::uvec2 p) { return e(glm::dvec2(p) + 0.5) > 0.999 * threshold; });
                 const bool close = std::abs(of.error - bearable) < 0.01 * bearable || is_resolved(0.999) != is_resolved(1.001);
@@ -125,7 +125,7 @@ TEST(Blocks, EveryLampIsListedOrAddedUp) {
                 EXPECT_FALSE(smooth && !close && !many && listed.contains(l)) << "block " << b << ", lamp " << l << ", wrong by " << of.error << " lx";
                 if (listed.contains(l) || !smooth) continue;
                 ++taken;
-                for (int n = 0; n < 9; ++n) (slight ? possible : expected)[n] += e(reference::node(block, n % 3, n / 3)) * glm::dvec3(list.lights[l].colour);
+                for (int n = 0; n < 9; ++n) (slight ? possible : expected)[n] += e(reference::node(block, n % 3, n / 3)) * glm::dvec3(list.lamps[l].colour);
             }
             planes += plane ? 1 : 0;
             if (doubtful) continue;
@@ -181,7 +181,7 @@ TEST(Blocks, ANegativeToleranceAddsUpNothing) {
 TEST(Blocks, ShadingWithSumsIsShadingLampByLamp) {
     PassRig rig;
     const Surfaces s = canyon({333, 211});
-    const LightList list = street_lamps({60, 60, 1}, 300, 7);
+    const LampList list = street_lamps({60, 60, 1}, 300, 7);
     for (const float far : {0.0f, 60.0f}) {
         const Shot gathered = shade(rig, s, list, {.threshold = kAll, .far = far}, {}), one_by_one = shade(rig, s, list, {.threshold = kAll, .far = far}, {.gather_tolerance = -1});
         EXPECT_TRUE(same_light("gathered", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.2 * kTolerance, 1e-7})) << far;
@@ -197,7 +197,7 @@ TEST(Blocks, ShadingWithSumsIsShadingLampByLamp) {
 TEST(Blocks, LampsNearTheThresholdCountOrNot) {
     PassRig rig;
     const Surfaces s = canyon({333, 211}, 0, false);
-    const LightList list = street_lamps({60, 0, 0}, 300, 7);
+    const LampList list = street_lamps({60, 0, 0}, 300, 7);
     const float threshold = 0.5f;
     const Shot got = shade(rig, s, list, {.threshold = threshold}, {}), without = shade(rig, s, list, {.threshold = threshold}, {.gather_tolerance = -1}),
                with = shade(rig, s, list, {.threshold = kAll}, {.gather_tolerance = -1});
@@ -222,8 +222,8 @@ TEST(Blocks, LightThatGrazesUnevenGroundIsShadedLampByLamp) {
         if (reference::octahedral_decode(glm::dvec2(s.surface[i])).y > 0.9)
             s.surface[i] = glm::vec4(glm::vec2(reference::octahedral_encode(glm::normalize(glm::dvec3(0, 1, 2e-4 * std::sin(0.5 * y + 0.1 * x))))), s.surface[i].z, 1);
     }
-    LightList list = street_lamps({2, 0, 0}, 1);
-    for (int i = 0; i < 2; ++i) list.lights[size_t(i)] = {{float(i) - 0.5f, -1.0f, -90}, 1e4f, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
+    LampList list = street_lamps({2, 0, 0}, 1);
+    for (int i = 0; i < 2; ++i) list.lamps[size_t(i)] = {{float(i) - 0.5f, -1.0f, -90}, 1e4f, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
     const Shot gathered = shade(rig, s, list, {.threshold = kAll}, {}), one_by_one = shade(rig, s, list, {.threshold = kAll}, {.gather_tolerance = -1});
     EXPECT_TRUE(same_light("uneven", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.6 * kTolerance, 1e-7}));
     EXPECT_EQ(rig.complaints(), "");
@@ -232,7 +232,7 @@ TEST(Blocks, LightThatGrazesUnevenGroundIsShadedLampByLamp) {
 TEST(Blocks, WhatIsNoNumberStaysInItsPixel) {
     PassRig rig;
     Surfaces s = canyon({61, 43}, 0, false);
-    const LightList list = street_lamps({20, 20, 0}, 300, 8);
+    const LampList list = street_lamps({20, 20, 0}, 300, 8);
     const Shot clean = shade(rig, s, list, {.threshold = kAll}, {});
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     const std::set<size_t> spoiled{0, 700, 1500, 2000, 2222, size_t(61 * 43 - 1)};

@@ -19,15 +19,15 @@ using glm::dvec2, glm::dvec3, glm::dvec4;
 
 enum class LightKind { Cone, Power, Map, Directional };
 
-/// Lights are sorted by kind (shared/light.h).
-inline LightKind kind_of(size_t index, const shared::LightCounts& counts) {
+/// Lights are sorted by kind (shared/lamp.h).
+inline LightKind kind_of(size_t index, const shared::LampCounts& counts) {
     if (index < counts.cones) return LightKind::Cone;
     if (index < size_t(counts.cones) + counts.powers) return LightKind::Power;
-    return index < size_t(counts.cones) + counts.powers + counts.maps ? LightKind::Map : LightKind::Directional;
+    return index < size_t(counts.cones) + counts.powers + counts.tables ? LightKind::Map : LightKind::Directional;
 }
 
 /// Luminous intensity towards a direction at `cosine` to the axis, cd. Cone: the squared ramp of KHR_lights_punctual.
-inline double intensity(const shared::Light& light, LightKind kind, double cosine) {
+inline double intensity(const shared::Lamp& light, LightKind kind, double cosine) {
     switch (kind) {
         case LightKind::Cone: {
             const double ramp = std::clamp(light.lobe_a * cosine + light.lobe_b, 0.0, 1.0);
@@ -44,7 +44,7 @@ inline double intensity(const shared::Light& light, LightKind kind, double cosin
 }
 
 /// Illuminance of a lamp on a surface that faces it, lx: I / d^2, the inverse square law.
-inline double facing_illuminance(const shared::Light& light, LightKind kind, dvec3 point) {
+inline double facing_illuminance(const shared::Lamp& light, LightKind kind, dvec3 point) {
     if (kind == LightKind::Directional) return light.intensity;
     const dvec3 to_lamp = dvec3(light.position) - point;
     const double d2 = glm::dot(to_lamp, to_lamp);
@@ -53,7 +53,7 @@ inline double facing_illuminance(const shared::Light& light, LightKind kind, dve
 }
 
 /// Distance beyond which a lamp gives less than `threshold` lx in any direction, m.
-inline double reach(const shared::Light& light, LightKind kind, double threshold) {
+inline double reach(const shared::Lamp& light, LightKind kind, double threshold) {
     const double brightest = std::max(intensity(light, kind, 1.0), intensity(light, kind, -1.0));
     return std::sqrt(brightest / threshold);
 }
@@ -132,7 +132,7 @@ inline Froxel froxel(const shared::ClusterPush& p, shared::uvec2 size, uint32_t 
 
 /// The largest illuminance found in a froxel, lx, by `steps`^3 samples, others where the lamp's axis comes near, and a
 /// pattern search from the best of them. Never more than the true maximum.
-inline double brightest(const shared::ClusterGrid& grid, const Froxel& f, const shared::Light& light, LightKind kind,
+inline double brightest(const shared::ClusterGrid& grid, const Froxel& f, const shared::Lamp& light, LightKind kind,
                         int steps = 5) {
     const auto value = [&](dvec3 t) { return facing_illuminance(light, kind, f.at(grid, t)); };
     double best = -1;
@@ -162,9 +162,9 @@ inline double brightest(const shared::ClusterGrid& grid, const Froxel& f, const 
     return best;
 }
 
-/// Lamps (not directional lights) found to give `threshold` lx somewhere in each froxel, ascending, by froxel_index.
+/// Lamps (not directional lamps) found to give `threshold` lx somewhere in each froxel, ascending, by froxel_index.
 inline std::vector<std::vector<uint32_t>> lit_froxels(const shared::ClusterPush& p, shared::uvec2 size,
-                                                      std::span<const shared::Light> lights, int steps = 5) {
+                                                      std::span<const shared::Lamp> lamps, int steps = 5) {
     std::vector<std::vector<uint32_t>> lists(size_t(p.grid.tiles_x) * p.grid.tiles_y * p.grid.slices);
     // A hair above the threshold: single precision may see a lamp at the threshold either way.
     const double threshold = double(p.threshold) * (1 + 1e-5);
@@ -176,12 +176,12 @@ inline std::vector<std::vector<uint32_t>> lit_froxels(const shared::ClusterPush&
                 dvec3 low = corners[0], high = corners[0];
                 for (dvec3 c : corners) low = glm::min(low, c), high = glm::max(high, c);
                 auto& list = lists[froxel_index(p.grid, x, y, slice)];
-                for (uint32_t i = 0; i < p.lights.cones + p.lights.powers; ++i) {
-                    const LightKind kind = kind_of(i, p.lights);
-                    const dvec3 lamp(lights[i].position), away = lamp - glm::clamp(lamp, low, high);
+                for (uint32_t i = 0; i < p.lamps.cones + p.lamps.powers; ++i) {
+                    const LightKind kind = kind_of(i, p.lamps);
+                    const dvec3 lamp(lamps[i].position), away = lamp - glm::clamp(lamp, low, high);
                     // Farther than the lamp's reach from a box around the froxel: no need to search.
-                    if (glm::length(away) > reach(lights[i], kind, threshold)) continue;
-                    if (brightest(p.grid, f, lights[i], kind, steps) >= threshold) list.push_back(i);
+                    if (glm::length(away) > reach(lamps[i], kind, threshold)) continue;
+                    if (brightest(p.grid, f, lamps[i], kind, steps) >= threshold) list.push_back(i);
                 }
             }
     return lists;

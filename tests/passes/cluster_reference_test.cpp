@@ -27,7 +27,7 @@ shared::ClusterPush grid_of(float near, float far, uint32_t slices, shared::uvec
     return p;
 }
 
-shared::Light point_lamp(glm::vec3 position, float candela) {
+shared::Lamp point_lamp(glm::vec3 position, float candela) {
     return {position, candela, {0, -1, 0}, 0.0f, {1, 1, 1}, 1.0f, {1, 0, 0}, -1.0f};
 }
 
@@ -91,7 +91,7 @@ TEST(ClusterReference, IlluminanceIsIntensityOverDistanceSquared) {
 // KHR_lights_punctual: a = 1 / (cos inner - cos outer), b = -cos outer a; the ramp is squared.
 TEST(ClusterReference, ConeFallsFromFullToNothing) {
     const double inner = std::cos(0.3), outer = std::cos(0.6);
-    shared::Light spot = point_lamp({0, 0, 0}, 100);
+    shared::Lamp spot = point_lamp({0, 0, 0}, 100);
     spot.lobe_a = float(1 / (inner - outer)), spot.lobe_b = float(-outer / (inner - outer));
     EXPECT_NEAR(intensity(spot, LightKind::Cone, 1), 100, 1e-9);
     EXPECT_NEAR(intensity(spot, LightKind::Cone, inner), 100, 1e-3);
@@ -103,7 +103,7 @@ TEST(ClusterReference, ConeFallsFromFullToNothing) {
 // A lobe I cos^n emits 2 pi I / (n + 1) lumens: 2 pi I for n = 0, pi I for Lambert's n = 1.
 TEST(ClusterReference, CosinePowerEmitsItsFlux) {
     for (float exponent : {0.0f, 1.0f, 3.0f, 40.0f}) {
-        shared::Light lobe = point_lamp({0, 0, 0}, 10);
+        shared::Lamp lobe = point_lamp({0, 0, 0}, 10);
         lobe.lobe_a = exponent;
         double flux = 0;
         const int steps = 20000;
@@ -138,7 +138,7 @@ TEST(ClusterReference, BrightestIsNoLessThanDenseSampling) {
     std::mt19937 random(2);
     std::uniform_real_distribution<float> uniform(-1, 1);
     for (int k = 0; k < 12; ++k) {
-        shared::Light spot = point_lamp({30 * uniform(random), 30 * uniform(random), -30 + 30 * uniform(random)}, 500);
+        shared::Lamp spot = point_lamp({30 * uniform(random), 30 * uniform(random), -30 + 30 * uniform(random)}, 500);
         spot.axis = glm::normalize(glm::vec3(uniform(random), uniform(random), uniform(random)));
         spot.lobe_a = 3, spot.lobe_b = -1.8f;
         const Froxel f = froxel(p, kSize, uint32_t(k) % 3, uint32_t(k) % 2, uint32_t(k) % 7);
@@ -156,7 +156,7 @@ TEST(ClusterReference, BrightestFindsANarrowBeam) {
     const Froxel f = froxel(p, kSize, 1, 1, 5);
     const dvec3 target = f.at(p.grid, {0.37, 0.81, 0.43});
     EXPECT_NEAR(glm::length(f.nearest(p.grid, target) - dvec3(0.37, 0.81, 0.43)), 0, 1e-9);
-    shared::Light beam = point_lamp({12, 9, -3}, 1e4f);
+    shared::Lamp beam = point_lamp({12, 9, -3}, 1e4f);
     beam.axis = glm::normalize(glm::vec3(target) - beam.position);
     beam.lobe_a = 1e5f;  // half of the intensity 0.2 degrees off the axis
     const double d = glm::length(target - dvec3(beam.position));
@@ -166,18 +166,18 @@ TEST(ClusterReference, BrightestFindsANarrowBeam) {
 // What clustering is for: wherever a lamp counts, it is listed; and a higher threshold lists no more.
 TEST(ClusterReference, ListsHoldEveryLampThatLightsAPointThere) {
     shared::ClusterPush p = grid_of(1, 100, 5);
-    p.lights = {6, 2, 0, 0};
+    p.lamps = {6, 2, 0, 0};
     std::mt19937 random(3);
     std::uniform_real_distribution<float> uniform(-1, 1);
-    std::vector<shared::Light> lights;
+    std::vector<shared::Lamp> lamps;
     for (int i = 0; i < 8; ++i) {
-        lights.push_back(point_lamp({20 * uniform(random), 5 * uniform(random), -40 + 39 * uniform(random)}, 0.05f));
-        if (i >= 6) lights.back().lobe_a = 4;
-        lights.back().axis = glm::normalize(glm::vec3(uniform(random), -1, uniform(random)));
+        lamps.push_back(point_lamp({20 * uniform(random), 5 * uniform(random), -40 + 39 * uniform(random)}, 0.05f));
+        if (i >= 6) lamps.back().lobe_a = 4;
+        lamps.back().axis = glm::normalize(glm::vec3(uniform(random), -1, uniform(random)));
     }
-    const auto lists = lit_froxels(p, kSize, lights);
+    const auto lists = lit_froxels(p, kSize, lamps);
     p.threshold *= 5;
-    const auto shorter = lit_froxels(p, kSize, lights);
+    const auto shorter = lit_froxels(p, kSize, lamps);
     p.threshold /= 5;
     size_t all = 0;
     for (size_t i = 0; i < lists.size(); ++i) {
@@ -193,8 +193,8 @@ TEST(ClusterReference, ListsHoldEveryLampThatLightsAPointThere) {
         const double z = std::pow(100, unit(random));
         const dvec3 point = view_position(p.grid, dvec2(x, y) + 0.5, z);
         const auto& list = lists[froxel_index(p.grid, tile_of(x), tile_of(y), slice_of(p.grid, z))];
-        for (uint32_t i = 0; i < lights.size(); ++i)
-            if (facing_illuminance(lights[i], kind_of(i, p.lights), point) >= p.threshold * 1.0001) {
+        for (uint32_t i = 0; i < lamps.size(); ++i)
+            if (facing_illuminance(lamps[i], kind_of(i, p.lamps), point) >= p.threshold * 1.0001) {
                 EXPECT_TRUE(std::binary_search(list.begin(), list.end(), i)) << "lamp " << i << " depth " << z;
             }
     }

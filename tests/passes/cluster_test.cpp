@@ -16,7 +16,7 @@ namespace {
 struct Lists {
     shared::ClusterPush push;
     shared::ClusterReport report;
-    std::vector<std::vector<uint32_t>> lights;  ///< cones, then powers; of an overflowed froxel: empty
+    std::vector<std::vector<uint32_t>> lamps;  ///< cones, then powers; of an overflowed froxel: empty
     std::vector<bool> overflowed;
     std::vector<uint32_t> cones;
     std::vector<reference::Drawn> drawn;        ///< what is drawn in a froxel
@@ -42,7 +42,7 @@ Resource surface_of(FrameGraph& graph, VkExtent2D extent) {
     return PassRig::image(graph, "surface", kSurfaceFormat, extent, texels);
 }
 
-Lists cluster(PassRig& rig, const LightList& list, const View& view, const ClusterSettings& settings) {
+Lists cluster(PassRig& rig, const LampList& list, const View& view, const ClusterSettings& settings) {
     FrameGraph graph;
     const Clusters clusters = add_clusters(graph, rig.kernels(), surface_of(graph, view.extent), list, no_maps(graph), view, settings);
     const Resource counts = keep<uint32_t>(graph, clusters.counts), indices = keep<uint32_t>(graph, clusters.indices),
@@ -56,24 +56,24 @@ Lists cluster(PassRig& rig, const LightList& list, const View& view, const Clust
     const auto count = rig.got<uint32_t>(counts), index = rig.got<uint32_t>(indices);
     const uint32_t capacity = out.push.grid.capacity;
     for (size_t froxel = 0; 2 * froxel < count.size(); ++froxel) {
-        const bool over = count[2 * froxel] == shared::kAllLights;
-        EXPECT_EQ(over, count[2 * froxel + 1] == shared::kAllLights);
+        const bool over = count[2 * froxel] == shared::kAllLamps;
+        EXPECT_EQ(over, count[2 * froxel + 1] == shared::kAllLamps);
         out.overflowed.push_back(over);
         out.cones.push_back(over ? 0 : count[2 * froxel]);
         const size_t begin = froxel * capacity, length = over ? 0 : count[2 * froxel] + count[2 * froxel + 1];
         EXPECT_LE(length, capacity);
-        out.lights.emplace_back(index.begin() + begin, index.begin() + begin + std::min<size_t>(length, capacity));
+        out.lamps.emplace_back(index.begin() + begin, index.begin() + begin + std::min<size_t>(length, capacity));
     }
     return out;
 }
 
-/// What must hold of any lists, whatever the lights.
-void expect_well_formed(const Lists& lists, const LightList& list) {
+/// What must hold of any lists, whatever the lamps.
+void expect_well_formed(const Lists& lists, const LampList& list) {
     const shared::ClusterGrid& grid = lists.push.grid;
-    ASSERT_EQ(lists.lights.size(), size_t(grid.tiles_x) * grid.tiles_y * grid.slices);
+    ASSERT_EQ(lists.lamps.size(), size_t(grid.tiles_x) * grid.tiles_y * grid.slices);
     uint64_t listed = 0, longest = 0, overflowed = 0;
-    for (size_t i = 0; i < lists.lights.size(); ++i) {
-        const auto& l = lists.lights[i];
+    for (size_t i = 0; i < lists.lamps.size(); ++i) {
+        const auto& l = lists.lamps[i];
         if (lists.drawn[i] == reference::Drawn::Nothing) {
             EXPECT_TRUE(l.empty() && !lists.overflowed[i]) << "froxel " << i;
         }
@@ -97,13 +97,13 @@ void expect_well_formed(const Lists& lists, const LightList& list) {
 }
 
 /// Every lamp that the reference found to light a froxel is on its list, and returns (found, listed) in total.
-std::pair<uint64_t, uint64_t> expect_superset(const Lists& lists, const LightList& list, VkExtent2D extent, int steps) {
-    const auto want = reference::lit_froxels(lists.push, {extent.width, extent.height}, list.lights, steps);
+std::pair<uint64_t, uint64_t> expect_superset(const Lists& lists, const LampList& list, VkExtent2D extent, int steps) {
+    const auto want = reference::lit_froxels(lists.push, {extent.width, extent.height}, list.lamps, steps);
     uint64_t found = 0, listed = 0, missed = 0;
     std::string first;
     for (size_t i = 0; i < want.size(); ++i) {
         if (lists.overflowed[i] || lists.drawn[i] != reference::Drawn::Something) continue;
-        const auto& got = lists.lights[i];
+        const auto& got = lists.lamps[i];
         found += want[i].size(), listed += got.size();
         for (uint32_t light : want[i])
             if (!std::binary_search(got.begin(), got.end(), light) && missed++ == 0)
@@ -121,7 +121,7 @@ TEST(Cluster, ListsEveryLampThatLightsTheFroxel) {
         for (uint32_t count : {1u, 64u}) {
             SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", " +
                          std::to_string(count) + " lights");
-            const LightList list = street_lamps(half_and_half(count), 0.3f, extent.width + count);  // 17 m of reach
+            const LampList list = street_lamps(half_and_half(count), 0.3f, extent.width + count);  // 17 m of reach
             const Lists lists = cluster(rig, list, view_of(extent), {});
             expect_well_formed(lists, list);
             expect_superset(lists, list, extent, 5);
@@ -132,7 +132,7 @@ TEST(Cluster, ListsEveryLampThatLightsTheFroxel) {
 TEST(Cluster, ListsEveryLampOfAWholeFrame) {
     PassRig rig;
     const VkExtent2D extent{1680, 1050};
-    const LightList list = street_lamps({20, 12, 0}, 0.3f, 4);
+    const LampList list = street_lamps({20, 12, 0}, 0.3f, 4);
     const Lists lists = cluster(rig, list, view_of(extent), {});
     expect_well_formed(lists, list);
     // The bound is a sphere around each froxel, so lists are longer than they must be; but not so long as to be
@@ -147,7 +147,7 @@ TEST(Cluster, HoldsThousandsOfLamps) {
     PassRig rig;
     const VkExtent2D extent{130, 70};
     for (uint32_t count : {1000u, 4000u}) {
-        const LightList list = street_lamps(half_and_half(count), 0.02f, count);
+        const LampList list = street_lamps(half_and_half(count), 0.02f, count);
         const Lists lists = cluster(rig, list, view_of(extent), {.slices = 16, .capacity = count});
         EXPECT_EQ(lists.report.overflowed, 0u);
         expect_well_formed(lists, list);
@@ -159,7 +159,7 @@ TEST(Cluster, HoldsThousandsOfLamps) {
 TEST(Cluster, BrightLampsReachTheEndOfTheStreet) {
     PassRig rig;
     const VkExtent2D extent{128, 64};
-    const LightList list = street_lamps(half_and_half(16), 30000, 6);  // headlamps: 5.5 km
+    const LampList list = street_lamps(half_and_half(16), 30000, 6);  // headlamps: 5.5 km
     const Lists lists = cluster(rig, list, view_of(extent), {});
     EXPECT_GT(lists.push.far, 5000);
     expect_well_formed(lists, list);
@@ -174,9 +174,9 @@ TEST(Cluster, BrightLampsReachTheEndOfTheStreet) {
 TEST(Cluster, NarrowBeamsAreFollowed) {
     PassRig rig;
     const VkExtent2D extent{190, 130};
-    LightList list = street_lamps(half_and_half(120), 2e4f, 12);
-    for (uint32_t i = 0; i < list.lights.size(); ++i) {
-        shared::Light& beam = list.lights[i];
+    LampList list = street_lamps(half_and_half(120), 2e4f, 12);
+    for (uint32_t i = 0; i < list.lamps.size(); ++i) {
+        shared::Lamp& beam = list.lamps[i];
         const float inner = 0.003f, outer = 0.02f;
         beam.lobe_a = i < list.counts.cones ? 1 / (std::cos(inner) - std::cos(outer)) : 5000;
         beam.lobe_b = -std::cos(outer) * beam.lobe_a;
@@ -185,26 +185,26 @@ TEST(Cluster, NarrowBeamsAreFollowed) {
     expect_well_formed(lists, list);
     const auto [found, listed] = expect_superset(lists, list, extent, 3);
     EXPECT_GT(found, 200u);
-    EXPECT_LT(listed, lists.lights.size() * 120 / 4) << "most lights are listed in few froxels";
+    EXPECT_LT(listed, lists.lamps.size() * 120 / 4) << "most lights are listed in few froxels";
     EXPECT_EQ(rig.complaints(), "");
 }
 
 TEST(Cluster, SaysWhatDidNotFit) {
     PassRig rig;
     const VkExtent2D extent{200, 130};
-    const LightList list = street_lamps(half_and_half(200), 1, 8);
+    const LampList list = street_lamps(half_and_half(200), 1, 8);
     const Lists roomy = cluster(rig, list, view_of(extent), {.capacity = 200});
     EXPECT_EQ(roomy.report.overflowed, 0u);
     for (uint32_t capacity : {1u, 5u}) {
         const Lists tight = cluster(rig, list, view_of(extent), {.capacity = capacity});
         expect_well_formed(tight, list);
         uint64_t want = 0;
-        for (size_t i = 0; i < roomy.lights.size(); ++i) {
-            const bool over = roomy.lights[i].size() > capacity;
+        for (size_t i = 0; i < roomy.lamps.size(); ++i) {
+            const bool over = roomy.lamps[i].size() > capacity;
             want += over;
             EXPECT_EQ(tight.overflowed[i], over) << "froxel " << i;
             if (!over) {
-                EXPECT_EQ(tight.lights[i], roomy.lights[i]);
+                EXPECT_EQ(tight.lamps[i], roomy.lamps[i]);
             }
         }
         EXPECT_GT(want, 0u);
@@ -217,7 +217,7 @@ TEST(Cluster, SaysWhatDidNotFit) {
 
 TEST(Cluster, AFrameWithoutLampsHasEmptyLists) {
     PassRig rig;
-    for (const LightList& list : {LightList{}, street_lamps({0, 0, 2}, 1)}) {
+    for (const LampList& list : {LampList{}, street_lamps({0, 0, 2}, 1)}) {
         const Lists lists = cluster(rig, list, view_of({70, 40}), {});
         expect_well_formed(lists, list);
         EXPECT_EQ(lists.report.listed, 0u);
@@ -228,14 +228,14 @@ TEST(Cluster, AFrameWithoutLampsHasEmptyLists) {
 
 TEST(Cluster, ALampDarkerThanTheThresholdEverywhereIsNotListed) {
     PassRig rig;
-    LightList list = street_lamps({1, 0, 0}, 1);
-    list.lights[0].position = {0, 0, -50};
-    list.lights[0].intensity = 0.001f;  // 1 m of reach
+    LampList list = street_lamps({1, 0, 0}, 1);
+    list.lamps[0].position = {0, 0, -50};
+    list.lamps[0].intensity = 0.001f;  // 1 m of reach
     const Lists lists = cluster(rig, list, view_of({64, 64}), {.far = 100});
     for (uint32_t slice = 0; slice < lists.push.grid.slices; ++slice) {
         const double begin = reference::slice_depth(lists.push.grid, slice),
                      end = reference::slice_depth(lists.push.grid, slice + 1);
-        const auto& got = lists.lights[reference::froxel_index(lists.push.grid, 0, 0, slice)];
+        const auto& got = lists.lamps[reference::froxel_index(lists.push.grid, 0, 0, slice)];
         if (begin < 50 && end > 50 && lists.drawn[reference::froxel_index(lists.push.grid, 0, 0, slice)] == reference::Drawn::Something) {
             EXPECT_EQ(got.size(), 1u);
         }
@@ -263,15 +263,15 @@ TEST(Cluster, GridMapsDepthsFromAMetreToTheEnd) {
 TEST(Cluster, RefusesImpossibleSettings) {
     PassRig rig;
     FrameGraph graph;
-    const LightList list = street_lamps({3, 0, 0}, 100);
-    const MapTexels maps = no_maps(graph);
+    const LampList list = street_lamps({3, 0, 0}, 100);
+    const TableTexels tables = no_maps(graph);
     const Resource surface = surface_of(graph, {64, 64});
     for (const ClusterSettings& settings : {ClusterSettings{.slices = 0}, ClusterSettings{.slices = 1},
                                             ClusterSettings{.slices = 33}, ClusterSettings{.capacity = 0}})
-        EXPECT_THROW(add_clusters(graph, rig.kernels(), surface, list, maps, view_of({64, 64}), settings), Error);
-    LightList crowd;
-    crowd.counts.cones = 1u << 20, crowd.lights.resize(1u << 20);
-    EXPECT_THROW(add_clusters(graph, rig.kernels(), surface, crowd, maps, view_of({64, 64}), {}), Error);
+        EXPECT_THROW(add_clusters(graph, rig.kernels(), surface, list, tables, view_of({64, 64}), settings), Error);
+    LampList crowd;
+    crowd.counts.cones = 1u << 20, crowd.lamps.resize(1u << 20);
+    EXPECT_THROW(add_clusters(graph, rig.kernels(), surface, crowd, tables, view_of({64, 64}), {}), Error);
 }
 
 }  // namespace

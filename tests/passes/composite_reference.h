@@ -3,8 +3,8 @@
 #pragma once
 
 #include "passes/pyramid_reference.h"
-#include "perception/display.h"
-#include "perception/thresholds.h"
+#include "vision/display.h"
+#include "vision/thresholds.h"
 #include "shared/composite.h"
 #include "shared/gamut.h"
 
@@ -191,7 +191,7 @@ template <class Rgb>
 struct CompositeFrame {
     std::span<const Rgb> scene;            ///< cd/m^2
     std::span<const Rgb> luminance_glare;  ///< cd/m^2, full size
-    std::span<const Rgb> ldr_glare;        ///< displayed light, a quarter of the size
+    std::span<const Rgb> bloom;        ///< displayed light, a quarter of the size
     shared::uvec2 size;                    ///< px
     double gain = 1;                       ///< of the LDR glare
 };
@@ -208,11 +208,11 @@ dvec3 composite_light(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uin
     if (!frame.luminance_glare.empty()) light += load(frame.luminance_glare);
     const glm::dmat3 to_own = from_rec709(display.primaries);
     dvec3 shown = displayed(light, tone, curve, double(display.low()), double(display.high()), to_own);
-    if (!frame.ldr_glare.empty()) {
+    if (!frame.bloom.empty()) {
         const double shrink = shared::kGlareShrink;
         const uint32_t width = (frame.size.x + shared::kGlareShrink - 1) / shared::kGlareShrink;
         const uint32_t height = (frame.size.y + shared::kGlareShrink - 1) / shared::kGlareShrink;
-        shown += to_own * (frame.gain * bilinear(frame.ldr_glare, width, height, (dvec2(pixel) + 0.5) / shrink - 0.5));
+        shown += to_own * (frame.gain * bilinear(frame.bloom, width, height, (dvec2(pixel) + 0.5) / shrink - 0.5));
     }
     return shown;
 }

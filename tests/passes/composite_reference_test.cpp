@@ -1,7 +1,7 @@
 // Tone mapping, colour and display model in double. SPDX-License-Identifier: MIT
 #include "passes/composite_reference.h"
 
-#include "perception/pattanaik.h"
+#include "vision/pattanaik.h"
 
 #include <random>
 

@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "resident/view.h"
+#include "gpu_scene/view.h"
 #include "shared/corona.h"
 
 namespace vesper::reference {
@@ -65,12 +65,12 @@ inline std::vector<CoronaLight> corona_lights(const View& view, const std::vecto
         }
     std::stable_sort(squares.begin(), squares.end(), [](const Square& a, const Square& b) { return a.luminance > b.luminance; });
     const double cut = squares.size() > shared::kCoronaLamps ? squares[shared::kCoronaLamps].luminance : 0;
-    std::vector<CoronaLight> lights;
+    std::vector<CoronaLight> lamps;
     for (size_t i = 0; i < std::min(squares.size(), size_t(shared::kCoronaLamps)); ++i) {
-        lights.push_back(squares[i].light);
-        lights.back().illuminance *= 1 - cut / squares[i].luminance;
+        lamps.push_back(squares[i].light);
+        lamps.back().illuminance *= 1 - cut / squares[i].luminance;
     }
-    return lights;
+    return lamps;
 }
 
 /// What one lamp adds in a direction, a pixel being as wide as a box of `pixel` rad.
@@ -100,13 +100,13 @@ inline dvec3 corona_added(const std::vector<glm::vec4>& pattern, const CoronaLig
 /// azimuths to 4096 ulp (Vulkan's atan), 1e-3 rad; the light itself to 3e-5.
 inline std::vector<double> corona_doubt(const View& view, const std::vector<dvec3>& scene, const std::vector<glm::vec4>& pattern) {
     std::vector<double> doubts;
-    const std::vector<CoronaLight> lights = corona_lights(view, scene);
+    const std::vector<CoronaLight> lamps = corona_lights(view, scene);
     for (uint32_t y = 0; y < view.extent.height; ++y)
         for (uint32_t x = 0; x < view.extent.width; ++x) {
             const dvec3 ray = corona_ray(view, dvec2(x, y) + 0.5);
             const double pixel = std::sqrt(corona_pixel(view, ray));
             double doubt = 0;
-            for (const CoronaLight& light : lights) {
+            for (const CoronaLight& light : lamps) {
                 const dvec3 here = corona_added(pattern, light, ray, pixel);
                 doubt += 3e-5 * glm::length(here);
                 // Inwards, outwards, and to both sides.
@@ -124,14 +124,14 @@ inline std::vector<double> corona_doubt(const View& view, const std::vector<dvec
 
 /// What all of them make of a veil.
 inline std::vector<dvec3> corona(const View& view, const std::vector<dvec3>& scene, std::vector<dvec3> veiled, const std::vector<glm::vec4>& pattern) {
-    const std::vector<CoronaLight> lights = corona_lights(view, scene);
+    const std::vector<CoronaLight> lamps = corona_lights(view, scene);
     for (uint32_t y = 0; y < view.extent.height; ++y)
         for (uint32_t x = 0; x < view.extent.width; ++x) {
             dvec3& pixel = veiled[size_t(y) * view.extent.width + x];
             if (!std::isfinite(pixel.r + pixel.g + pixel.b)) continue;
             const dvec3 ray = corona_ray(view, dvec2(x, y) + 0.5);
             dvec3 sum = pixel;
-            for (const CoronaLight& light : lights) sum += corona_added(pattern, light, ray, std::sqrt(corona_pixel(view, ray)));
+            for (const CoronaLight& light : lamps) sum += corona_added(pattern, light, ray, std::sqrt(corona_pixel(view, ray)));
             pixel = glm::max(sum, glm::min(pixel, dvec3(0)));
         }
     return veiled;

@@ -1,11 +1,11 @@
-// The reference of needles and halo: which lights are lamps, and that what they add has a mean of nothing. SPDX-License-Identifier: MIT
+// The reference of needles and halo: which lamps are lamps, and that what they add has a mean of nothing. SPDX-License-Identifier: MIT
 #include "passes/corona_reference.h"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "resident/eye_corona.h"
+#include "gpu_scene/eye_corona.h"
 
 namespace vesper::test {
 namespace {
@@ -21,24 +21,24 @@ TEST(CoronaReference, ALampIsTheLightOfItsSquare) {
     scene[20 * 64 + 25] = {3000, 1000, 500};
     scene[5 * 64 + 50] = {100, 100, 100};
     scene[6 * 64 + 50] = dvec3(std::numeric_limits<double>::quiet_NaN());
-    const auto lights = reference::corona_lights(view, scene);
-    ASSERT_EQ(lights.size(), 2u);
-    EXPECT_LT(glm::length(lights[0].direction - reference::corona_ray(view, {23.5, 20.5})), 1e-12) << "in the middle of both pixels";
-    const double pixel = reference::corona_pixel(view, lights[0].direction);
-    EXPECT_NEAR(lights[0].illuminance.r, 6000 * pixel, 1e-12);
-    EXPECT_NEAR(lights[0].width, std::sqrt(pixel * (1 + 12 * 4 / 2.0)), 1e-12) << "4 px^2 along x, 0 along y";
-    EXPECT_NEAR(lights[1].width, std::sqrt(reference::corona_pixel(view, lights[1].direction)), 1e-12);
+    const auto lamps = reference::corona_lights(view, scene);
+    ASSERT_EQ(lamps.size(), 2u);
+    EXPECT_LT(glm::length(lamps[0].direction - reference::corona_ray(view, {23.5, 20.5})), 1e-12) << "in the middle of both pixels";
+    const double pixel = reference::corona_pixel(view, lamps[0].direction);
+    EXPECT_NEAR(lamps[0].illuminance.r, 6000 * pixel, 1e-12);
+    EXPECT_NEAR(lamps[0].width, std::sqrt(pixel * (1 + 12 * 4 / 2.0)), 1e-12) << "4 px^2 along x, 0 along y";
+    EXPECT_NEAR(lamps[1].width, std::sqrt(reference::corona_pixel(view, lamps[1].direction)), 1e-12);
 }
 
 TEST(CoronaReference, WhatLeavesTheListHasNothingLeft) {
     const View view = view_of({16 * 40, 16});
     std::vector<dvec3> scene(16 * 40 * 16, dvec3(0));
     for (size_t i = 0; i < 40; ++i) scene[8 * 640 + 16 * i + 3] = dvec3(100.0 + double(i));
-    const auto lights = reference::corona_lights(view, scene);
-    ASSERT_EQ(lights.size(), 32u);
+    const auto lamps = reference::corona_lights(view, scene);
+    ASSERT_EQ(lamps.size(), 32u);
     for (size_t i = 0; i < 32; ++i) {
-        const double pixel = reference::corona_pixel(view, lights[i].direction);
-        EXPECT_NEAR(lights[i].illuminance.g, (139.0 - double(i) - 107) * pixel, 1e-10) << i;
+        const double pixel = reference::corona_pixel(view, lamps[i].direction);
+        EXPECT_NEAR(lamps[i].illuminance.g, (139.0 - double(i) - 107) * pixel, 1e-10) << i;
     }
 }
 

@@ -1,7 +1,7 @@
 // Needles and halo on the device against their reference. SPDX-License-Identifier: MIT
 #include "passes/corona_reference.h"
 
-#include "resident/eye_corona.h"
+#include "gpu_scene/eye_corona.h"
 #include "support/compare.h"
 #include "support/texels.h"
 #include "support/tones.h"

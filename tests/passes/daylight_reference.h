@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "passes/shade_reference.h"
-#include "resident/view.h"
+#include "gpu_scene/view.h"
 #include "scene/tunnel.h"
 #include "shared/daylight.h"
 

@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/shade_reference.h"
-#include "resident/resident_scene.h"
+#include "gpu_scene/gpu_scene.h"
 #include "support/compare.h"
 #include "support/scene_geometry.h"
 #include "support/texels.h"
@@ -19,7 +19,7 @@ struct Layers {
 };
 
 Layers draw(PassRig& rig, const Scene& scene, const View& view, PictureFormat pictures = PictureFormat::Float) {
-    const ResidentScene resident(rig.device(), scene, pictures);
+    const GpuScene resident(rig.device(), scene, pictures);
     const SceneFrame frame{world_transforms(scene, 0)};
     FrameGraph graph;
     const GBuffer g = add_gbuffer(graph, resident, frame, view);
@@ -288,7 +288,7 @@ TEST(Gbuffer, TexturesWrapRepeatAndMirror) {
 }
 
 /// Values of these decades around 1, evenly in their logarithms.
-LuminancePicture lights(uint32_t side, uint32_t seed, float decades) {
+LuminancePicture lamps(uint32_t side, uint32_t seed, float decades) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> exponent(-decades / 2, decades / 2);
     LuminancePicture picture{.name = "lights", .width = side, .height = side, .rgb = {}};
@@ -308,7 +308,7 @@ Scene shining_wall(LuminancePicture picture, float scale, TextureUse use = {0, W
 TEST(Gbuffer, PicturesOfLightShowTheirLuminance) {
     PassRig rig;
     const TextureUse nearest{0, Wrap::Clamp, Wrap::Clamp, true};
-    const Scene scene = shining_wall(lights(8, 11, 12), 100, nearest);
+    const Scene scene = shining_wall(lamps(8, 11, 12), 100, nearest);
     EXPECT_GT(*std::max_element(scene.luminance_pictures[0].rgb.begin(), scene.luminance_pictures[0].rgb.end()), 3e5f);
     expect_scene(rig, scene, view_of({64, 64}), {.emission = 1e-6, .filter = reference::Filter::Nearest});
     EXPECT_EQ(rig.complaints(), "");
@@ -317,9 +317,9 @@ TEST(Gbuffer, PicturesOfLightShowTheirLuminance) {
 TEST(Gbuffer, PicturesOfLightAreFilteredAsLuminance) {
     PassRig rig;
     // 32 to 316 cd/m^2. Devices weigh taps in steps of 1/256: 2 * 284 / 256 = 2.2 cd/m^2.
-    expect_scene(rig, shining_wall(lights(8, 12, 1), 100), view_of({64, 64}), {.emission = 0.02, .emission_floor = 120});
+    expect_scene(rig, shining_wall(lamps(8, 12, 1), 100), view_of({64, 64}), {.emission = 0.02, .emission_floor = 120});
     // 4 x 4 texels to the pixel: the second mip level is the mean over exactly those.
-    expect_scene(rig, shining_wall(lights(256, 13, 6), 100), view_of({64, 64}),
+    expect_scene(rig, shining_wall(lamps(256, 13, 6), 100), view_of({64, 64}),
                  {.emission = 1e-3, .filter = reference::Filter::Area});
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -328,9 +328,9 @@ TEST(Gbuffer, PicturesOfLightAreFilteredAsLuminance) {
 TEST(Gbuffer, PicturesOfLightInHalfFloats) {
     PassRig rig;
     const TextureUse nearest{0, Wrap::Clamp, Wrap::Clamp, true};
-    expect_scene(rig, shining_wall(lights(8, 14, 8.9f), 2e4f, nearest), view_of({64, 64}),
+    expect_scene(rig, shining_wall(lamps(8, 14, 8.9f), 2e4f, nearest), view_of({64, 64}),
                  {.emission = 5e-4, .filter = reference::Filter::Nearest, .pictures = PictureFormat::Half});
-    LuminancePicture black = lights(2, 15, 1);
+    LuminancePicture black = lamps(2, 15, 1);
     std::fill(black.rgb.begin(), black.rgb.end(), 0.0f);
     expect_scene(rig, shining_wall(black, 7), view_of({64, 64}), {.pictures = PictureFormat::Half});
     EXPECT_EQ(rig.complaints(), "");

@@ -8,9 +8,9 @@
 
 #include <glm/glm.hpp>
 
-#include "perception/light_elsewhere.h"
-#include "perception/scatter_fit.h"
-#include "resident/eye_scatter.h"
+#include "vision/light_elsewhere.h"
+#include "vision/scatter_fit.h"
+#include "gpu_scene/eye_scatter.h"
 
 namespace vesper::reference {
 
@@ -82,13 +82,13 @@ inline int parts_for(ivec2 to, ivec2 from) {
 }
 
 /// Seen at one pixel: every pixel, and lamps outside. Exact, and slow.
-inline dvec3 exact_at(const EyeScatter& psf, const ImageAngles& image, const Plane& scene, const std::vector<OutsideLamp>& lamps, ivec2 to) {
+inline dvec3 exact_at(const EyeScatter& psf, const ImageAngles& image, const Plane& scene, const std::vector<OffscreenLamp>& lamps, ivec2 to) {
     dvec3 sum(0);
     for (int y = 0; y < scene.size.y; ++y)
         for (int x = 0; x < scene.size.x; ++x)
             if (scene.at({x, y}) != dvec3(0)) sum += scene.at({x, y}) * exact_response(psf, image, to, {x, y}, parts_for(to, {x, y}));
     const dvec3 axis = direction_of(image, dvec2(to) + 0.5);
-    for (const OutsideLamp& lamp : lamps) {
+    for (const OffscreenLamp& lamp : lamps) {
         if (lamp.direction.z < 0) sum += psf(degrees_apart(axis, lamp.direction)) * lamp.illuminance;
     }
     return sum;
@@ -140,7 +140,7 @@ inline double quartic(double x) {
 
 inline int floor_half(int i) { return int(std::floor(i / 2.0)); }
 
-/// One level up. `margin` is that of `from`, which begins there; lamps as ResidentScatter::lamps_of has them.
+/// One level up. `margin` is that of `from`, which begins there; lamps as GpuScatter::lamps_of has them.
 /// `beyond`: of each texel, from other pictures; or none.
 inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::vector<glm::vec4>& lamps, const std::vector<glm::vec4>& beyond = {}) {
     Plane to(size + 2 * kScatterMargin);
@@ -190,7 +190,7 @@ inline double edge_light(const ScatterFit& fit, ivec2 pixel) {
 /// The whole operator. Over strips of texels taps are linear from top to bottom, in the middle of their columns; every
 /// two rows have those of the line between them, for what they give. Not finite: scatters nothing, and is not finite.
 inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vector<std::vector<glm::vec4>>& lamps = {}, const std::vector<glm::vec4>& veil = {},
-                     const LightBeyond& beyond = {}) {
+                     const OffscreenLight& beyond = {}) {
     Plane clean = scene;
     for (dvec3& t : clean.texels)
         if (!(std::abs(t.x) <= 3.4e38 && std::abs(t.y) <= 3.4e38 && std::abs(t.z) <= 3.4e38)) t = dvec3(0);

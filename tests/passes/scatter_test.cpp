@@ -16,7 +16,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::nume
 
 View view_of(VkExtent2D extent) { return View::symmetric(extent, 0.6435f, glm::mat4(1)); }
 
-std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const ResidentScatter& fit, const std::vector<OutsideLamp>& lamps, const LightBeyond* beyond = nullptr) {
+std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const GpuScatter& fit, const std::vector<OffscreenLamp>& lamps, const OffscreenLight* beyond = nullptr) {
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, {uint32_t(fit.image().width), uint32_t(fit.image().height)}, pixels);
     const Resource kept = keep<glm::vec4>(graph, add_scatter(graph, rig.kernels(), scene, fit, lamps, beyond));
@@ -25,7 +25,7 @@ std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, 
 }
 
 /// Beside the picture, above it, just outside a corner, far away, and behind.
-std::vector<OutsideLamp> some_lamps(const ImageAngles& image) {
+std::vector<OffscreenLamp> some_lamps(const ImageAngles& image) {
     const auto towards = [&](dvec2 pixels) { return reference::direction_of(image, pixels); };
     const double w = image.width, h = image.height;
     return {{towards({-2.5, h / 3}), {3, 2, 1}}, {towards({w / 2, -0.3 * h}), dvec3(10)}, {towards({w + 1, h + 2}), {0.2, 0.3, 0.5}},
@@ -33,8 +33,8 @@ std::vector<OutsideLamp> some_lamps(const ImageAngles& image) {
 }
 
 /// Light from beyond, of as many decades as a night has, wherever there may be some: not in the outermost texels of a margin.
-LightBeyond some_light(const ImageAngles& image, uint32_t seed) {
-    LightBeyond beyond;
+OffscreenLight some_light(const ImageAngles& image, uint32_t seed) {
+    OffscreenLight beyond;
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> exponent(-4, 4);
     const auto fill = [&](ivec2 size) {
@@ -57,15 +57,15 @@ void expect_reference(PassRig& rig, VkExtent2D extent, std::vector<glm::vec4> pi
     SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
     const ScatterSettings settings;
     const ImageAngles image = angles_of(view_of(extent));
-    const ResidentScatter resident(rig.device(), settings, image);
+    const GpuScatter resident(rig.device(), settings, image);
     const ScatterFit fit = fit_scatter(eye_scatter(settings), image, scatter_down_strip(rig.device()));
-    const std::vector<OutsideLamp> outside = lamps ? some_lamps(image) : std::vector<OutsideLamp>{};
+    const std::vector<OffscreenLamp> outside = lamps ? some_lamps(image) : std::vector<OffscreenLamp>{};
 
     reference::Plane scene({image.width, image.height});
     for (size_t i = 0; i < pixels.size(); ++i) scene.texels[i] = dvec3(pixels[i]);
     std::vector<std::vector<glm::vec4>> lists(size_t(fit.levels) + 1);
     for (int l = 1; l <= fit.levels; ++l) lists[size_t(l)] = resident.lamps_of(l, outside);
-    const LightBeyond beyond = others ? some_light(image, extent.width) : LightBeyond{};
+    const OffscreenLight beyond = others ? some_light(image, extent.width) : OffscreenLight{};
     const auto want = reference::scatter(scene, fit, lists, resident.far_veil(outside), beyond);
     const auto got = seen(rig, pixels, resident, outside, others ? &beyond : nullptr);
 
@@ -120,7 +120,7 @@ TEST(Scatter, AHeadlampDoesNotDrownTheDark) {
 TEST(Scatter, RunsAreAlikeToTheLastBit) {
     PassRig rig;
     const VkExtent2D extent{131, 67};
-    const ResidentScatter fit(rig.device(), {}, angles_of(view_of(extent)));
+    const GpuScatter fit(rig.device(), {}, angles_of(view_of(extent)));
     const auto pixels = night_pixels(extent, 8);
     EXPECT_EQ(seen(rig, pixels, fit, some_lamps(fit.image())), seen(rig, pixels, fit, some_lamps(fit.image())));
 }
@@ -130,13 +130,13 @@ TEST(Scatter, LampsOutsideGoOnWhereThoseInsideEnd) {
     PassRig rig;
     const VkExtent2D extent{300, 190};
     const ImageAngles image = angles_of(view_of(extent));
-    const ResidentScatter fit(rig.device(), {}, image);
+    const GpuScatter fit(rig.device(), {}, image);
     const EyeScatter psf = eye_scatter({});
     const std::vector<glm::vec4> dark(size_t(extent.width) * extent.height, glm::vec4(0));
     for (double beyond : {-30.5, -3.5, 1.5, 6.5, 12.5, 25.5, 60.5, 111.5, 300.5, 900.5}) {
         const dvec3 direction = reference::direction_of(image, {-beyond, 80.5});
         std::vector<glm::vec4> pixels = dark;
-        std::vector<OutsideLamp> lamps;
+        std::vector<OffscreenLamp> lamps;
         if (beyond < 0)
             pixels[size_t(80 * 300 - beyond)] = glm::vec4(float(1 / reference::solid_angle(image, direction)));
         else

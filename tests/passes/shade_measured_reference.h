@@ -10,7 +10,7 @@
 #include "photometry/distribution.h"
 #include "photometry/reflection_table.h"
 #include "photometry/retroreflection.h"
-#include "resident/light_maps.h"
+#include "gpu_scene/intensity_tables.h"
 
 namespace vesper::reference {
 

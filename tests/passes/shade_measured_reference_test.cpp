@@ -48,7 +48,7 @@ TEST(ShadeMeasuredReference, SheenIsGoneAtTenDegrees) {
     EXPECT_NEAR(sheen_seen((std::sin(glm::radians(1.5)) + std::sin(glm::radians(10.0))) / 2), 0.5, 1e-12);
 }
 
-// A sky of 1 cd/m^2, as ambient light and as lights from every half degree.
+// A sky of 1 cd/m^2, as ambient light and as lamps from every half degree.
 TEST(ShadeMeasuredReference, LightFromAllSidesIsTheSumOfItsDirections) {
     for (const char* name : {"R3", "W4"}) {
         const RoadSurface road(extended(find_reflection_table(name)));

@@ -19,8 +19,8 @@ const std::filesystem::path kData = std::filesystem::path(VESPER_SOURCE_DIR) / "
 struct Street {
     Scene scene;
     SceneFrame frame;
-    LightMaps maps;
-    LightList list;
+    IntensityTables tables;
+    LampList list;
     std::vector<reference::MeasuredLamp> measured;
     std::vector<reference::RoadSurface> roads;
 
@@ -51,28 +51,28 @@ struct Street {
         std::uniform_real_distribution<float> unit(0, 1);
         std::normal_distribution<float> normal;
         for (uint32_t i = 0; i < lamps; ++i) {
-            Light light{.kind = Light::Kind::Measured, .intensity = 0.2f + unit(random), .distribution = i % kinds};
-            scene.lights.push_back(light);
+            Lamp light{.kind = Lamp::Kind::Measured, .intensity = 0.2f + unit(random), .distribution = i % kinds};
+            scene.lamps.push_back(light);
             Node node;
-            node.light = i;
+            node.lamp = i;
             scene.nodes.push_back(node);
             glm::mat4 pose = glm::translate(glm::mat4(1), glm::vec3(40 * unit(random) - 20, 8 * unit(random) - 1, 10 - 300 * unit(random)));
             pose = glm::rotate(pose, 6.28f * unit(random), glm::normalize(glm::vec3(normal(random), normal(random), normal(random))));
             if (i % 3 == 0) pose = glm::scale(pose, glm::vec3(-2, 2, 2));  // mirrored
             frame.world.push_back(pose);
         }
-        maps = light_maps(scene);
+        tables = intensity_tables(scene);
         const View view = View::symmetric(extent, 0.7f, glm::mat4(1));
-        list = light_list(placed_lights(scene), maps, frame, view);
+        list = lamp_list(placed_lamps(scene), tables, frame, view);
         for (uint32_t i = 0; i < lamps; ++i) {
             glm::dmat3 axes(frame.world[i]);
             for (int c = 0; c < 3; ++c) axes[c] = glm::normalize(axes[c]);
-            measured.push_back({&scene.distributions[i % kinds], axes, double(scene.lights[i].intensity)});
+            measured.push_back({&scene.distributions[i % kinds], axes, double(scene.lamps[i].intensity)});
         }
         // Maps come third in the list.
-        const LightList more = street_lamps(others, 300, seed);
-        list.lights.insert(list.lights.begin(), more.lights.begin(), more.lights.begin() + others.cones + others.powers);
-        list.lights.insert(list.lights.end(), more.lights.end() - others.directional, more.lights.end());
+        const LampList more = street_lamps(others, 300, seed);
+        list.lamps.insert(list.lamps.begin(), more.lamps.begin(), more.lamps.begin() + others.cones + others.powers);
+        list.lamps.insert(list.lamps.end(), more.lamps.end() - others.directional, more.lamps.end());
         list.counts.cones = others.cones, list.counts.powers = others.powers, list.counts.directional = others.directional;
     }
 };
@@ -110,7 +110,7 @@ Surfaces ground(VkExtent2D extent) {
 // 2e-3 for the device's angles, which are polynomials, where edges are steep: at the cut-off of a low beam intensity changes
 // by a factor of e within 0.12 degrees, 480 per rad, and directions are known to some 1e-6 rad.
 void expect_reference(PassRig& rig, const Street& street, const Surfaces& s, const ShadeSettings& settings) {
-    const Shot shot = shade(rig, s, street.list, {}, settings, street.maps);
+    const Shot shot = shade(rig, s, street.list, {}, settings, street.tables);
     test::expect_reference(shot, s, street.list, settings, {street.measured, street.roads, {}}, {2e-3, 1e-7});
 }
 
@@ -156,7 +156,7 @@ TEST(ShadeMeasured, ShadingWithSumsIsShadingLampByLamp) {
     for (const VkExtent2D extent : {VkExtent2D{320, 200}, {840, 525}}) {
         const Street street(extent, 60, extent.width);
         const Surfaces s = ground(extent);
-        const auto luminance = [&](float tolerance) { return shade(rig, s, street.list, {.threshold = 1e-6f}, {.gather_tolerance = tolerance}, street.maps).pixels; };
+        const auto luminance = [&](float tolerance) { return shade(rig, s, street.list, {.threshold = 1e-6f}, {.gather_tolerance = tolerance}, street.tables).pixels; };
         const std::vector<glm::vec4> gathered = luminance(settings.gather_tolerance), one_by_one = luminance(-1);
         size_t far_off = 0;
         for (size_t i = 0; i < gathered.size(); ++i) {

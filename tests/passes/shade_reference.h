@@ -81,7 +81,7 @@ struct Sheet {
 
 /// Adds one light. A lamp counts where it gives at least `threshold` lx on a surface facing it, or, where the surface is
 /// matt, on the surface itself; a directional light always does. Light that arrives from below the surface does not count.
-inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
+inline void add_light(const shared::Lamp& light, LightKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
                       double roughness, double threshold, Shaded& sum, const MeasuredLamp* measured = nullptr,
                       const RoadSurface* road = nullptr, const Sheet& sheet = {}) {
     const dvec3 v = glm::normalize(-point);
@@ -130,8 +130,8 @@ inline void add_light(const shared::Light& light, LightKind kind, dvec3 point, d
                     dvec3(light.colour) * s.value * brightest * std::max(nl, 0.0) * s.relative_rounding;
 }
 
-/// One pixel, in the view frame with the eye at the origin. Lights sorted as p.lights counts them.
-inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<const shared::Light> lights,
+/// One pixel, in the view frame with the eye at the origin. Lights sorted as p.lamps counts them.
+inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<const shared::Lamp> lamps,
                     const shared::ShadePush& p, const Measurements& measurements = {}) {
     const double depth = texel.surface.z;
     if (!(depth > 0)) return {dvec3(p.sky), dvec3(0)};
@@ -145,10 +145,10 @@ inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<co
     const dvec3 f0 = normal_reflectance(base, metallic, roughness);
 
     Shaded sum;
-    const size_t maps = size_t(p.lights.cones) + p.lights.powers, count = maps + p.lights.maps + p.lights.directional;
+    const size_t tables = size_t(p.lamps.cones) + p.lamps.powers, count = tables + p.lamps.tables + p.lamps.directional;
     for (size_t i = 0; i < count; ++i)
-        add_light(lights[i], kind_of(i, p.lights), point, n, rho_lambert, f0, roughness, p.threshold, sum,
-                  kind_of(i, p.lights) == LightKind::Map ? &measurements.lamps[i - maps] : nullptr, road, sheet);
+        add_light(lamps[i], kind_of(i, p.lamps), point, n, rho_lambert, f0, roughness, p.threshold, sum,
+                  kind_of(i, p.lamps) == LightKind::Map ? &measurements.lamps[i - tables] : nullptr, road, sheet);
     // A metal reflects its base colour too.
     sum.luminance += dvec3(p.ambient) * base * double(p.lambert) * (road ? road_in_diffuse(-roughness, glm::dot(n, glm::normalize(-point))) : 1);
     sum.luminance += glm::min(texel.emission, dvec3(double(p.emission_limit)));

@@ -16,7 +16,7 @@ shared::ShadePush ahead(uint32_t cones, uint32_t powers = 0, uint32_t directiona
     p.size = {1, 1};
     p.grid.ray_scale = {1, -1};
     p.grid.ray_offset = {-0.5f, 0.5f};
-    p.lights = {cones, powers, 0, directional};
+    p.lamps = {cones, powers, 0, directional};
     p.threshold = 0.001f;
     p.lambert = float(1 / kPi);
     p.emission_limit = std::numeric_limits<float>::infinity();
@@ -28,12 +28,12 @@ SurfaceTexel wall(double depth, dvec3 normal = {0, 0, 1}, double roughness = 1,
     return {reflectance, dvec4(octahedral_encode(glm::normalize(normal)), depth, roughness), dvec3(0)};
 }
 
-shared::Light point_lamp(glm::vec3 position, float candela, glm::vec3 colour = glm::vec3(1)) {
+shared::Lamp point_lamp(glm::vec3 position, float candela, glm::vec3 colour = glm::vec3(1)) {
     return {position, candela, {0, 0, -1}, 0.0f, colour, 1.0f, {1, 0, 0}, -1.0f};
 }
 
-Shaded shade_one(const SurfaceTexel& texel, const std::vector<shared::Light>& lights, const shared::ShadePush& p) {
-    return shade(texel, {0, 0}, lights, p);
+Shaded shade_one(const SurfaceTexel& texel, const std::vector<shared::Lamp>& lamps, const shared::ShadePush& p) {
+    return shade(texel, {0, 0}, lamps, p);
 }
 
 TEST(ShadeReference, OneLampOnALambertSurface) {
@@ -45,10 +45,10 @@ TEST(ShadeReference, OneLampOnALambertSurface) {
 
 TEST(ShadeReference, ThePapersLambertIsPiTimesBrighter) {
     shared::ShadePush p = ahead(1);
-    const std::vector lights{point_lamp({1, 2, -3}, 700)};
-    const double physical = shade_one(wall(8), lights, p).luminance.y;
+    const std::vector lamps{point_lamp({1, 2, -3}, 700)};
+    const double physical = shade_one(wall(8), lamps, p).luminance.y;
     p.lambert = 1;
-    EXPECT_NEAR(shade_one(wall(8), lights, p).luminance.y / physical, kPi, 1e-6);
+    EXPECT_NEAR(shade_one(wall(8), lamps, p).luminance.y / physical, kPi, 1e-6);
 }
 
 TEST(ShadeReference, LampsAddAndScale) {
@@ -77,7 +77,7 @@ TEST(ShadeReference, ALampBelowTheThresholdIsDark) {
 }
 
 TEST(ShadeReference, ADirectionalLightHasNoDistanceAndNoThreshold) {
-    shared::Light moon = point_lamp({0, 0, 0}, 0.0002f);
+    shared::Lamp moon = point_lamp({0, 0, 0}, 0.0002f);
     moon.axis = glm::normalize(glm::vec3(0, -3, -4));
     const double want = 0.5 * 0.0002 * 0.8 / kPi;
     EXPECT_NEAR(shade_one(wall(1), {moon}, ahead(0, 0, 1)).luminance.y, want, 1e-9);
@@ -86,7 +86,7 @@ TEST(ShadeReference, ADirectionalLightHasNoDistanceAndNoThreshold) {
 
 TEST(ShadeReference, LightFromBehindTheSurfaceDoesNotCount) {
     EXPECT_EQ(shade_one(wall(5), {point_lamp({0, 0, -6}, 1e6f)}, ahead(1)).luminance, dvec3(0));
-    shared::Light lobe = point_lamp({0, 0, 0}, 1000);
+    shared::Lamp lobe = point_lamp({0, 0, 0}, 1000);
     lobe.lobe_a = 2, lobe.axis = {0, 0, 1};  // shines away from the wall
     EXPECT_EQ(shade_one(wall(5), {lobe}, ahead(0, 1)).luminance, dvec3(0));
 }

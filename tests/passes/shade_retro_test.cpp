@@ -36,24 +36,24 @@ Surfaces signs(VkExtent2D extent, uint32_t seed, bool roads) {
 }
 
 /// Headlamps beside the eye, and lamps along the street.
-LightList headlamps(LampMix others, uint32_t seed) {
-    LightList list = street_lamps(others, 300, seed);
+LampList headlamps(LampMix others, uint32_t seed) {
+    LampList list = street_lamps(others, 300, seed);
     for (float x : {-0.7f, 0.7f}) {
-        shared::Light lamp{};
+        shared::Lamp lamp{};
         lamp.position = {x, -0.55f, -1.5f}, lamp.intensity = 20000, lamp.axis = {0, 0, -1}, lamp.colour = {1, 1, 1},
         lamp.lobe_b = 1;
-        list.lights.insert(list.lights.begin(), lamp);
+        list.lamps.insert(list.lamps.begin(), lamp);
         ++list.counts.cones;
     }
     return list;
 }
 
 // 2e-3 on roads for the device's angles, which are polynomials.
-void expect_reference(PassRig& rig, const LightList& list, const Surfaces& s, bool roads, const ShadeSettings& settings) {
+void expect_reference(PassRig& rig, const LampList& list, const Surfaces& s, bool roads, const ShadeSettings& settings) {
     Scene scene;
     std::vector<reference::RoadSurface> tables;
     if (roads) scene.reflection_tables = {find_reflection_table("R3")}, tables.emplace_back(extended(scene.reflection_tables[0]));
-    const Shot shot = shade(rig, s, list, {}, settings, light_maps(scene), kClasses);
+    const Shot shot = shade(rig, s, list, {}, settings, intensity_tables(scene), kClasses);
     test::expect_reference(shot, s, list, settings, {{}, tables, kClasses}, {2e-5, 1e-7}, 2e-3);
 }
 
@@ -82,13 +82,13 @@ TEST(ShadeRetro, ASignInTheHeadlamps) {
     const VkExtent2D extent{9, 9};
     Surfaces s = signs(extent, 1, false);
     for (size_t i = 0; i < s.surface.size(); ++i) s.surface[i] = {0, 0, 100, 1}, s.reflectance[i] = {1, 1, 1, 3};
-    LightList list;
+    LampList list;
     for (float side : {-1.0f, 1.0f}) {
-        shared::Light lamp{};
+        shared::Lamp lamp{};
         const float off = 100 * std::tan(glm::radians(0.5f)) / std::sqrt(2.0f);
         lamp.position = {side * off, -off, 0}, lamp.intensity = 500, lamp.axis = {0, 0, -1}, lamp.colour = {1, 1, 1},
         lamp.lobe_b = 1;
-        list.lights.push_back(lamp);
+        list.lamps.push_back(lamp);
     }
     list.counts.cones = 2;
     const auto luminance = [&](const std::vector<Retroreflector>& classes) {
@@ -104,7 +104,7 @@ TEST(ShadeRetro, NeighboursAreUntouched) {
     PassRig rig;
     const VkExtent2D extent{70, 20};
     const Surfaces s = signs(extent, 7, false);
-    const LightList list = headlamps({20, 10, 1}, 5);
+    const LampList list = headlamps({20, 10, 1}, 5);
     const auto with = shade(rig, s, list, {}, {}, {}, kClasses).pixels, without = shade(rig, s, list, {}, {}).pixels;
     size_t brighter = 0;
     for (size_t i = 0; i < with.size(); ++i) {

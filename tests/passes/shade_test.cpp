@@ -34,7 +34,7 @@ TEST(Shade, MatchesTheReferenceAtEverySize) {
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {67, 65}}) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
         const Surfaces s = street(extent, extent.width);
-        const LightList list = street_lamps({40, 24, 2}, 300, extent.height);
+        const LampList list = street_lamps({40, 24, 2}, 300, extent.height);
         expect_reference(shade(rig, s, list, {}, settings), s, list, settings);
     }
     EXPECT_EQ(rig.complaints(), "");
@@ -45,7 +45,7 @@ TEST(Shade, MatchesTheReferenceWithDimAndWithManyLamps) {
     const Surfaces s = street({64, 40}, 2);
     for (auto [count, candela] : {std::pair{1u, 1000.0f}, {64u, 0.3f}, {1000u, 0.3f}}) {
         SCOPED_TRACE(std::to_string(count) + " lamps of " + std::to_string(candela) + " cd");
-        const LightList list = street_lamps(half_and_half(count), candela, count);
+        const LampList list = street_lamps(half_and_half(count), candela, count);
         expect_reference(shade(rig, s, list, {}, {}), s, list, {});
     }
     EXPECT_EQ(rig.complaints(), "");
@@ -54,22 +54,22 @@ TEST(Shade, MatchesTheReferenceWithDimAndWithManyLamps) {
 TEST(Shade, ThePapersLambertAndTheLdrBaselinesLimit) {
     PassRig rig;
     const Surfaces s = street({31, 17}, 3);
-    const LightList list = street_lamps({10, 5, 1}, 500, 3);
+    const LampList list = street_lamps({10, 5, 1}, 500, 3);
     const ShadeSettings settings{.lambert = 1, .emission_limit = 1};
     expect_reference(shade(rig, s, list, {}, settings), s, list, settings);
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Issue: within float rounding at 1, 64, 1,000 and 4,000 lights. Lists are ascending, so that both add the same numbers
+// Issue: within float rounding at 1, 64, 1,000 and 4,000 lamps. Lists are ascending, so that both add the same numbers
 // in the same order, and a light that is not listed adds exact zeros: the results are the same bits.
 TEST(Shade, ClusteredIsEveryLight) {
     PassRig rig;
     const Surfaces s = street({200, 130}, 4);
     for (auto [count, candela] : {std::pair{1u, 3000.0f}, {64u, 300.0f}, {64u, 1.0f}, {1000u, 3.0f}, {4000u, 0.1f}}) {
         SCOPED_TRACE(std::to_string(count) + " lamps of " + std::to_string(candela) + " cd");
-        LightList list = street_lamps(half_and_half(count), candela, count);
+        LampList list = street_lamps(half_and_half(count), candela, count);
         const Shot clustered = shade(rig, s, list, {.capacity = 4000}, {});
-        const Shot all = shade(rig, s, list, {.capacity = 4000}, {.all_lights = true});
+        const Shot all = shade(rig, s, list, {.capacity = 4000}, {.all_lamps = true});
         EXPECT_EQ(clustered.report.overflowed, 0u);
         EXPECT_TRUE(
             same_light("clustered", picture(s.extent, clustered.pixels), picture(s.extent, all.pixels), {0, 0}));
@@ -102,8 +102,8 @@ Surfaces canyon(const View& view) {
 TEST(Shade, ClusteredIsEveryLightInAWholeFrame) {
     PassRig rig;
     const Surfaces s = canyon(View::symmetric({1680, 1050}, 0.7f, glm::mat4(1)));
-    const LightList list = street_lamps({50, 30, 1}, 300, 16);
-    const Shot clustered = shade(rig, s, list, {.far = 400}, {.gather_tolerance = -1}), all = shade(rig, s, list, {}, {.all_lights = true});
+    const LampList list = street_lamps({50, 30, 1}, 300, 16);
+    const Shot clustered = shade(rig, s, list, {.far = 400}, {.gather_tolerance = -1}), all = shade(rig, s, list, {}, {.all_lamps = true});
     EXPECT_EQ(clustered.report.overflowed, 0u);
     EXPECT_TRUE(same_light("clustered", picture(s.extent, clustered.pixels), picture(s.extent, all.pixels), {0, 0}));
     EXPECT_EQ(rig.complaints(), "");
@@ -112,8 +112,8 @@ TEST(Shade, ClusteredIsEveryLightInAWholeFrame) {
 TEST(Shade, OverflowedFroxelsLookAtEveryLight) {
     PassRig rig;
     const Surfaces s = street({140, 70}, 5);
-    const LightList list = street_lamps({300, 300, 1}, 3, 5);
-    const Shot all = shade(rig, s, list, {}, {.all_lights = true});
+    const LampList list = street_lamps({300, 300, 1}, 3, 5);
+    const Shot all = shade(rig, s, list, {}, {.all_lamps = true});
     for (uint32_t capacity : {1u, 30u}) {
         const Shot tight = shade(rig, s, list, {.capacity = capacity}, {});
         EXPECT_GT(tight.report.overflowed, 0u) << "capacity " << capacity;
@@ -122,15 +122,15 @@ TEST(Shade, OverflowedFroxelsLookAtEveryLight) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Dim lamps: the lists of most froxels overflow, and yet hardly any lamp lights a given pixel. Every pixel has a slice
+// Dim lamps: the lists of most froxels overflow, and yet hardly any lamp lamps a given pixel. Every pixel has a slice
 // of its own. Lavapipe runs no more than 65,535 turns of all of an invocation's loops together, which must not cost a
 // light.
 TEST(Shade, ThousandsOfLampsInOverflowedFroxels) {
     PassRig rig;
     const Surfaces s = street({64, 24}, 15);
     for (uint32_t count : {4000u, 12000u}) {
-        const LightList list = street_lamps(half_and_half(count), 0.05f, count);
-        const Shot all = shade(rig, s, list, {}, {.all_lights = true});
+        const LampList list = street_lamps(half_and_half(count), 0.05f, count);
+        const Shot all = shade(rig, s, list, {}, {.all_lamps = true});
         for (uint32_t capacity : {1u, 256u}) {
             const Shot got = shade(rig, s, list, {.capacity = capacity}, {});
             EXPECT_TRUE(same_light("overflowed", picture(s.extent, got.pixels), picture(s.extent, all.pixels), {0, 0}))
@@ -149,18 +149,18 @@ TEST(Shade, AsManyLampsAsThereMayBe) {
         s.surface[i] = {0, 0, 10, i % 2 ? 0.5f : 1.0f};
         s.reflectance[i] = {0.5f, 0.5f, 0.5f, 0}, s.emission[i] = glm::vec4(0);
     }
-    LightList one = street_lamps({1, 0, 0}, 1);
-    one.lights[0] = {{0, 0, 0}, 1000, {0, 0, -1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
-    LightList most = one;
-    most.lights.assign(kMost, one.lights[0]), most.counts.cones = kMost;
+    LampList one = street_lamps({1, 0, 0}, 1);
+    one.lamps[0] = {{0, 0, 0}, 1000, {0, 0, -1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
+    LampList most = one;
+    most.lamps.assign(kMost, one.lamps[0]), most.counts.cones = kMost;
     const Shot single = shade(rig, s, one, {}, {});
-    for (bool all_lights : {false, true}) {
-        const Shot got = shade(rig, s, most, {}, {.all_lights = all_lights});
+    for (bool all_lamps : {false, true}) {
+        const Shot got = shade(rig, s, most, {}, {.all_lamps = all_lamps});
         // 1e-3: the sum of 21,000 equal floats; a lost light in a thousand would show.
         for (size_t i = 0; i < s.surface.size(); ++i)
             ASSERT_NEAR(got.pixels[i].y / single.pixels[i].y / kMost, 1, 1e-3) << "pixel " << i;
     }
-    most.lights.push_back(one.lights[0]), ++most.counts.cones;
+    most.lamps.push_back(one.lamps[0]), ++most.counts.cones;
     EXPECT_THROW(shade(rig, s, most, {}, {}), Error);
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -168,8 +168,8 @@ TEST(Shade, AsManyLampsAsThereMayBe) {
 TEST(Shade, SlicesAndFarDoNotChangeTheResult) {
     PassRig rig;
     const Surfaces s = street({70, 66}, 6, 0.2f, 900);
-    const LightList list = street_lamps(half_and_half(64), 20, 6);
-    const Shot all = shade(rig, s, list, {}, {.all_lights = true});
+    const LampList list = street_lamps(half_and_half(64), 20, 6);
+    const Shot all = shade(rig, s, list, {}, {.all_lamps = true});
     for (uint32_t slices : {2u, 7u, 32u})
         for (float far : {0.0f, 900.0f}) {
             const Shot got = shade(rig, s, list, {.slices = slices, .far = far}, {});
@@ -191,8 +191,8 @@ TEST(Shade, OneLampOverTheRoad) {
         s.reflectance.emplace_back(0.25f, 0.25f, 0.25f, 0), s.emission.emplace_back(0);
         s.surface.emplace_back(up, slope < 0 ? 1.2f / -slope : 0, 1);  // a floor 1.2 m under the eye
     }
-    LightList list = street_lamps({1, 0, 0}, 1);
-    list.lights[0] = {{1, 5.3f, -15}, 4000, {0, -1, 0}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};  // 6.5 m over the road
+    LampList list = street_lamps({1, 0, 0}, 1);
+    list.lamps[0] = {{1, 5.3f, -15}, 4000, {0, -1, 0}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};  // 6.5 m over the road
     const Shot shot = shade(rig, s, list, {}, {});
     for (uint32_t y = extent.height / 2; y < extent.height; ++y)
         for (uint32_t x = 0; x < extent.width; ++x) {
@@ -218,9 +218,9 @@ TEST(Shade, HeadlampsDownAWetRoad) {
         s.surface.emplace_back(reference::octahedral_encode({0, 1, 0}), slope < 0 ? 1.2f / -slope : 0,
                                i % 2 ? 0.3f : 0.5f);
     }
-    LightList list = street_lamps({2, 0, 0}, 1);
+    LampList list = street_lamps({2, 0, 0}, 1);
     for (uint32_t i = 0; i < 2; ++i)
-        list.lights[i] = {{1.4f * float(i) - 2, -0.55f, -250}, 30000, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
+        list.lamps[i] = {{1.4f * float(i) - 2, -0.55f, -250}, 30000, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
     expect_reference(shade(rig, s, list, {}, {}), s, list, {});
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -237,8 +237,8 @@ TEST(Shade, KeepsTwelveDecades) {
     for (int i = 0; i < 13; ++i) EXPECT_NEAR(shot.pixels[size_t(i)].y / std::pow(10.0, i - 4), 1, 1e-6);
     // A wall 0.5 m in front of a lamp of 1e5 cd up to 1 km away from it.
     Surfaces walls = street({5, 1}, 8);
-    LightList list = street_lamps({1, 0, 0}, 1);
-    list.lights[0] = {{0, 0, 0}, 1e5f, {0, 0, -1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
+    LampList list = street_lamps({1, 0, 0}, 1);
+    list.lamps[0] = {{0, 0, 0}, 1e5f, {0, 0, -1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
     for (int i = 0; i < 5; ++i) {
         walls.surface[size_t(i)] = {0, 0, 0.5 * std::pow(10.0, i), 1};
         walls.reflectance[size_t(i)] = {0.5f, 0.5f, 0.5f, 0}, walls.emission[size_t(i)] = glm::vec4(0);
@@ -254,7 +254,7 @@ TEST(Shade, WhatIsNotFiniteStaysInItsPixel) {
     PassRig rig;
     const Surfaces clean = street({80, 40}, 9, 3, 30);
     Surfaces s = clean;
-    const LightList list = street_lamps({8, 8, 1}, 300, 9);
+    const LampList list = street_lamps({8, 8, 1}, 300, 9);
     const auto poisoned = [](size_t i) { return i % 7 == 5; };
     for (size_t i = 0; i < s.emission.size(); ++i) {
         if (!poisoned(i)) continue;
@@ -272,12 +272,12 @@ TEST(Shade, WhatIsNotFiniteStaysInItsPixel) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// A block's lights are chosen by a box around its normals, which a normal that is no number must not undo.
+// A block's lamps are chosen by a box around its normals, which a normal that is no number must not undo.
 TEST(Shade, ANormalOfNoLengthCostsItsNeighboursNoLight) {
     PassRig rig;
     Surfaces s = street({8, 8}, 10);
-    LightList list = street_lamps({1, 0, 0}, 1);
-    list.lights[0] = {{-20, 0, -5}, 1e4f, {1, 0, 0}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
+    LampList list = street_lamps({1, 0, 0}, 1);
+    list.lamps[0] = {{-20, 0, -5}, 1e4f, {1, 0, 0}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
     for (uint32_t broken : {0u, 31u, 32u, 63u}) {
         for (uint32_t i = 0; i < 64; ++i) {
             const float side = i < 32 ? -1 : 1;  // half of the surfaces face the lamp
@@ -285,7 +285,7 @@ TEST(Shade, ANormalOfNoLengthCostsItsNeighboursNoLight) {
                 glm::vec4(glm::vec2(reference::octahedral_encode(glm::normalize(glm::dvec3(side, 0, 0.1)))), 5, 1);
             if (i == broken) s.surface[i].x = s.surface[i].y = kNan;
         }
-        const Shot got = shade(rig, s, list, {}, {}), all = shade(rig, s, list, {}, {.all_lights = true});
+        const Shot got = shade(rig, s, list, {}, {}), all = shade(rig, s, list, {}, {.all_lamps = true});
         for (uint32_t i = 0; i < 64; ++i) {
             if (i != broken) {
                 EXPECT_EQ(got.pixels[i], all.pixels[i]) << "pixel " << i << " beside " << broken;

@@ -5,7 +5,7 @@
 
 #include "passes/shade_reference.h"
 #include "photometry/sky_map.h"
-#include "resident/view.h"
+#include "gpu_scene/view.h"
 
 namespace vesper::reference {
 

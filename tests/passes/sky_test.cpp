@@ -5,7 +5,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "resident/sky.h"
+#include "gpu_scene/sky.h"
 #include "support/noise.h"
 #include "support/shading.h"
 

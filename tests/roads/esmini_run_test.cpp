@@ -126,14 +126,14 @@ TEST_F(EsminiRuns, LampsFollowFromTheMotionWhereNothingIsStated) {
 TEST_F(EsminiRuns, EventsSetLamps) {
     const std::string text =
         scenario(event("one",
-                       light("indicatorLeft", "flashing",
+                       lamp("indicatorLeft", "flashing",
                              "luminousIntensity=\"${2 * $cd}\" flashingOnDuration=\"0.4\" flashingOffDuration=\"0.3\""),
                        at_time("$when")) +
-                     event("two", light("highBeam", "on", "luminousIntensity=\"30000\"", "transitionTime=\"1\""),
+                     event("two", lamp("highBeam", "on", "luminousIntensity=\"30000\"", "transitionTime=\"1\""),
                            "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"event\" "
                            "storyboardElementRef=\"one\" state=\"runningState\"/></ByValueCondition>",
                            "delay=\"1.5\" conditionEdge=\"rising\"") +
-                     event("three", light("brakeLights", "on"),
+                     event("three", lamp("brakeLights", "on"),
                            "<ByEntityCondition><TriggeringEntities triggeringEntitiesRule=\"any\"><EntityRef "
                            "entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><SpeedCondition value=\"5\" "
                            "rule=\"lessThan\"/></EntityCondition></ByEntityCondition>"),
@@ -167,9 +167,9 @@ TEST_F(EsminiRuns, EventsOverrideAndSkip) {
         "<SpeedActionTarget><AbsoluteTargetSpeed value=\"10\"/></SpeedActionTarget></SpeedAction></LongitudinalAction></PrivateAction>";
     const auto begin_of_second_and_fourth = [&](const char* priority_of_third) {
         const std::string text = scenario(event("first", seven_seconds, at_time("1")) +
-                                          with_priority("skip", event("second", light("brakeLights", "on"), at_time("2"))) +
-                                          with_priority(priority_of_third, event("third", light("indicatorLeft", "on"), at_time("3"))) +
-                                          event("fourth", light("highBeam", "on"),
+                                          with_priority("skip", event("second", lamp("brakeLights", "on"), at_time("2"))) +
+                                          with_priority(priority_of_third, event("third", lamp("indicatorLeft", "on"), at_time("3"))) +
+                                          event("fourth", lamp("highBeam", "on"),
                                                 "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"event\" "
                                                 "storyboardElementRef=\"first\" state=\"completeState\"/></ByValueCondition>"));
         const auto run = read_esmini_run(write("run.csv", braking_run()), write("run.xosc", text));
@@ -206,10 +206,10 @@ TEST_F(EsminiRuns, ErrorsNameFileAndLine) {
     EXPECT_EQ(run.entities[0].poses[0].speed, 0);
     EXPECT_EQ(run.entities[0].poses[0].wheel_rotation, 0);
     EXPECT_NE(complaint(braking_run(), "<OpenDRIVE/>").find("run.xosc:1: OpenDRIVE: the root"), std::string::npos);
-    EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("$nothing"))))
+    EXPECT_NE(complaint(braking_run(), scenario(event("e", lamp("lowBeam", "on"), at_time("$nothing"))))
                   .find("there is no parameter"),
               std::string::npos);
-    EXPECT_NE(complaint(braking_run(), scenario(event("e", light("lowBeam", "on"), at_time("${1 +}"))))
+    EXPECT_NE(complaint(braking_run(), scenario(event("e", lamp("lowBeam", "on"), at_time("${1 +}"))))
                   .find("is no expression"),
               std::string::npos);
 }
@@ -236,7 +236,7 @@ TEST_F(EsminiRuns, StandingStillIsJudgedByTheLastMovement) {
     const auto at = [&](const char* duration) {
         const std::string condition = std::string("<ByEntityCondition><TriggeringEntities><EntityRef entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><StandStillCondition duration=\"") +
                                       duration + "\"/></EntityCondition></ByEntityCondition>";
-        const auto run = read_esmini_run(write("run.csv", braking_run()), write("run.xosc", scenario(event("e", light("highBeam", "on"), condition))));
+        const auto run = read_esmini_run(write("run.csv", braking_run()), write("run.xosc", scenario(event("e", lamp("highBeam", "on"), condition))));
         const auto& events = events_of(run, RunLamp::HighBeam);
         return events.empty() ? -1 : events[0].time;
     };
@@ -248,7 +248,7 @@ TEST_F(EsminiRuns, WhatIsNotUnderstoodIsNoted) {
     const auto run = read_esmini_run(
         write("run.csv", braking_run()),
         write("run.xosc",
-              scenario(event("e", light("lowBeam", "on"),
+              scenario(event("e", lamp("lowBeam", "on"),
                              "<ByEntityCondition><TriggeringEntities><EntityRef "
                              "entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><CollisionCondition/>"
                              "</EntityCondition></ByEntityCondition>"))));

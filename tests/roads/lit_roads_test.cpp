@@ -11,7 +11,7 @@
 #include "roads/opendrive.h"
 #include "roads/road_texts.h"
 #include "roads/scene_parts.h"
-#include "scene/light.h"
+#include "scene/lamp.h"
 #include "support/shared_data.h"
 
 namespace vesper {
@@ -124,23 +124,23 @@ TEST(LitRoads, StreetLampsStandEverySoMuchAndLightTheRoad) {
     const LitRoads lit = lit_roads(straight(), options);
     const auto lamps = lamps_of(lit.scene, "street_lamp_");
     ASSERT_EQ(lamps.size(), 6u);
-    for (const Node& lamp : lamps) {
-        const Light& light = lit.scene.lights[lamp.light];
-        EXPECT_NEAR(std::fmod(lamp.translation.x, 30), 15, 1e-3);
-        EXPECT_NEAR(std::abs(lamp.translation.z), 3.5 + 0.7 - 1, 1e-4) << "behind the kerb, over the road";
-        EXPECT_NEAR(lamp.translation.y, 9, 0.35);
-        const glm::dvec3 down = lamp.rotation * glm::vec3(0, 0, -1);
+    for (const Node& node : lamps) {
+        const Lamp& lamp = lit.scene.lamps[node.lamp];
+        EXPECT_NEAR(std::fmod(node.translation.x, 30), 15, 1e-3);
+        EXPECT_NEAR(std::abs(node.translation.z), 3.5 + 0.7 - 1, 1e-4) << "behind the kerb, over the road";
+        EXPECT_NEAR(node.translation.y, 9, 0.35);
+        const glm::dvec3 down = node.rotation * glm::vec3(0, 0, -1);
         EXPECT_NEAR(down.y, -1, 1e-6);
         // To the road and along it, more than to the other side.
         const auto towards = [&](glm::dvec3 world) {
-            return luminous_intensity(light, lit.scene.distributions,
-                                      glm::dvec3(glm::inverse(lamp.rotation) * glm::vec3(world)));
+            return luminous_intensity(lamp, lit.scene.distributions,
+                                      glm::dvec3(glm::inverse(node.rotation) * glm::vec3(world)));
         };
-        const double road_side = lamp.translation.z > 0 ? -1 : 1;
+        const double road_side = node.translation.z > 0 ? -1 : 1;
         EXPECT_GT(towards({0.5, -1, road_side}), 1.5 * towards({0.5, -1, -road_side}));
         EXPECT_GT(towards({1.8, -1, 0.3 * road_side}), 1000);
         EXPECT_EQ(towards({0, 1, 0}), 0);
-        EXPECT_GT(light.opening.area(), 0);
+        EXPECT_GT(lamp.opening.area(), 0);
     }
     options.lamps->spacing = 0;
     EXPECT_TRUE(lamps_of(lit_roads(straight(), options).scene, "street_lamp_").empty());
@@ -220,7 +220,7 @@ TEST(LitRoads, SignalsFaceTheirTraffic) {
     EXPECT_NEAR(shines.x, -1, 1e-5) << "towards who comes along +s";
     EXPECT_NEAR(red[0].translation.y, 3 + 0.75, 1e-4);
     EXPECT_NEAR(red[0].translation.z, 5, 1e-4);
-    EXPECT_EQ(lit.scene.lights[red[0].light].intensity, 200);
+    EXPECT_EQ(lit.scene.lamps[red[0].lamp].intensity, 200);
     for (const char* material : {"sign red", "sign white", "sign black"}) {
         const auto face = triangles_of(lit.scene, material);
         ASSERT_FALSE(face.empty()) << material;

@@ -35,7 +35,7 @@ uint32_t find(const LaneGraph& graph, const std::string& name) {
 size_t street_lamps(const RoadNetwork& network) {
     size_t count = 0;
     const LitRoads lit = lit_roads(network);
-    for (const Node& node : lit.scene.nodes) count += node.light != kNone && node.name.starts_with("street_lamp_");
+    for (const Node& node : lit.scene.nodes) count += node.lamp != kNone && node.name.starts_with("street_lamp_");
     return count;
 }
 
@@ -149,7 +149,7 @@ TEST(OthersOpenDrive, NoLampStandsInABridge) {
     const std::string below = road("2", 90, geometry(0, 150, -45, M_PI / 2, 90, "<line/>"), two_way_section());
     const auto in_the_way = [](const RoadNetwork& network) {
         size_t count = 0;
-        for (const Node& node : lit_roads(network).scene.nodes) count += node.light != kNone && node.name.starts_with("street_lamp_") && std::abs(node.translation.x - 150) < 8 && std::abs(node.translation.z) < 5;
+        for (const Node& node : lit_roads(network).scene.nodes) count += node.lamp != kNone && node.name.starts_with("street_lamp_") && std::abs(node.translation.x - 150) < 8 && std::abs(node.translation.z) < 5;
         return count;
     };
     EXPECT_EQ(in_the_way(network_of(below)), 1u);

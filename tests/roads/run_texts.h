@@ -49,7 +49,7 @@ inline std::string braking_run() {
     return text;
 }
 
-inline std::string light(const char* type, const char* mode, const std::string& more = "", const std::string& of_action = "") {
+inline std::string lamp(const char* type, const char* mode, const std::string& more = "", const std::string& of_action = "") {
     return std::string("<PrivateAction><AppearanceAction><LightStateAction ") + of_action +
            "><LightType><VehicleLight vehicleLightType=\"" + type + "\"/></LightType><LightState mode=\"" + mode +
            "\" " + more + "/></LightStateAction></AppearanceAction></PrivateAction>";

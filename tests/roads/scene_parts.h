@@ -44,7 +44,7 @@ inline double area_of(const std::vector<Triangle>& triangles) {
 inline std::vector<Node> lamps_of(const Scene& scene, const std::string& prefix) {
     std::vector<Node> found;
     for (const Node& node : scene.nodes)
-        if (node.light != kNone && node.name.starts_with(prefix)) found.push_back(node);
+        if (node.lamp != kNone && node.name.starts_with(prefix)) found.push_back(node);
     return found;
 }
 

@@ -64,7 +64,7 @@ std::string speed_action(double seconds) {
     return longitudinal("<SpeedAction><SpeedActionDynamics dynamicsShape=\"linear\" dynamicsDimension=\"time\"" + quantity("value", seconds) +
                         "/><SpeedActionTarget><AbsoluteTargetSpeed value=\"10\"/></SpeedActionTarget></SpeedAction>");
 }
-const std::string kLamp = light("highBeam", "on");
+const std::string kLamp = lamp("highBeam", "on");
 
 class Storyboards : public RunFiles {
 protected:
@@ -171,8 +171,8 @@ TEST_F(Storyboards, ActionsTakeTheirTime) {
     EXPECT_NEVER(done(longitudinal(gap + "\"true\"/>")));
     EXPECT_TIME(done("<PrivateAction><SynchronizeAction masterEntityRef=\"T\"><TargetPositionMaster><WorldPosition x=\"90\" y=\"-5.25\"/></TargetPositionMaster><TargetPosition>"
                      "<WorldPosition x=\"70\" y=\"-1.75\"/></TargetPosition></SynchronizeAction></PrivateAction>"), 2);
-    EXPECT_TIME(done(light("lowBeam", "on", "", "transitionTime=\"1.5\"")), 1.5);
-    EXPECT_NEVER(done(light("lowBeam", "flashing")));
+    EXPECT_TIME(done(lamp("lowBeam", "on", "", "transitionTime=\"1.5\"")), 1.5);
+    EXPECT_NEVER(done(lamp("lowBeam", "flashing")));
     // A third of the way at 10 m/s, then twice as fast.
     table_ = table_of({{"Ego", [](double t) { return t < 1 ? Motion{50 + 10 * t, -1.75, 10} : Motion{60 + 20 * (t - 1), -1.75, 20}; }}, {"T", [](double) { return Motion{80, -5.25, 0}; }}});
     EXPECT_TIME(done(lane_change("dynamicsShape=\"cubic\" dynamicsDimension=\"distance\" value=\"30\"")), 2);
@@ -198,7 +198,7 @@ TEST_F(Storyboards, ActionsOnTheSameMotionEndOneAnother) {
                                   group(event("then", kLamp, state_of("event", "first", "completeState")), "<EntityRef entityRef=\"Ego\"/>", "i")))));
     };
     EXPECT_TIME(first_done(speed_action(1)), 1);
-    EXPECT_TIME(first_done(light("lowBeam", "off")), 4);
+    EXPECT_TIME(first_done(lamp("lowBeam", "off")), 4);
 }
 
 TEST_F(Storyboards, ParametersAreComparedAndSet) {

@@ -54,11 +54,11 @@ protected:
         const Scene scene = converted(output);
         const auto world = world_transforms(scene, 0);
         for (size_t i = 0; i < scene.nodes.size(); ++i) {
-            if (scene.nodes[i].light == kNone) continue;
-            const Light& light = scene.lights[scene.nodes[i].light];
+            if (scene.nodes[i].lamp == kNone) continue;
+            const Lamp& lamp = scene.lamps[scene.nodes[i].lamp];
             const glm::dmat3 frame(world[i]);
-            return light.intensity *
-                   intensity(scene.distributions[light.distribution], glm::inverse(frame) * direction);
+            return lamp.intensity *
+                   intensity(scene.distributions[lamp.distribution], glm::inverse(frame) * direction);
         }
         return -1;
     }
@@ -75,7 +75,7 @@ TEST_F(ConvertDistributionTest, LampsHaveTheNamesOfTheirRules) {
         std::vector<std::string> found;
         const Scene scene = converted();
         for (const Node& node : scene.nodes)
-            if (node.light != kNone) found.push_back(node.name);
+            if (node.lamp != kNone) found.push_back(node.name);
         return found;
     };
     json turned = beam_rule(), named = street_rule();
@@ -117,13 +117,13 @@ TEST_F(ConvertDistributionTest, EmbedsEachFileOnce) {
         const Scene& scene = loaded.scene;
         for (const std::string& note : loaded.notes) EXPECT_TRUE(contains(note, "without material")) << note;
         ASSERT_EQ(scene.distributions.size(), 2u) << output;
-        EXPECT_EQ(scene.lights.size(), 3u);
-        EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.light != kNone; }),
+        EXPECT_EQ(scene.lamps.size(), 3u);
+        EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.lamp != kNone; }),
                   4);  // the second car has two
-        const Light& light = scene.lights[0];
-        EXPECT_EQ(light.kind, Light::Kind::Measured);
-        EXPECT_NEAR(light.intensity, 1, 1e-6);
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(light.colour[c], colour_of_temperature(3000)[c], 1e-5);
+        const Lamp& lamp = scene.lamps[0];
+        EXPECT_EQ(lamp.kind, Lamp::Kind::Measured);
+        EXPECT_NEAR(lamp.intensity, 1, 1e-6);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(lamp.colour[c], colour_of_temperature(3000)[c], 1e-5);
         for (size_t i = 0; i < lamp_.candela.size(); ++i)
             EXPECT_EQ(static_cast<float>(scene.distributions[0].candela[i]), static_cast<float>(lamp_.candela[i]));
         EXPECT_EQ(scene.distributions[1].goniometry, Goniometry::TypeA);
@@ -140,12 +140,12 @@ TEST_F(ConvertDistributionTest, ScalesFlux) {
     rule["maintenance_factor"] = 0.8;
     rule["dimming"] = 0.5;
     const ConversionReport report = convert_with({rule});
-    EXPECT_NEAR(converted().lights[0].intensity, 9000 / measured * 0.4, 1e-4);
+    EXPECT_NEAR(converted().lamps[0].intensity, 9000 / measured * 0.4, 1e-4);
     EXPECT_TRUE(mentions(report.changes, "3600 lm each"));
     rule.erase("flux_lm");
     rule["flux_scale"] = 2;
     convert_with({rule});
-    EXPECT_NEAR(converted().lights[0].intensity, 0.8, 1e-6);
+    EXPECT_NEAR(converted().lamps[0].intensity, 0.8, 1e-6);
 }
 
 TEST_F(ConvertDistributionTest, TurnsAStreetLampToTheRoad) {
@@ -214,8 +214,8 @@ TEST_F(ConvertDistributionTest, KeepsOrRemovesThoseOfTheOriginal) {
         std::filesystem::copy(folder_ / output, elsewhere / output);
         const Scene scene = read_gltf(elsewhere / output).scene;
         ASSERT_EQ(scene.distributions.size(), 3u);
-        EXPECT_EQ(scene.lights[scene.nodes[1].light].intensity, 7);  // the new lamp sits on a child
-        EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.light != kNone; }),
+        EXPECT_EQ(scene.lamps[scene.nodes[1].lamp].intensity, 7);  // the new lamp sits on a child
+        EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.lamp != kNone; }),
                   4);
     }
 }

@@ -100,14 +100,14 @@ TEST_F(ConvertSky, TheMoon) {
     const json dusk = {{"illuminance_lx", 3}, {"direction", {0, -2, 0}}};
     convert_with({{"directional", {moon, dusk}}});
     const Scene scene = converted();
-    ASSERT_EQ(scene.lights.size(), 2u);
-    EXPECT_EQ(scene.lights[0].kind, Light::Kind::Directional);
-    EXPECT_NEAR(scene.lights[0].intensity, 0.25, 1e-6);
-    EXPECT_NEAR(scene.lights[0].colour.b, colour_of_temperature(4100).b, 1e-5);
+    ASSERT_EQ(scene.lamps.size(), 2u);
+    EXPECT_EQ(scene.lamps[0].kind, Lamp::Kind::Directional);
+    EXPECT_NEAR(scene.lamps[0].intensity, 0.25, 1e-6);
+    EXPECT_NEAR(scene.lamps[0].colour.b, colour_of_temperature(4100).b, 1e-5);
     const std::vector<glm::dmat4> world = world_transforms(scene, 0);
     std::vector<glm::vec3> ways;
     for (size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].light != kNone) ways.push_back(-glm::vec3(world[i][2]));
+        if (scene.nodes[i].lamp != kNone) ways.push_back(-glm::vec3(world[i][2]));
     ASSERT_EQ(ways.size(), 2u);
     EXPECT_NEAR(glm::distance(ways[0], glm::vec3(-std::sqrt(0.75f), -0.5f, 0)), 0, 1e-6) << "from +X, 30 degrees up";
     EXPECT_NEAR(glm::distance(ways[1], glm::vec3(0, -1, 0)), 0, 1e-6);

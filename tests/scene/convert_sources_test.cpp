@@ -8,7 +8,7 @@
 #include "photometry/ies.h"
 #include "places.h"
 #include "scene/convert_rules.h"
-#include "scene/light.h"
+#include "scene/lamp.h"
 #include "support/conversion.h"
 
 namespace vesper::test {
@@ -53,18 +53,18 @@ TEST_F(ConvertSourcesTest, OpeningsAreStored) {
     rule["opening"] = opening();
     convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
     const Scene scene = converted();
-    ASSERT_EQ(scene.lights.size(), 1u);
-    EXPECT_EQ(scene.lights[0].opening.length, 0.3);
-    EXPECT_EQ(scene.lights[0].opening.width, 0.2);
-    EXPECT_FALSE(scene.lights[0].opening.round);
-    EXPECT_NEAR(axis_luminance(scene.lights[0], scene.distributions), 10000, 0.1);
+    ASSERT_EQ(scene.lamps.size(), 1u);
+    EXPECT_EQ(scene.lamps[0].opening.length, 0.3);
+    EXPECT_EQ(scene.lamps[0].opening.width, 0.2);
+    EXPECT_FALSE(scene.lamps[0].opening.round);
+    EXPECT_NEAR(axis_luminance(scene.lamps[0], scene.distributions), 10000, 0.1);
 
     rule["opening"] = {{"width_m", 0.2}, {"round", true}};
     convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
-    EXPECT_NEAR(converted().lights.at(0).opening.area(), std::numbers::pi * 0.01, 1e-12);
+    EXPECT_NEAR(converted().lamps.at(0).opening.area(), std::numbers::pi * 0.01, 1e-12);
     rule.erase("opening");
     convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}});
-    EXPECT_EQ(converted().lights.at(0).opening.area(), 0);
+    EXPECT_EQ(converted().lamps.at(0).opening.area(), 0);
 }
 
 TEST_F(ConvertSourcesTest, OpeningsOfMeasuredLampsAreStored) {
@@ -78,11 +78,11 @@ TEST_F(ConvertSourcesTest, OpeningsOfMeasuredLampsAreStored) {
     second["opening"] = opening(), second["name"] = "other";
     ConversionTest::convert_with({{"lamps", {rule, second}}});
     const Scene scene = converted();
-    ASSERT_EQ(scene.lights.size(), 2u) << "one file, two openings";
-    EXPECT_NEAR(scene.lights[0].opening.length, 0.6, 1e-12);
-    EXPECT_NEAR(scene.lights[0].opening.width, 0.25, 1e-12);
-    EXPECT_NEAR(scene.lights[1].opening.length, 0.3, 1e-12);
-    EXPECT_NEAR(axis_luminance(scene.lights[0], scene.distributions), 500 / 0.15, 1);
+    ASSERT_EQ(scene.lamps.size(), 2u) << "one file, two openings";
+    EXPECT_NEAR(scene.lamps[0].opening.length, 0.6, 1e-12);
+    EXPECT_NEAR(scene.lamps[0].opening.width, 0.25, 1e-12);
+    EXPECT_NEAR(scene.lamps[1].opening.length, 0.3, 1e-12);
+    EXPECT_NEAR(axis_luminance(scene.lamps[0], scene.distributions), 500 / 0.15, 1);
 
     beam.opening = {};
     folder_.write("beam.ies", write_ies(beam));
@@ -226,19 +226,19 @@ TEST_F(ConvertSourcesTest, OwnStreetsAgree) {
 }
 
 TEST(Intensity, OfEveryLobe) {
-    Light light;
-    light.intensity = 100;
-    EXPECT_EQ(luminous_intensity(light, {}, {3, 1, 2}), 100) << "a point";
-    light.kind = Light::Kind::Spot, light.inner_cone = 0.3f, light.outer_cone = 0.6f;
-    const auto at = [&](double angle) { return luminous_intensity(light, {}, {std::sin(angle), 0, -std::cos(angle)}); };
+    Lamp lamp;
+    lamp.intensity = 100;
+    EXPECT_EQ(luminous_intensity(lamp, {}, {3, 1, 2}), 100) << "a point";
+    lamp.kind = Lamp::Kind::Spot, lamp.inner_cone = 0.3f, lamp.outer_cone = 0.6f;
+    const auto at = [&](double angle) { return luminous_intensity(lamp, {}, {std::sin(angle), 0, -std::cos(angle)}); };
     EXPECT_EQ(at(0.29), 100);
     EXPECT_EQ(at(0.61), 0);
     const double ramp = (std::cos(0.45) - std::cos(0.6)) / (std::cos(0.3) - std::cos(0.6));
     EXPECT_NEAR(at(0.45), 100 * ramp * ramp, 1e-4);
-    light.kind = Light::Kind::CosinePower, light.exponent = 3;
+    lamp.kind = Lamp::Kind::CosinePower, lamp.exponent = 3;
     EXPECT_NEAR(at(1), 100 * std::pow(std::cos(1.0), 3), 1e-9);
     EXPECT_EQ(at(2), 0);
-    light.kind = Light::Kind::Directional;
+    lamp.kind = Lamp::Kind::Directional;
     EXPECT_EQ(at(0), 0);
     EXPECT_EQ(deviation(0.67), "33 % less");
     EXPECT_EQ(deviation(1.55), "55 % more");

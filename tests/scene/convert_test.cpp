@@ -94,14 +94,14 @@ TEST_F(ConvertTest, PicturesThatNothingShowsNeedNotBeThere) {
 TEST_F(ConvertTest, PutsLampsOnNodes) {
     const ConversionReport report = convert_with({{"lamps", lamps()}});
     const Scene scene = converted();
-    ASSERT_EQ(scene.lights.size(), 2u);
-    const Light &street = scene.lights[0], &beam = scene.lights[1];
-    EXPECT_EQ(street.kind, Light::Kind::Spot);
+    ASSERT_EQ(scene.lamps.size(), 2u);
+    const Lamp &street = scene.lamps[0], &beam = scene.lamps[1];
+    EXPECT_EQ(street.kind, Lamp::Kind::Spot);
     EXPECT_NEAR(street.intensity, 1800, 1e-3);
     EXPECT_NEAR(street.outer_cone, 80 * std::acos(-1.0) / 180, 1e-6);
     const glm::vec3 wanted = colour_of_temperature(2100);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(street.colour[c], wanted[c], 1e-5);
-    EXPECT_EQ(beam.kind, Light::Kind::CosinePower);
+    EXPECT_EQ(beam.kind, Lamp::Kind::CosinePower);
     EXPECT_EQ(beam.exponent, 250);
     EXPECT_NEAR(beam.intensity, 12000, 1e-2);
     EXPECT_NEAR(beam.colour.g / beam.colour.r, 0.9, 1e-6);
@@ -111,7 +111,7 @@ TEST_F(ConvertTest, PutsLampsOnNodes) {
     const auto world = world_transforms(scene, 0);
     std::vector<uint32_t> lit;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].light != kNone) lit.push_back(i);
+        if (scene.nodes[i].lamp != kNone) lit.push_back(i);
     ASSERT_EQ(lit.size(), 3u);
     EXPECT_EQ(scene.nodes[lit[0]].name, "light");
     EXPECT_EQ(world[lit[0]][3], glm::dvec4(0, 6.5, 0, 1));
@@ -128,16 +128,16 @@ TEST_F(ConvertTest, PutsLampsOnNodes) {
 TEST_F(ConvertTest, StoresStandardGltf) {
     convert_with({{"lamps", lamps()}, {"emitters", {{{"materials", "lamp_glass"}, {"luminance_cd_m2", 7000}}}}});
     const json root = json::parse(read_text(folder_ / "out.gltf"));
-    for (const json& light : root["extensions"]["KHR_lights_punctual"]["lights"]) {
+    for (const json& lamp : root["extensions"]["KHR_lights_punctual"]["lights"]) {
         double brightest = 0, y = 0;
         const double weights[] = {0.212639, 0.715169, 0.072192};
         for (size_t c = 0; c < 3; ++c) {
-            brightest = std::max(brightest, light["color"][c].get<double>());
-            y += weights[c] * light["color"][c].get<double>();
+            brightest = std::max(brightest, lamp["color"][c].get<double>());
+            y += weights[c] * lamp["color"][c].get<double>();
         }
         EXPECT_NEAR(brightest, 1, 1e-12);
-        EXPECT_NEAR(light["intensity"].get<double>() * y, light["name"] == "low beam" ? 12000 : 1800, 1e-2);
-        EXPECT_LT(light["spot"]["innerConeAngle"], light["spot"]["outerConeAngle"]);
+        EXPECT_NEAR(lamp["intensity"].get<double>() * y, lamp["name"] == "low beam" ? 12000 : 1800, 1e-2);
+        EXPECT_LT(lamp["spot"]["innerConeAngle"], lamp["spot"]["outerConeAngle"]);
     }
     EXPECT_EQ(root["extensionsUsed"], json({"KHR_lights_punctual", "KHR_materials_emissive_strength"}));
     EXPECT_EQ(root["extras"]["author"], "nobody");
@@ -186,7 +186,7 @@ TEST_F(ConvertTest, KeepsPicturesByteForByte) {
         std::filesystem::copy(folder_ / output, elsewhere / output);
         const LoadedScene loaded = read_gltf(elsewhere / output);
         EXPECT_EQ(loaded.scene.images.at(0).rgba, (std::vector<uint8_t>{255, 128, 0, 255, 10, 10, 10, 255}));
-        EXPECT_EQ(loaded.scene.lights.size(), 2u);
+        EXPECT_EQ(loaded.scene.lamps.size(), 2u);
         EXPECT_EQ(loaded.scene.meshes.at(2).primitives.at(0).vertices.at(1).position, glm::vec3(20, 0, 0));
         const std::string file = read_text(elsewhere / output);
         const std::string code =
@@ -213,9 +213,9 @@ TEST_F(ConvertTest, RecordsTransferAmbientAndSky) {
 TEST_F(ConvertTest, KeepsLightsWhenAsked) {
     const ConversionReport report = convert_with({{"lights", {{"keep", true}}}, {"lamps", lamps()}});
     const Scene scene = converted();
-    ASSERT_EQ(scene.lights.size(), 3u);
-    EXPECT_EQ(scene.lights[0].kind, Light::Kind::Directional);
-    EXPECT_EQ(scene.lights[2].kind, Light::Kind::CosinePower);  // the lobe refers to the right one
+    ASSERT_EQ(scene.lamps.size(), 3u);
+    EXPECT_EQ(scene.lamps[0].kind, Lamp::Kind::Directional);
+    EXPECT_EQ(scene.lamps[2].kind, Lamp::Kind::CosinePower);  // the lobe refers to the right one
     EXPECT_FALSE(mentions(report.changes, "removed"));
 }
 
@@ -224,7 +224,7 @@ TEST_F(ConvertTest, PutsSeveralLampsOnOneNode) {
     rules.push_back({{"name", "second"}, {"nodes", "light"}, {"type", "point"}, {"intensity_cd", 3}});
     convert_with({{"lamps", rules}});
     const Scene scene = converted();
-    EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.light != kNone; }), 4);
+    EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.lamp != kNone; }), 4);
 }
 
 TEST_F(ConvertTest, WarnsOfWhatCannotBeRight) {

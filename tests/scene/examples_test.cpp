@@ -39,7 +39,7 @@ TEST(Examples, TheStreetOfFreeModelsIsAssembledAndConverted) {
     const Scene scene = read_gltf(folder / "night.glb").scene;
     EXPECT_EQ(scene.cameras.size(), 3u);
     size_t lamps = 0;
-    for (const Node& node : scene.nodes) lamps += node.light != kNone;
+    for (const Node& node : scene.nodes) lamps += node.lamp != kNone;
     EXPECT_EQ(lamps, 50u);  // 14 street lamps, 9 cars with two lamps at either end
 }
 

@@ -13,7 +13,7 @@ const std::string kProfile =
 
 std::vector<uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
-json use(size_t light) { return {{"EXT_lights_ies", {{"light", light}}}}; }
+json use(size_t lamp) { return {{"EXT_lights_ies", {{"light", lamp}}}}; }
 
 /// A profile in a buffer view and one in a data URI, each on a node.
 GltfFile lamps() {
@@ -41,10 +41,10 @@ TEST(GltfIes, ReadsProfilesAndTheirUse) {
     EXPECT_EQ(scene.distributions[0].name, "Lamp 7");
     EXPECT_EQ(scene.distributions[1].name, "second");
     EXPECT_EQ(scene.distributions[0].candela, (std::vector<double>{100, 50, 25}));
-    ASSERT_EQ(scene.lights.size(), 2u);  // the third node shares the first one's
-    EXPECT_EQ(scene.nodes[2].light, scene.nodes[0].light);
-    const Light &first = scene.lights[scene.nodes[0].light], &second = scene.lights[scene.nodes[1].light];
-    EXPECT_EQ(first.kind, Light::Kind::Measured);
+    ASSERT_EQ(scene.lamps.size(), 2u);  // the third node shares the first one's
+    EXPECT_EQ(scene.nodes[2].lamp, scene.nodes[0].lamp);
+    const Lamp &first = scene.lamps[scene.nodes[0].lamp], &second = scene.lamps[scene.nodes[1].lamp];
+    EXPECT_EQ(first.kind, Lamp::Kind::Measured);
     EXPECT_EQ(first.distribution, 0u);
     EXPECT_EQ(first.intensity, 1);
     EXPECT_EQ(first.colour, glm::vec3(1));
@@ -73,10 +73,10 @@ TEST(GltfIes, ANodeMayHoldBothKindsOfLight) {
     file.root["nodes"][0]["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
     const Scene scene = file.read().scene;
     ASSERT_EQ(scene.nodes.size(), 3u);
-    EXPECT_EQ(scene.lights[scene.nodes[0].light].kind, Light::Kind::Point);
+    EXPECT_EQ(scene.lamps[scene.nodes[0].lamp].kind, Lamp::Kind::Point);
     EXPECT_EQ(scene.nodes[1].name, "lantern");
     EXPECT_EQ(scene.nodes[1].parent, 0u);
-    EXPECT_EQ(scene.lights[scene.nodes[1].light].kind, Light::Kind::Measured);
+    EXPECT_EQ(scene.lamps[scene.nodes[1].lamp].kind, Lamp::Kind::Measured);
     EXPECT_EQ(world_transforms(scene, 0)[1][3], glm::dvec4(1, 2, 3, 1));
     // The index of a punctual light does not reach into the measured ones.
     file.root["nodes"][1]["extensions"]["KHR_lights_punctual"] = {{"light", 1}};

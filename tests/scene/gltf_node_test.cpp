@@ -96,36 +96,36 @@ TEST(GltfNode, LeavesOutCamerasThatItCannotHave) {
     EXPECT_TRUE(contains(file.complaint(), "/cameras/1/perspective/yfov"));
 }
 
-json lights(const json& list) { return {{"KHR_lights_punctual", {{"lights", list}}}}; }
-json light(int index) { return {{"extensions", {{"KHR_lights_punctual", {{"light", index}}}}}}; }
+json lamps(const json& list) { return {{"KHR_lights_punctual", {{"lights", list}}}}; }
+json lamp(int index) { return {{"extensions", {{"KHR_lights_punctual", {{"light", index}}}}}}; }
 
 TEST(GltfLight, KeepsTheProductOfIntensityAndColour) {
     GltfFile file;
-    file.root["extensions"] = lights({{{"type", "point"}, {"intensity", 100}, {"color", {1, 0.5, 0.25}}, {"range", 3}},
+    file.root["extensions"] = lamps({{{"type", "point"}, {"intensity", 100}, {"color", {1, 0.5, 0.25}}, {"range", 3}},
                                       {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}},
                                       {{"type", "directional"}, {"intensity", 5}}});
-    file.root["nodes"] = {light(0), light(1), light(2)};
+    file.root["nodes"] = {lamp(0), lamp(1), lamp(2)};
     const LoadedScene loaded = file.read();
-    const auto& read = loaded.scene.lights;
+    const auto& read = loaded.scene.lamps;
     ASSERT_EQ(read.size(), 3u);
     const double y = luminance({1, 0.5, 0.25});
     EXPECT_NEAR(read[0].intensity, 100 * y, 1e-4);
     EXPECT_NEAR(luminance(read[0].colour), 1, 1e-6);
     EXPECT_NEAR(read[0].colour.r * read[0].intensity, 100, 1e-4);
     EXPECT_TRUE(mentions(loaded.notes, "range"));
-    EXPECT_EQ(read[1].kind, Light::Kind::Spot);
+    EXPECT_EQ(read[1].kind, Lamp::Kind::Spot);
     EXPECT_FLOAT_EQ(read[1].inner_cone, 0.1f);
     EXPECT_FLOAT_EQ(read[1].outer_cone, 0.5f);
     EXPECT_FLOAT_EQ(read[1].intensity, 1);  // the default
-    EXPECT_EQ(read[2].kind, Light::Kind::Directional);
-    EXPECT_EQ(loaded.scene.nodes[2].light, 2u);
+    EXPECT_EQ(read[2].kind, Lamp::Kind::Directional);
+    EXPECT_EQ(loaded.scene.nodes[2].lamp, 2u);
 }
 
 TEST(GltfLight, WhatFloatsCannotHoldIsNoted) {
     const auto notes = [](double cone) {
         GltfFile file;
-        file.root["extensions"] = lights({{{"type", "spot"}, {"spot", {{"outerConeAngle", cone}}}}});
-        file.root["nodes"] = json::array({light(0)});
+        file.root["extensions"] = lamps({{{"type", "spot"}, {"spot", {{"outerConeAngle", cone}}}}});
+        file.root["nodes"] = json::array({lamp(0)});
         return file.read().notes;
     };
     EXPECT_FALSE(mentions(notes(0.01), "gives more light than it says"));
@@ -134,21 +134,21 @@ TEST(GltfLight, WhatFloatsCannotHoldIsNoted) {
 
 TEST(GltfLight, LeavesOutTypesThatItDoesNotKnow) {
     GltfFile file;
-    file.root["extensions"] = lights({{{"type", "area"}, {"intensity", 100}}, {{"type", "point"}, {"intensity", 7}}});
-    file.root["nodes"] = {light(0), light(1)};
+    file.root["extensions"] = lamps({{{"type", "area"}, {"intensity", 100}}, {{"type", "point"}, {"intensity", 7}}});
+    file.root["nodes"] = {lamp(0), lamp(1)};
     const LoadedScene loaded = file.read();
-    EXPECT_EQ(loaded.scene.nodes[0].light, kNone);
-    ASSERT_EQ(loaded.scene.nodes[1].light, 1u);
-    EXPECT_EQ(loaded.scene.lights[1].intensity, 7);
+    EXPECT_EQ(loaded.scene.nodes[0].lamp, kNone);
+    ASSERT_EQ(loaded.scene.nodes[1].lamp, 1u);
+    EXPECT_EQ(loaded.scene.lamps[1].intensity, 7);
     EXPECT_TRUE(mentions(loaded.notes, "a light of a type that glTF does not have is left out"));
-    file.root["extensions"] = lights(json::array({json{{"intensity", 100}}}));
+    file.root["extensions"] = lamps(json::array({json{{"intensity", 100}}}));
     EXPECT_TRUE(contains(file.complaint(), "has no \"type\""));
 }
 
 TEST(GltfLight, ReadsTheVesperBlock) {
     GltfFile file;
-    file.root["extensions"] = lights({{{"type", "spot"}, {"intensity", 12000}}});
-    file.root["nodes"] = json::array({light(0)});
+    file.root["extensions"] = lamps({{{"type", "spot"}, {"intensity", 12000}}});
+    file.root["nodes"] = json::array({lamp(0)});
     file.root["extras"]["vesper"] = {{"version", 1},
                                      {"transfer", {{"kind", "gamma"}, {"gamma", 2.2}}},
                                      {"ambient", {{"illuminance_lx", 0.4}, {"colour", {2, 2, 2}}}},
@@ -161,8 +161,8 @@ TEST(GltfLight, ReadsTheVesperBlock) {
     EXPECT_FLOAT_EQ(scene.ambient_illuminance, 0.4f);
     EXPECT_NEAR(luminance(scene.ambient_colour), 1, 1e-6);
     EXPECT_FLOAT_EQ(scene.sky_luminance, 0.02f);
-    EXPECT_EQ(scene.lights[0].kind, Light::Kind::CosinePower);
-    EXPECT_EQ(scene.lights[0].exponent, 250);
+    EXPECT_EQ(scene.lamps[0].kind, Lamp::Kind::CosinePower);
+    EXPECT_EQ(scene.lamps[0].exponent, 250);
     file.root["extras"]["vesper"]["version"] = 2;
     EXPECT_TRUE(contains(file.complaint(), "/extras/vesper/version"));
     file.root["extras"]["vesper"] = {{"version", 1},

@@ -4,7 +4,7 @@
 #include "base/luminance.h"
 #include "photometry/standard_lamps.h"
 #include "scene/gltf_save.h"
-#include "scene/light.h"
+#include "scene/lamp.h"
 #include "scene/scene_files.h"
 
 namespace vesper {
@@ -37,32 +37,32 @@ Scene example() {
         mesh.primitives.push_back(primitive);
     }
     scene.meshes.push_back(mesh);
-    Light measured{.name = "street lamp",
-                   .kind = Light::Kind::Measured,
+    Lamp measured{.name = "street lamp",
+                   .kind = Lamp::Kind::Measured,
                    .intensity = 0.8f,
                    .colour = glm::vec3(1),
                    .distribution = 0};
     measured.opening.length = 0.6, measured.opening.width = 0.3;
-    Light lobe{.name = "lobe",
-               .kind = Light::Kind::CosinePower,
+    Lamp lobe{.name = "lobe",
+               .kind = Lamp::Kind::CosinePower,
                .intensity = 300,
                .inner_cone = 0,
                .outer_cone = 1.2f,
                .exponent = 8};
-    Light spot{.name = "spot", .kind = Light::Kind::Spot, .intensity = 200, .inner_cone = 0.1f, .outer_cone = 0.6f};
+    Lamp spot{.name = "spot", .kind = Lamp::Kind::Spot, .intensity = 200, .inner_cone = 0.1f, .outer_cone = 0.6f};
     spot.colour = glm::vec3(glm::dvec3(2, 0.7, 0.5) / luminance(glm::dvec3(2, 0.7, 0.5)));
     spot.opening.length = spot.opening.width = 0.2, spot.opening.round = true;
-    scene.lights = {measured, lobe, spot};
+    scene.lamps = {measured, lobe, spot};
     scene.distributions.push_back(standard_lamp("street-lamp"));
     scene.cameras.push_back({.name = "eye", .vertical_fov = 0.7f, .near = 0.2f});
     Node root{.name = "root"}, car{.name = "car", .parent = 0}, lamp{.name = "lamp", .parent = 1},
         second{.name = "second"};
     root.mesh = 0;
     car.translation = {1, 2, 3}, car.camera = 0;
-    lamp.rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), lamp.light = 0;
-    second.light = 2, second.scale = {2, 2, 2};
+    lamp.rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), lamp.lamp = 0;
+    second.lamp = 2, second.scale = {2, 2, 2};
     Node third{.name = "third"};
-    third.light = 1;
+    third.lamp = 1;
     scene.nodes = {root, car, lamp, second, third};
     scene.channels.push_back(
         {.node = 1, .path = Channel::Path::Translation, .times = {0, 2}, .values = {{1, 2, 3, 0}, {5, 2, 3, 0}}});
@@ -105,9 +105,9 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
             EXPECT_EQ(a.uv, b.uv);
             EXPECT_EQ(a.colour, b.colour);
         }
-    const auto light_on = [&](const Scene& of, const char* node) { return of.lights[find(of, node).light]; };
+    const auto light_on = [&](const Scene& of, const char* node) { return of.lamps[find(of, node).lamp]; };
     for (const char* node : {"lamp", "second", "third"}) {
-        const Light a = light_on(got, node), b = light_on(scene, node);
+        const Lamp a = light_on(got, node), b = light_on(scene, node);
         EXPECT_EQ(a.kind, b.kind);
         EXPECT_NEAR(a.intensity, b.intensity, 1e-4 * b.intensity);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(a.colour[c], b.colour[c], 1e-5);

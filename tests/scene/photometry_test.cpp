@@ -45,11 +45,11 @@ TEST(Photometry, ReadsAWholeFile) {
     EXPECT_NEAR(luminance(p.sky->colour), 1, 1e-9);
     EXPECT_TRUE(p.keep_lights);
     ASSERT_EQ(p.lamps.size(), 2u);
-    EXPECT_EQ(p.lamps[0].light.kind, Light::Kind::Spot);
-    EXPECT_FLOAT_EQ(p.lamps[0].light.outer_cone, static_cast<float>(80 * std::numbers::pi / 180));
+    EXPECT_EQ(p.lamps[0].lamp.kind, Lamp::Kind::Spot);
+    EXPECT_FLOAT_EQ(p.lamps[0].lamp.outer_cone, static_cast<float>(80 * std::numbers::pi / 180));
     EXPECT_EQ(p.lamps[1].name, "a");
     EXPECT_EQ(p.lamps[1].aim, glm::dvec3(0, -1, 0));
-    EXPECT_EQ(p.lamps[1].light.colour, glm::vec3(1));
+    EXPECT_EQ(p.lamps[1].lamp.colour, glm::vec3(1));
     EXPECT_TRUE(p.emitters[0].modulate);
     EXPECT_EQ(p.surfaces[0].roughness, 0.8);
 }

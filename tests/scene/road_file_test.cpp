@@ -153,14 +153,14 @@ double rendered_illuminance(const Scene& scene, glm::dvec3 point, double reach) 
     const auto world = world_transforms(scene, 0);
     double sum = 0;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].light == kNone) continue;
-        const Light& light = scene.lights[scene.nodes[i].light];
+        if (scene.nodes[i].lamp == kNone) continue;
+        const Lamp& lamp = scene.lamps[scene.nodes[i].lamp];
         const glm::dmat4 node = world[i];
         const glm::dvec3 away = point - glm::dvec3(node[3]);
         if (std::hypot(away.x, away.z) > reach) continue;
         const double d = glm::length(away);
-        sum += light.intensity *
-               intensity(scene.distributions[light.distribution], glm::transpose(glm::dmat3(node)) * away) * -away.y /
+        sum += lamp.intensity *
+               intensity(scene.distributions[lamp.distribution], glm::transpose(glm::dmat3(node)) * away) * -away.y /
                (d * d * d);
     }
     return sum;
@@ -187,14 +187,14 @@ TEST(RoadScene, LooksAlongTheRoad) {
     EXPECT_EQ(scene.reflection_tables[0], road.surface);
     EXPECT_EQ(scene.materials.at(0).reflection_table, 0u);
     EXPECT_NEAR(scene.materials[0].base_colour.r, 0.0543 * std::numbers::pi, 1e-4);
-    EXPECT_NEAR(luminance(scene.lights.at(0).colour), 1, 1e-6);
+    EXPECT_NEAR(luminance(scene.lamps.at(0).colour), 1, 1e-6);
     ASSERT_EQ(scene.cameras.size(), 2u);
     EXPECT_EQ(scene.cameras[1].name, "observer lane 2");
 
     const auto world = world_transforms(scene, 0);
     size_t lamps = 0, cameras = 0;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        lamps += scene.nodes[i].light != kNone;
+        lamps += scene.nodes[i].lamp != kNone;
         if (scene.nodes[i].camera == kNone) continue;
         const glm::vec3 eye = world[i][3], sight = -glm::normalize(glm::vec3(world[i][2]));
         const glm::vec3 expected(-1.75f - 3.5f * static_cast<float>(scene.nodes[i].camera), 1.5f, 60.0f);

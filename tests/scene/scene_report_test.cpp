@@ -15,7 +15,7 @@ struct Street {
     Street() {
         scene.materials.push_back({.name = "asphalt", .base_colour = {0.2f, 0.2f, 0.2f, 1}});
         add_square(0, 100, 20, 0);
-        add_lamp("lamp", {.kind = Light::Kind::Point, .intensity = 3000}, {0, 6, 0});
+        add_lamp("lamp", {.kind = Lamp::Kind::Point, .intensity = 3000}, {0, 6, 0});
     }
     void add_square(uint32_t material, float width, float depth, float height) {
         Primitive p{.material = material};
@@ -29,11 +29,11 @@ struct Street {
         scene.meshes.push_back({.name = "square", .primitives = {p}});
         scene.nodes.push_back(node);
     }
-    void add_lamp(const std::string& name, Light light, glm::vec3 at) {
-        light.name = name;
+    void add_lamp(const std::string& name, Lamp lamp, glm::vec3 at) {
+        lamp.name = name;
         Node node{.name = name, .translation = at};
-        node.light = static_cast<uint32_t>(scene.lights.size());
-        scene.lights.push_back(light);
+        node.lamp = static_cast<uint32_t>(scene.lamps.size());
+        scene.lamps.push_back(lamp);
         scene.nodes.push_back(node);
     }
     bool warns(const std::string& part) const {
@@ -45,7 +45,7 @@ struct Street {
 
 TEST(SceneReport, AddsUp) {
     Street street;
-    street.add_lamp("lamp.001", street.scene.lights[0], {10, 6.5f, 2});
+    street.add_lamp("lamp.001", street.scene.lamps[0], {10, 6.5f, 2});
     street.scene.cameras.push_back({.name = "driver"});
     Node eye{.name = "eye"};
     eye.camera = 0;
@@ -72,8 +72,8 @@ TEST(SceneReport, MeshesCountForEveryNodeThatShowsThem) {
     street.scene.nodes.push_back({.name = "turned", .translation = {0, 1, 0}, .rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), .scale = glm::vec3(0.5f), .mesh = 0});
     street.scene.nodes.push_back({.name = "drawn out", .translation = {0, 2, 40}, .scale = {1, 1, 3}, .mesh = 0});
     street.scene.nodes.push_back({.name = "far", .translation = {200, 0, 0}, .mesh = 0});
-    street.add_lamp("over far", street.scene.lights[0], {200, 7, 0});
-    street.add_lamp("over drawn out", street.scene.lights[0], {10, 7, 40});
+    street.add_lamp("over far", street.scene.lamps[0], {200, 7, 0});
+    street.add_lamp("over drawn out", street.scene.lamps[0], {10, 7, 40});
     street.scene.nodes.push_back({.name = "inside", .translation = {199, 3, 0}, .scale = glm::vec3(0.25f), .mesh = 0});
     const SceneReport report = report_scene(street.scene);
     EXPECT_EQ(report.triangles, 10u);
@@ -91,9 +91,9 @@ TEST(SceneReport, MeasuredLampsAreTheirDistribution) {
     Street street;
     Distribution d{.name = "sphere", .horizontal = {0}, .vertical = {0, 180}, .candela = {50, 50}};
     street.scene.distributions.push_back(d);
-    Light light{.kind = Light::Kind::Measured, .intensity = 2};
-    light.distribution = 0;
-    street.add_lamp("measured", light, {5, 5, 0});
+    Lamp lamp{.kind = Lamp::Kind::Measured, .intensity = 2};
+    lamp.distribution = 0;
+    street.add_lamp("measured", lamp, {5, 5, 0});
     const SceneReport report = report_scene(street.scene);
     ASSERT_EQ(report.lamps.size(), 2u);
     EXPECT_NEAR(report.lamps[1].candela, 100, 1e-9);
@@ -155,7 +155,7 @@ TEST(SceneReport, WhatIsEmittedIsThroughItsTexture) {
 TEST(SceneReport, WarnsOfLamps) {
     const auto with = [](float candela, glm::vec3 at) {
         Street street;
-        street.scene.lights[0].intensity = candela;
+        street.scene.lamps[0].intensity = candela;
         street.scene.nodes[1].translation = at;
         return street;
     };
@@ -167,12 +167,12 @@ TEST(SceneReport, WarnsOfLamps) {
     EXPECT_TRUE(with(3000, {0, -2, 0}).warns("1 of 1 below the ground"));
     EXPECT_TRUE(with(3000, {0, 6, 300}).warns("1 of 1 with no surface under it"));
     Street dark;
-    dark.scene.nodes[1].light = kNone;
+    dark.scene.nodes[1].lamp = kNone;
     EXPECT_TRUE(dark.warns("no lamps and no ambient light"));
     dark.scene.ambient_illuminance = 0.2f;
     EXPECT_TRUE(dark.warns("there are no lamps: "));
     Street sunny;
-    sunny.add_lamp("sun", {.kind = Light::Kind::Directional, .intensity = 80000}, {0, 0, 0});
+    sunny.add_lamp("sun", {.kind = Lamp::Kind::Directional, .intensity = 80000}, {0, 0, 0});
     EXPECT_TRUE(sunny.warns("8e+04 lx from the sky"));
 }
 

@@ -12,9 +12,9 @@
 #include <memory>
 
 #include "base/error.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "support/scene_geometry.h"
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 
 namespace vesper::test {
 namespace {
@@ -46,13 +46,13 @@ Scene lit_wall() {
     add_mesh(scene, rectangle({-5, -2, -10}, {10, 0, 0}, {0, 6, 0}), kRectangle, 0);
     add_mesh(scene, rectangle({-5, -2, 0}, {10, 0, 0}, {0, 0, -10}), kRectangle, 0);
     for (uint32_t i = 0; i < kLamps; ++i) {
-        Light light{.name = "lamp", .kind = i % 2 ? Light::Kind::Spot : Light::Kind::Point, .intensity = 50.0f + float(i)};
-        light.outer_cone = 0.6f, light.inner_cone = 0.3f;
-        if (i % 8 == 0) light.opening = {.length = 0.1, .width = 0.1, .height = 0, .round = true};
+        Lamp lamp{.name = "lamp", .kind = i % 2 ? Lamp::Kind::Spot : Lamp::Kind::Point, .intensity = 50.0f + float(i)};
+        lamp.outer_cone = 0.6f, lamp.inner_cone = 0.3f;
+        if (i % 8 == 0) lamp.opening = {.length = 0.1, .width = 0.1, .height = 0, .round = true};
         Node node;
-        node.light = uint32_t(scene.lights.size());
+        node.lamp = uint32_t(scene.lamps.size());
         node.translation = {float(i % 6) - 2.5f, float(i / 6) - 1.0f, -4};
-        scene.lights.push_back(light);
+        scene.lamps.push_back(lamp);
         scene.nodes.push_back(node);
     }
     return scene;
@@ -116,13 +116,13 @@ private:
         SceneFrame moment{world_transforms(scene_, 0)};
         moment.dimming.assign(scene_.nodes.size(), 1);
         for (size_t node = 0; node < scene_.nodes.size(); ++node) {
-            if (scene_.nodes[node].light == kNone) continue;
+            if (scene_.nodes[node].lamp == kNone) continue;
             const float phase = float(i % 1000) * 0.02f * float(node);
             moment.dimming[node] = std::max(0.0f, std::sin(phase));  // half of them dark
             moment.world[node][3] += glm::vec4(std::cos(phase), 0, std::sin(phase), 0);
         }
         const View view = View::symmetric(extent, 0.8f, glm::mat4(1));
-        const Frame shown = renderer_->render(settings, view, moment, 0.02f, {.display = true, .scene = i % 5 == 0, .light = i % 7 == 0});
+        const Frame shown = renderer_->render(settings, view, moment, 0.02f, {.display = true, .scene = i % 5 == 0, .display_light = i % 7 == 0});
         if (!shown.scene.empty() && settings.tone_operator != Operator::Ldr)
             mapper_.map(settings, {.extent = extent, .values = shown.scene, .channels = 4}, 0.02f);
     }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "perception/display.h"
+#include "vision/display.h"
 
 namespace vesper::test {
 

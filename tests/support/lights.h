@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/passes.h"
+#include "render/passes/passes.h"
 
 namespace vesper::test {
 
@@ -16,7 +16,7 @@ struct LampMix {
 };
 
 /// For frames without measured lamps and roads.
-inline MapTexels no_maps(FrameGraph& graph) {
+inline TableTexels no_maps(FrameGraph& graph) {
     return {graph.upload("maps", std::vector<glm::vec4>(1), VK_FORMAT_R32G32B32A32_SFLOAT)};
 }
 
@@ -24,7 +24,7 @@ inline MapTexels no_maps(FrameGraph& graph) {
 inline LampMix half_and_half(uint32_t count) { return {(count + 1) / 2, count / 2, 0}; }
 
 /// Lamps at random along a street 400 m long that begins 20 m behind the eye, `candela` (within a factor of ten) each.
-inline LightList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
+inline LampList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     std::normal_distribution<float> normal;
@@ -35,10 +35,10 @@ inline LightList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
         const glm::vec3 c(0.4f + unit(random), 0.4f + unit(random), 0.4f + unit(random));
         return c / glm::dot(c, glm::vec3(0.212639f, 0.715169f, 0.072192f));
     };
-    LightList list;
+    LampList list;
     list.counts = {mix.cones, mix.powers, 0, mix.directional};
     for (uint32_t i = 0; i < mix.cones + mix.powers; ++i) {
-        shared::Light lamp{};
+        shared::Lamp lamp{};
         lamp.position = {40 * unit(random) - 20, 8 * unit(random) - 1.2f, 20 - 400 * unit(random)};
         lamp.intensity = candela * std::pow(10.0f, 2 * unit(random) - 1);
         lamp.axis = direction({0, -1, 0});
@@ -52,12 +52,12 @@ inline LightList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
             lamp.lobe_a = 1 / (std::cos(inner) - std::cos(outer));
             lamp.lobe_b = -std::cos(outer) * lamp.lobe_a;
         }
-        list.lights.push_back(lamp);
+        list.lamps.push_back(lamp);
     }
     for (uint32_t i = 0; i < mix.directional; ++i) {
-        shared::Light moon{};
+        shared::Lamp moon{};
         moon.intensity = 0.3f * unit(random), moon.axis = direction({0, -1, -1}), moon.colour = colour();
-        list.lights.push_back(moon);
+        list.lamps.push_back(moon);
     }
     return list;
 }

@@ -10,7 +10,7 @@
 
 #include "gpu/device.h"
 #include "graph/executor.h"
-#include "passes/passes.h"
+#include "render/passes/passes.h"
 
 namespace vesper {
 

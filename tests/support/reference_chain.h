@@ -6,7 +6,7 @@
 #include "passes/bands_reference.h"
 #include "passes/composite_reference.h"
 #include "passes/histogram_reference.h"
-#include "tone_chain.h"
+#include "render/tone_chain.h"
 
 namespace vesper::test {
 

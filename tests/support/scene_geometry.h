@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "passes/gbuffer_reference.h"
-#include "passes/passes.h"
+#include "render/passes/passes.h"
 #include "scene/scene.h"
 
 namespace vesper::test {
@@ -118,9 +118,9 @@ inline Scene wall_with_a_lamp() {
     Scene scene;
     scene.materials = {Material{}};
     add_mesh(scene, rectangle({-5, -5, -10}, {10, 0, 0}, {0, 10, 0}), kRectangle, 0);
-    scene.lights = {Light{.name = "lamp", .kind = Light::Kind::Point, .intensity = 500}};
+    scene.lamps = {Lamp{.name = "lamp", .kind = Lamp::Kind::Point, .intensity = 500}};
     Node node;
-    node.light = 0;
+    node.lamp = 0;
     scene.nodes.push_back(node);
     return scene;
 }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "passes/shade_reference.h"
-#include "resident/light_maps.h"
-#include "resident/retro.h"
+#include "gpu_scene/intensity_tables.h"
+#include "gpu_scene/retro.h"
 #include "support/compare.h"
 #include "support/texels.h"
 
@@ -31,7 +31,7 @@ inline GBuffer upload(FrameGraph& graph, const Surfaces& s) {
             {}};
 }
 
-inline MapTexels upload(FrameGraph& graph, const LightMaps& maps) {
+inline TableTexels upload(FrameGraph& graph, const IntensityTables& maps) {
     return {graph.upload("maps", maps.texels, VK_FORMAT_R32G32B32A32_SFLOAT), maps.roads, maps.roads != 0};
 }
 
@@ -42,8 +42,8 @@ struct Shot {
 };
 
 /// Clusters and shades, seen from the origin along -Z. `sheets`: classes of retroreflection, if there are any.
-inline Shot shade(PassRig& rig, const Surfaces& s, const LightList& list, const ClusterSettings& clusters, ShadeSettings settings,
-                  const LightMaps& maps = {}, const std::vector<Retroreflector>& sheets = {}) {
+inline Shot shade(PassRig& rig, const Surfaces& s, const LampList& list, const ClusterSettings& clusters, ShadeSettings settings,
+                  const IntensityTables& maps = {}, const std::vector<Retroreflector>& sheets = {}) {
     FrameGraph graph;
     const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
     const GBuffer g = upload(graph, s);
@@ -59,7 +59,7 @@ inline Shot shade(PassRig& rig, const Surfaces& s, const LightList& list, const 
 inline shared::ShadePush push_of(const Surfaces& s, const Shot& shot, const ShadeSettings& settings) {
     shared::ShadePush p{};
     p.size = {s.extent.width, s.extent.height};
-    p.grid = shot.cluster.grid, p.lights = shot.cluster.lights, p.threshold = shot.cluster.threshold;
+    p.grid = shot.cluster.grid, p.lamps = shot.cluster.lamps, p.threshold = shot.cluster.threshold;
     p.lambert = settings.lambert, p.emission_limit = settings.emission_limit, p.ambient = settings.ambient,
     p.sky = settings.sky;
     return p;
@@ -89,12 +89,12 @@ void expect_light(const std::string& name, VkExtent2D extent, const std::vector<
 /// Compares a shot with the reference. 2e-5 for sums of positive terms in float with exp2 and log2 of cosines; the
 /// reference's rounding holds what cancels: dot products near a threshold, a cone's edge or a mirror's highlight. 1e-12
 /// cd/m^2 is nothing. `on_roads`: relative error besides, on surfaces with a table.
-inline void expect_reference(const Shot& shot, const Surfaces& s, const LightList& list, const ShadeSettings& settings,
+inline void expect_reference(const Shot& shot, const Surfaces& s, const LampList& list, const ShadeSettings& settings,
                              const reference::Measurements& measurements = {}, Tolerance tolerance = {2e-5, 1e-7},
                              double on_roads = 0) {
     const shared::ShadePush p = push_of(s, shot, settings);
     expect_light("scene", s.extent, shot.pixels, tolerance, [&](size_t i) {
-        reference::Shaded shaded = reference::shade(s.texel(i), s.pixel(i), list.lights, p, measurements);
+        reference::Shaded shaded = reference::shade(s.texel(i), s.pixel(i), list.lamps, p, measurements);
         if (s.reflectance[i].w < 0) shaded.rounding += on_roads * shaded.luminance;
         return shaded;
     });

@@ -5,31 +5,31 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "resident/sources.h"
+#include "gpu_scene/luminaires.h"
 
 namespace vesper::test {
 
 /// Lamps and where they stand: node i carries lamp i.
 struct Lamps {
-    SourceSet set;
+    LuminaireSet set;
     SceneFrame frame;
 
-    void add(const Light& light, const glm::mat4& world) {
-        set.lamps.push_back({light, uint32_t(frame.world.size())});
+    void add(const Lamp& lamp, const glm::mat4& world) {
+        set.lamps.push_back({lamp, uint32_t(frame.world.size())});
         frame.world.push_back(world);
     }
-    SourceList seen(const View& view, std::optional<float> white = {}) const {
-        return source_list(set, frame, view, white);
+    LuminaireList seen(const View& view, std::optional<float> white = {}) const {
+        return luminaire_list(set, frame, view, white);
     }
 };
 
 /// A lamp of some candela behind an opening of width x height (m).
-inline Light lamp_with_opening(float candela, double width, double height, bool round = false,
-                               Light::Kind kind = Light::Kind::CosinePower) {
-    Light light;
-    light.kind = kind, light.intensity = candela, light.exponent = 1;
-    light.opening = {.length = width, .width = height, .height = 0, .round = round};
-    return light;
+inline Lamp lamp_with_opening(float candela, double width, double height, bool round = false,
+                               Lamp::Kind kind = Lamp::Kind::CosinePower) {
+    Lamp lamp;
+    lamp.kind = kind, lamp.intensity = candela, lamp.exponent = 1;
+    lamp.opening = {.length = width, .width = height, .height = 0, .round = round};
+    return lamp;
 }
 
 /// At `position`, its axis along `axis`.

@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "passes/passes.h"
+#include "render/passes/passes.h"
 
 namespace vesper::test {
 

@@ -10,14 +10,14 @@
 #include "photometry/distribution.h"
 #include "photometry/standard_lamps.h"
 #include "places.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "roads/opendrive.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"
 #include "scene/photometry.h"
 #include "scene/scene_files.h"
 #include "support/scene_geometry.h"
-#include "tone_mapper.h"
+#include "render/tone_mapper.h"
 
 namespace vesper::test {
 namespace {

@@ -1,0 +1,119 @@
+#include "gpu_scene/eye_scatter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "vision/glare_pattern.h"
+#include "gpu_scene/gpu_scene.h"
+#include "shared/scatter.h"
+
+namespace vesper {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+
+static_assert(kScatterMargin == int(shared::kScatterUpMargin) && kScatterReach == int(shared::kScatterDownMargin));
+
+// Taps of all levels, each in texels of its own.
+std::vector<glm::vec4> padded_taps(const ScatterFit& fit) {
+    const auto taps = size_t(fit.taps());
+    std::vector<glm::vec4> texels;
+    for (size_t first = 0; first < fit.kernels.size(); first += taps)
+        for (size_t i = 0; i < taps; i += 4) {
+            texels.emplace_back(0);
+            for (size_t c = 0; c < 4 && i + c < taps; ++c) texels.back()[int(c)] = fit.kernels[first + i + c];
+        }
+    return texels;
+}
+
+// For each column the rows, in texels of four.
+std::vector<glm::vec4> transposed(const std::vector<float>& matrix, size_t rows) {
+    const size_t columns = matrix.size() / rows, texels = (rows + 3) / 4;
+    std::vector<glm::vec4> turned(columns * texels, glm::vec4(0));
+    for (size_t r = 0; r < rows; ++r)
+        for (size_t c = 0; c < columns; ++c) turned[c * texels + r / 4][int(r % 4)] = matrix[r * columns + c];
+    return turned;
+}
+
+}  // namespace
+
+EyeScatter eye_scatter(const ScatterSettings& settings) {
+    if (settings.model == ScatterSettings::Model::Spencer) return EyeScatter([state = settings.state](double theta) { return spencer_veil(theta, state); });
+    if (settings.model == ScatterSettings::Model::Ward) return EyeScatter(ward_veil);
+    return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
+}
+
+glm::ivec2 scatter_down_strip(const Device& device) { return device.is_cpu() ? glm::ivec2(4, 32) : glm::ivec2(1, 2); }
+
+ImageAngles angles_of(const View& view) {
+    return {int(view.extent.width), int(view.extent.height), dvec2(view.tangent_low), dvec2(view.tangent_high)};
+}
+
+GpuScatter::GpuScatter(const Device& device, const ScatterSettings& settings, const ImageAngles& image)
+    : settings_(settings), image_(image), psf_(eye_scatter(settings)), arena_(device) {
+    const ScatterFit fit = fit_scatter(psf_, image, scatter_down_strip(device));
+    levels_ = fit.levels;
+    reach_ = fit.reach;
+    nodes_ = fit.nodes;
+    edge_x_ = fit.edge.x, edge_y_ = fit.edge.y;
+    const auto upload = [&](const auto& values, OwnedBuffer& buffer) {
+        const auto bytes = std::as_bytes(std::span(values));
+        buffer = upload_buffer(device, arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+        return Texels{buffer.get(), bytes.size()};
+    };
+    taps_texels_ = upload(padded_taps(fit), taps_);
+    top_texels_ = upload(transposed(fit.top, size_t(fit.top_rows().x * fit.top_rows().y)), top_);
+    edge_texels_ = upload(fit.edge.kept, edge_);
+}
+
+std::vector<glm::vec4> GpuScatter::lamps_of(int level, const std::vector<OffscreenLamp>& lamps) const {
+    std::vector<glm::vec4> texels;
+    for (const OffscreenLamp& lamp : lamps) {
+        const std::optional<ScatterEntry> entry = scatter_entry(image_, lamp.direction);
+        if (!entry || entry->level != level) continue;
+        // Luminance of a pixel there, times the part of a texel that the pixel is.
+        const dvec2 pixel = image_.pixel();
+        const double solid_angle = pixel.x * pixel.y * steradians_per_area(entry->tangents);
+        texels.emplace_back(entry->pixels / std::exp2(level), 0, 0);
+        texels.emplace_back(lamp.illuminance / (solid_angle * std::exp2(2 * level)), 0);
+    }
+    return texels;
+}
+
+std::vector<glm::vec4> GpuScatter::far_veil(const std::vector<OffscreenLamp>& lamps) const {
+    std::vector<OffscreenLamp> far;
+    for (const OffscreenLamp& lamp : lamps)
+        if (lamp.direction.z < 0 && !scatter_entry(image_, lamp.direction)) far.push_back({glm::normalize(lamp.direction), lamp.illuminance});
+    const glm::ivec2 rows = scatter_size(image_, levels_) + 2 * kScatterReach;
+    std::vector<glm::vec4> veil(size_t(rows.x * rows.y), glm::vec4(0));
+    for (int y = 0; y < rows.y && !far.empty(); ++y)
+        for (int x = 0; x < rows.x; ++x) {
+            const dvec3 to = glm::normalize(dvec3(image_.at(std::exp2(levels_) * (dvec2(x, y) - double(kScatterReach) + 0.5)), -1));
+            dvec3 sum(0);
+            for (const OffscreenLamp& lamp : far) {
+                const double theta = std::acos(std::clamp(glm::dot(to, lamp.direction), -1.0, 1.0)) * 180 / std::numbers::pi;
+                sum += psf_(theta) * lamp.illuminance;
+            }
+            veil[size_t(y * rows.x + x)] = glm::vec4(sum, 0);
+        }
+    return veil;
+}
+
+const GpuScatter& ScatterCache::at(const ScatterSettings& settings, const View& view) {
+    const ImageAngles image = angles_of(view);
+    const auto known = std::find_if(fits_.begin(), fits_.end(), [&](const GpuScatter& fit) { return fit.settings() == settings && fit.image() == image; });
+    if (known != fits_.end()) {
+        fits_.splice(fits_.begin(), fits_, known);
+    } else {
+        while (fits_.size() >= most_) fits_.pop_back();  // before the next one takes its memory
+        fits_.emplace_front(*device_, settings, image);
+    }
+    return fits_.front();
+}
+
+bool ScatterCache::has(const ScatterSettings& settings, const View& view) const {
+    return std::any_of(fits_.begin(), fits_.end(), [&](const GpuScatter& fit) { return fit.settings() == settings && fit.image() == angles_of(view); });
+}
+
+}  // namespace vesper

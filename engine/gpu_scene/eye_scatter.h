@@ -1,0 +1,92 @@
+// Light scattered in the eye, fitted to a view and kept on the device. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <list>
+#include <vector>
+
+#include "gpu/memory.h"
+#include "vision/eye_aperture.h"
+#include "vision/scatter_fit.h"
+#include "gpu_scene/view.h"
+
+namespace vesper {
+
+/// Which published function scatters, and in whose eye.
+struct ScatterSettings {
+    enum class Model : uint8_t { Cie, Spencer, Ward, Temporal };
+    Model model = Model::Cie;
+    ScatteringEye eye;                             ///< CIE; Temporal, whose mean it is
+    SpencerState state = SpencerState::Photopic;   ///< Spencer
+    ApertureSettings aperture;                     ///< Temporal; Spencer's needles have its seed
+
+    /// Whether bright lamps have needles and a halo (vision/glare_pattern.h).
+    bool has_corona() const { return model == Model::Spencer || model == Model::Temporal; }
+    bool operator==(const ScatterSettings&) const = default;
+};
+
+/// What is smooth of the function.
+EyeScatter eye_scatter(const ScatterSettings&);
+ImageAngles angles_of(const View&);
+/// Texels that one invocation of scatter_down.comp does; of rows at most so many.
+glm::ivec2 scatter_down_strip(const Device&);
+
+/// Light of a lamp outside of the picture, which is not in its pixels. It scatters nothing from behind the plane of the eye.
+struct OffscreenLamp {
+    glm::dvec3 direction{0, 0, -1};  ///< from the eye, view frame
+    glm::dvec3 illuminance{0};       ///< RGB lx, on a plane at the eye that faces the lamp
+};
+
+/// The fit of one function to one view, on the device.
+class GpuScatter {
+public:
+    GpuScatter(const Device&, const ScatterSettings&, const ImageAngles&);
+
+    /// A buffer of texels.
+    struct Texels {
+        VkBuffer buffer;
+        uint64_t bytes;
+    };
+    const ScatterSettings& settings() const { return settings_; }
+    const ImageAngles& image() const { return image_; }
+    int levels() const { return levels_; }
+    int reach() const { return reach_; }
+    glm::ivec2 nodes() const { return nodes_; }
+    const EdgeLight::Axis& edge_x() const { return edge_x_; }
+    const EdgeLight::Axis& edge_y() const { return edge_y_; }
+    Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node, level by level (shared/scatter.h)
+    Texels edge() const { return edge_texels_; }  ///< r32f, EdgeLight::kept
+    Texels top() const { return top_texels_; }    ///< rgba32f, for each texel that gives those that take, by four
+
+    /// Lamps whose light begins at a level, two texels each (shared/scatter.h).
+    std::vector<glm::vec4> lamps_of(int level, const std::vector<OffscreenLamp>&) const;
+    /// Veiling luminance of the lamps that are too far outside for that, cd/m^2 RGB, for each texel of the top that takes.
+    std::vector<glm::vec4> far_veil(const std::vector<OffscreenLamp>&) const;
+
+private:
+    ScatterSettings settings_;
+    ImageAngles image_;
+    EyeScatter psf_;
+    int levels_ = 1, reach_ = kTapReach;
+    EdgeLight::Axis edge_x_, edge_y_;
+    glm::ivec2 nodes_{2};
+    Arena arena_;
+    OwnedBuffer taps_, top_, edge_;
+    Texels taps_texels_{}, top_texels_{}, edge_texels_{};
+};
+
+/// Keeps the fits of the last views, since most frames have the same.
+class ScatterCache {
+public:
+    /// Of `most` views.
+    explicit ScatterCache(const Device& device, size_t most = 1) : device_(&device), most_(most) {}
+    const GpuScatter& at(const ScatterSettings&, const View&);
+    /// Whether at() would give one that there is.
+    bool has(const ScatterSettings&, const View&) const;
+
+private:
+    const Device* device_;
+    size_t most_;
+    std::list<GpuScatter> fits_;  // the last one first
+};
+
+}  // namespace vesper

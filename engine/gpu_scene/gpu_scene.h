@@ -1,0 +1,103 @@
+// A scene on the device: geometry, textures and the pipelines that draw it. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "gpu/kernel.h"
+#include "gpu/memory.h"
+#include "gpu_scene/textures.h"
+#include "gpu_scene/view.h"
+#include "scene/scene.h"
+#include "scene/tunnel.h"
+
+namespace vesper {
+
+/// Light that comes from no lamp.
+struct AmbientLight {
+    glm::vec3 illuminance{0};  ///< on any surface, RGB lx
+    glm::vec3 sky{0};          ///< where nothing is drawn, RGB cd/m^2
+};
+
+/// Where everything in a scene stands at one moment, and how it is lit.
+struct SceneFrame {
+    std::vector<glm::dmat4> world;        ///< per node, see world_transforms
+    std::vector<float> dimming;           ///< per node, factor on the intensity of its lamp, >= 0; empty: 1 everywhere
+    std::optional<AmbientLight> ambient;  ///< in place of the scene's
+    std::vector<Tunnel> tunnels;          ///< that it does not reach into
+
+    float dimming_of(uint32_t node) const { return dimming.empty() ? 1 : dimming[node]; }
+};
+
+/// The static part of a scene, uploaded once. Keeps no reference to the Scene it was made from.
+class GpuScene {
+public:
+    /// Triangles of one material within one mesh.
+    struct Part {
+        uint32_t material;
+        uint32_t first_index, index_count;
+        int32_t first_vertex;
+        glm::vec3 centre;  ///< of the bounding sphere, m, mesh frame
+        float radius;      ///< m
+    };
+    /// A mesh drawn at a node.
+    struct Placement {
+        uint32_t node;
+        uint32_t first_part, part_count;
+    };
+    /// Bits of a pipeline variant. Variants that emit have the largest numbers: they are drawn last, and only they write
+    /// emission.
+    enum Variant : uint32_t { kBaseTexture = 1, kMetallicRoughnessTexture = 2, kEmissionTexture = 4, kMask = 8, kEmits = 16 };
+    struct Surface {
+        Material material;
+        uint32_t variant;
+        VkDescriptorImageInfo textures[3];  ///< base colour, metallic-roughness, emission
+    };
+
+    GpuScene(const Device& device, const Scene& scene, PictureFormat pictures = PictureFormat::Float);
+
+    const std::vector<Part>& parts() const { return parts_; }
+    const std::vector<Placement>& placements() const { return placements_; }
+    const std::vector<Surface>& surfaces() const { return surfaces_; }
+    VkBuffer vertices() const { return vertices_.get(); }
+    VkBuffer indices() const { return indices_.get(); }
+    VkPipelineLayout layout() const { return layout_.get(); }
+    VkPipeline pipeline(uint32_t variant) const { return pipelines_.at(variant).get(); }
+    PFN_vkCmdPushDescriptorSetKHR push_descriptors() const { return push_descriptors_; }
+    /// Depth of the farthest point of any instance along the view axis, m; at least 0.
+    float farthest_depth(const SceneFrame& frame, const View& view) const;
+    uint64_t triangles() const { return triangles_; }  ///< of all placements
+    uint64_t bytes() const { return arena_.bytes(); }  ///< of device memory
+
+private:
+    void upload_geometry(const Device& device, const Scene& scene);
+    void place(const Scene& scene);
+    void make_surfaces(const Device& device, const Scene& scene);
+    void make_pipelines(const Device& device);
+
+    Arena arena_;
+    OwnedBuffer vertices_, indices_;
+    TextureStore textures_;
+    std::vector<Part> parts_;
+    std::vector<std::pair<uint32_t, uint32_t>> mesh_parts_;  // first part and number of parts of each mesh
+    std::vector<Placement> placements_;
+    std::vector<Surface> surfaces_;
+    OwnedSetLayout set_;
+    OwnedPipelineLayout layout_;
+    std::map<uint32_t, OwnedPipeline> pipelines_;
+    PFN_vkCmdPushDescriptorSetKHR push_descriptors_;
+    uint64_t triangles_ = 0;
+};
+
+struct Sphere {
+    glm::vec3 centre;  ///< m
+    float radius;      ///< m
+};
+/// A sphere around a part of a mesh after a transform.
+Sphere sphere_of(const GpuScene::Part& part, const glm::mat4& transform);
+
+/// Copies bytes into a new device-local buffer, by way of a host buffer, and waits.
+OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
+
+}  // namespace vesper

@@ -1,0 +1,89 @@
+#include "gpu_scene/lamps.h"
+
+#include <algorithm>
+
+#include "scene/lamp.h"
+
+namespace vesper {
+namespace {
+
+int order(Lamp::Kind kind) {
+    switch (kind) {
+        case Lamp::Kind::CosinePower: return 1;
+        case Lamp::Kind::Measured: return 2;
+        case Lamp::Kind::Directional: return 3;
+        default: return 0;
+    }
+}
+
+// A column of a matrix at length 1; something in its place where a node is squeezed flat and has no direction left.
+glm::vec3 unit(glm::vec4 column, glm::vec3 otherwise) {
+    const float length = glm::length(glm::vec3(column));
+    return length > 0 ? glm::vec3(column) / length : otherwise;
+}
+
+// The frame of a measurement (shared/lamp.h) and where its angles fall in the map.
+void place_map(shared::Lamp& lamp, const IntensityTables::Intensities& map, glm::vec3 x, glm::vec3 y, glm::vec3 z) {
+    glm::vec3 turn;  // where azimuth goes from `start`
+    switch (map.goniometry) {
+        case Goniometry::CGamma: lamp.start = x, lamp.pole = -z, turn = y; break;
+        case Goniometry::TypeA: lamp.start = -z, lamp.pole = y, turn = x; break;
+        case Goniometry::TypeB: lamp.start = -z, lamp.pole = x, turn = -y; break;
+    }
+    lamp.start -= glm::dot(lamp.start, lamp.pole) * lamp.pole;
+    const glm::vec3 across = glm::cross(lamp.pole, std::abs(lamp.pole.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
+    lamp.start = unit(glm::vec4(lamp.start, 0), glm::normalize(across));  // of a flat node
+    const bool mirrored = glm::dot(glm::cross(lamp.start, lamp.pole), turn) < 0;
+    const glm::dvec2 scale = 1.0 / map.step;
+    lamp.grid = {float(scale.x), float(1 - map.low.x * scale.x), float(scale.y), float(1 - map.low.y * scale.y)};
+    lamp.intensity *= map.largest;
+    lamp.map = float(map.first);
+    lamp.last_azimuth = (mirrored ? -1.0f : 1.0f) * float(map.cells.x - 1), lamp.lobe_b = float(map.cells.y - 1);
+}
+
+}  // namespace
+
+std::vector<PlacedLamp> placed_lamps(const Scene& scene) {
+    std::vector<PlacedLamp> placed;
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].lamp != kNone) placed.push_back({scene.lamps[scene.nodes[i].lamp], i});
+    std::stable_sort(placed.begin(), placed.end(),
+                     [](const PlacedLamp& a, const PlacedLamp& b) { return order(a.lamp.kind) < order(b.lamp.kind); });
+    return placed;
+}
+
+LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& tables, const SceneFrame& frame, const View& view) {
+    LampList list;
+    for (const PlacedLamp& placed : lamps) {
+        const Lamp& lamp = placed.lamp;
+        const bool measured = lamp.kind == Lamp::Kind::Measured;
+        const float intensity = lamp.intensity * frame.dimming_of(placed.node);
+        if (!(intensity > 0) || (measured && !(tables.intensities.at(lamp.distribution).largest > 0))) continue;
+        const glm::mat4 m = view.from(frame.world[placed.node]);
+        const glm::vec3 x = unit(m[0], {1, 0, 0}), y = unit(m[1], {0, 0, -1}), z = unit(m[2], {0, 1, 0});
+        const bool power = lamp.kind == Lamp::Kind::CosinePower;
+        const glm::vec2 lobe = power ? glm::vec2(lamp.exponent, 0) : glm::vec2(cone_ramp(lamp));
+        shared::Lamp made{.position = glm::vec3(m[3]), .intensity = intensity, .axis = -z, .lobe_a = lobe.x,
+                           .colour = lamp.colour, .lobe_b = lobe.y, .start = x, .map = -1, .pole = -z, .last_azimuth = 0, .grid = {}};
+        if (measured) place_map(made, tables.intensities[lamp.distribution], x, y, z);
+        list.lamps.push_back(made);
+        switch (order(lamp.kind)) {
+            case 0: ++list.counts.cones; break;
+            case 1: ++list.counts.powers; break;
+            case 2: ++list.counts.tables; break;
+            default: ++list.counts.directional;
+        }
+    }
+    return list;
+}
+
+void set_to_one(LampList& list, float reference_distance) {
+    for (size_t i = 0; i < list.lamps.size(); ++i) {
+        shared::Lamp& lamp = list.lamps[i];
+        const bool directional = i >= list.placed();
+        lamp.intensity = directional ? 1 : reference_distance * reference_distance;
+        lamp.colour /= std::max({lamp.colour.r, lamp.colour.g, lamp.colour.b, 1e-6f});
+    }
+}
+
+}  // namespace vesper

@@ -1,0 +1,219 @@
+#include "gpu_scene/luminaires.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "base/error.h"
+#include "gpu_scene/silhouette.h"
+#include "scene/lamp.h"
+
+namespace vesper {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+
+// The shortest turn from one unit vector to another; half a turn about `spare` where they are opposite.
+glm::dquat turn(dvec3 from, dvec3 to, dvec3 spare) {
+    const double cosine = glm::dot(from, to);
+    if (cosine < -1 + 1e-9) return {0, spare.x, spare.y, spare.z};
+    const dvec3 normal = glm::cross(from, to);
+    return glm::normalize(glm::dquat(1 + cosine, normal.x, normal.y, normal.z));
+}
+
+// The normal a flat opening is drawn with, so that the eye sees at least kGrazing of it. A point lamp faces the eye.
+dvec3 seen_normal(const Lamp& lamp, dvec3 normal, dvec3 up, dvec3 to_eye) {
+    if (lamp.kind == Lamp::Kind::Point) return to_eye;
+    const double cosine = glm::dot(normal, to_eye);
+    if (cosine >= kGrazing) return normal;
+    const dvec3 sideways = normal - cosine * to_eye;
+    const dvec3 edge = glm::length(sideways) > 1e-6 ? glm::normalize(sideways) : up;
+    return kGrazing * to_eye + std::sqrt(1 - kGrazing * kGrazing) * edge;
+}
+
+// A lamp and the eye.
+struct Aim {
+    dvec3 centre, right, up, back, to_eye;  ///< view frame; the axes are of unit length
+    double distance;                        ///< m
+    double candela;                         ///< towards the eye
+};
+
+// Nothing where the eye gets no light from there.
+std::optional<Aim> aim_of(const Lamp& lamp, float dimming, const std::vector<Distribution>& distributions, const glm::mat4& m, const View& view) {
+    const dvec3 centre(m[3]);
+    const dvec3 columns[] = {dvec3(m[0]), dvec3(m[1]), dvec3(m[2])};
+    for (const dvec3& column : columns)
+        if (!(glm::length(column) > 0)) return std::nullopt;  // a node squeezed flat has no direction left
+    const dvec3 right = glm::normalize(columns[0]), up = glm::normalize(columns[1]), back = glm::normalize(columns[2]);
+    const double distance = glm::length(centre);
+    const double reach = std::hypot(lamp.opening.length, lamp.opening.width) / 2;
+    if (!(distance > 1e-6) || -centre.z + reach < view.near) return std::nullopt;
+    const dvec3 to_eye = -centre / distance;
+    const dvec3 direction(glm::dot(right, to_eye), glm::dot(up, to_eye), glm::dot(back, to_eye));
+    const double candela = double(dimming) * luminous_intensity(lamp, distributions, direction);
+    if (!(candela > 0)) return std::nullopt;
+    return Aim{centre, right, up, back, to_eye, distance, candela};
+}
+
+constexpr double kLantern = 0.4;  // m
+
+struct Seen {
+    Silhouette outline;
+    double luminance;  // cd/m^2
+    double hidden;     // m
+};
+
+Seen look_at(const Lamp& lamp, const Aim& aim, const View& view) {
+    const dvec3 normal = seen_normal(lamp, -aim.back, aim.up, aim.to_eye);
+    const glm::dquat turned = turn(-aim.back, normal, aim.up);
+    // Axes of a sheared node are not at right angles; those of the opening are.
+    const dvec3 across = turned * glm::normalize(aim.right - glm::dot(aim.right, aim.back) * aim.back), along = glm::cross(normal, across);
+    const LuminousOpening& o = lamp.opening;
+    const Opening opening{aim.centre, 0.5 * o.length * across, 0.5 * o.width * along, o.round};
+    Silhouette outline = project(opening, view, kSmallest);
+    const double luminance = aim.candela / (o.area() * glm::dot(normal, aim.to_eye) * outline.widening);
+    const double reach = std::hypot(o.length, o.width) / 2;
+    return {std::move(outline), luminance, -aim.centre.z * 0.999 - kHousing - reach - double(shared::kSourceEdge)};
+}
+
+// Part of a lamp's light that its outline in the picture has.
+double part_inside(const Seen& seen, const Aim& aim, const View& view) {
+    double twice_area = 0;
+    const std::vector<dvec2>& v = seen.outline.vertices;
+    for (size_t i = 0; i < v.size(); ++i) {
+        const dvec2 a = v[i], b = v[(i + 1) % v.size()];
+        twice_area += a.x * b.y - b.x * a.y;
+    }
+    const dvec2 pixel = glm::abs(dvec2(view.ray_scale()));
+    const double cosine = aim.to_eye.z;
+    const double drawn = seen.luminance * std::abs(twice_area) / 2 * pixel.x * pixel.y * cosine * cosine * cosine;
+    const double part = drawn / (aim.candela / (aim.distance * aim.distance));
+    return part > 0.99 ? 1 : part;  // outlines are good to so much
+}
+
+// Part of a lamp without opening that the picture shows, as if what is modelled of it were kLantern wide: it comes in without a step.
+double middle_inside(const Aim& aim, const View& view) {
+    const dvec2 at = dvec2(aim.centre) / -aim.centre.z, low = glm::min(view.tangent_low, view.tangent_high), high = glm::max(view.tangent_low, view.tangent_high);
+    const dvec2 within = glm::min(at - low, high - at) * -aim.centre.z / kLantern + 0.5;  // of its width
+    const dvec2 part = glm::clamp(within, 0.0, 1.0);
+    return part.x * part.y;
+}
+
+// Where a convex polygon crosses a horizontal line: empty (low > high) outside it.
+struct Span {
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+    void add(double x) { low = std::min(low, x), high = std::max(high, x); }
+};
+
+Span span_at(const std::vector<dvec2>& polygon, double y) {
+    Span span;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        if (std::min(a.y, b.y) > y || std::max(a.y, b.y) < y) continue;
+        span.add(a.y == b.y ? a.x : a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
+        if (a.y == b.y) span.add(b.x);
+    }
+    return span;
+}
+
+// Calls touch(column, row, whole) for every tile the polygon touches.
+template <class Touch>
+void for_each_tile(const std::vector<dvec2>& polygon, VkExtent2D image, Touch touch) {
+    constexpr double kTile = shared::kLuminaireTile;
+    const auto higher = [](dvec2 a, dvec2 b) { return a.y < b.y; };
+    const auto [top, bottom] = std::minmax_element(polygon.begin(), polygon.end(), higher);
+    const uint32_t columns = (image.width + shared::kLuminaireTile - 1) / shared::kLuminaireTile;
+    const uint32_t rows = (image.height + shared::kLuminaireTile - 1) / shared::kLuminaireTile;
+    const uint32_t last_row = std::min(rows - 1, uint32_t(bottom->y / kTile));
+    for (uint32_t row = uint32_t(top->y / kTile); row <= last_row; ++row) {
+        const double y0 = row * kTile, y1 = y0 + kTile;
+        const Span above = span_at(polygon, y0), below = span_at(polygon, y1);
+        Span touched{std::min(above.low, below.low), std::max(above.high, below.high)};
+        for (const dvec2& v : polygon)
+            if (v.y >= y0 && v.y <= y1) touched.add(v.x);
+        if (touched.low > touched.high) continue;
+        const double whole_low = std::max(above.low, below.low), whole_high = std::min(above.high, below.high);
+        const uint32_t last = std::min(columns - 1, uint32_t(touched.high / kTile));
+        for (uint32_t column = uint32_t(touched.low / kTile); column <= last; ++column)
+            touch(column, row, whole_low <= column * kTile && whole_high >= (column + 1) * kTile);
+    }
+}
+
+// The shader's loops over the outlines of a tile end by themselves well before lavapipe silently ends them, after 65,535
+// turns of the lanes of two tiles together.
+constexpr uint64_t kMostTurns = 30000;
+
+// A tile (row, column), and an entry of it.
+struct Touched {
+    uint64_t tile;
+    uint32_t entry;
+};
+
+void add(LuminaireList& list, std::vector<Touched>& touched, const Seen& seen, glm::vec3 luminance, VkExtent2D image) {
+    const std::vector<dvec2>& polygon = seen.outline.vertices;
+    dvec2 low = polygon.front();
+    for (const dvec2& v : polygon) low = glm::min(low, v);
+    const dvec2 origin = glm::floor(low);
+    const auto source = uint32_t(list.luminaires.size());
+    list.luminaires.push_back(
+        {luminance, float(seen.hidden), glm::vec2(origin), float(list.outline.size()), float(polygon.size())});
+    for (const dvec2& v : polygon) list.outline.emplace_back(v - origin);
+    for_each_tile(polygon, image, [&](uint32_t column, uint32_t row, bool whole) {
+        touched.push_back({uint64_t(row) << 32 | column, source | (whole ? shared::kCoversTile : 0)});
+    });
+}
+
+}  // namespace
+
+LuminaireSet placed_luminaires(const Scene& scene) {
+    LuminaireSet set;
+    for (const PlacedLamp& placed : placed_lamps(scene))
+        if (placed.lamp.kind != Lamp::Kind::Directional) set.lamps.push_back(placed);
+    if (!set.lamps.empty()) set.distributions = scene.distributions;
+    return set;
+}
+
+LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, const View& view, std::optional<float> white) {
+    LuminaireList list;
+    std::vector<Touched> touched;
+    for (const PlacedLamp& placed : set.lamps) {
+        const Lamp& lamp = placed.lamp;
+        const uint32_t node = placed.node;
+        const std::optional<Aim> aim = aim_of(lamp, frame.dimming_of(node), set.distributions, view.from(frame.world[node]), view);
+        if (!aim) continue;
+        const auto dazzles = [&](double inside) {
+            if (aim->to_eye.z > 0) list.glare_sources.push_back({node, -aim->to_eye, aim->distance, aim->candela, aim->candela / (aim->distance * aim->distance) * dvec3(lamp.colour), inside});
+        };
+        if (!(lamp.opening.area() > 0)) {  // what is modelled of it is seen where the picture has its place
+            dazzles(middle_inside(*aim, view));
+            continue;
+        }
+        const Seen seen = look_at(lamp, *aim, view);
+        if (std::isfinite(seen.luminance)) dazzles(part_inside(seen, *aim, view));
+        if (seen.outline.vertices.empty()) continue;
+        const glm::vec3 c = lamp.colour;
+        const double largest = std::max({c.r, c.g, c.b, 1e-6f});
+        const double scale = white ? *white / (largest * seen.outline.widening) : seen.luminance;
+        const glm::vec3 luminance(scale * dvec3(c));
+        if (std::isfinite(luminance.r + luminance.g + luminance.b)) add(list, touched, seen, luminance, view.extent);
+    }
+    std::stable_sort(touched.begin(), touched.end(), [](const Touched& a, const Touched& b) { return a.tile < b.tile; });
+    uint64_t turns = 0;
+    for (const Touched& t : touched) {
+        const uint32_t row = uint32_t(t.tile >> 32), column = uint32_t(t.tile);
+        if (list.tiles.empty() || list.tiles.back().x != column || list.tiles.back().y != row)
+            list.tiles.emplace_back(column, row, list.entries.size(), 0), turns = 0;
+        turns += 2 + uint64_t(list.luminaires[t.entry & ~shared::kCoversTile].vertices);
+        if (turns > kMostTurns)
+            throw Error("more than " + std::to_string(list.tiles.back().w) + " lamps are seen within the same pixels (column " +
+                        std::to_string(column * shared::kLuminaireTile) + ", row " + std::to_string(row * shared::kLuminaireTile) + "): too many to draw their openings");
+        list.entries.push_back(t.entry);
+        ++list.tiles.back().w;
+    }
+    return list;
+}
+
+}  // namespace vesper

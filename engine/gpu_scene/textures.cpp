@@ -1,0 +1,259 @@
+#include "gpu_scene/textures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include <glm/gtc/packing.hpp>
+
+#include "gpu/commands.h"
+#include "scene/reflectance.h"
+
+namespace vesper {
+namespace {
+
+// The weights with which `size` texels make up texel `to` of `count`: the area it covers of each.
+struct Tap {
+    uint32_t first;
+    std::vector<float> weights;
+};
+
+Tap taps(uint32_t to, uint32_t count, uint32_t size) {
+    const double low = double(to) * size / count, high = double(to + 1) * size / count;
+    Tap tap{uint32_t(low), {}};
+    for (uint32_t i = tap.first; i < size && i < high; ++i)
+        tap.weights.push_back(float((std::min(high, i + 1.0) - std::max(low, double(i))) * count / size));
+    return tap;
+}
+
+VkSamplerAddressMode address_mode(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::Mirror: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case Wrap::Clamp: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        default: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    }
+}
+
+std::vector<Level> with_smaller(Level base) {
+    std::vector<Level> levels{std::move(base)};
+    while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(half_size(levels.back()));
+    return levels;
+}
+
+Level decoded(const Image& image, const std::vector<float>& table, bool linear_alpha) {
+    Level base{image.width, image.height, std::vector<float>(image.rgba.size())};
+    for (size_t i = 0; i < image.rgba.size(); ++i)
+        base.rgba[i] = linear_alpha && i % 4 == 3 ? float(image.rgba[i]) / 255 : table[image.rgba[i]];
+    return base;
+}
+
+/// The part of a level that `cutoff` leaves of its opacities times `scale`: of its area, between texels as filters see it, where that is no more than 256 x 256
+/// texels; of its texels otherwise.
+double covered(const Level& level, float cutoff, float scale = 1) {
+    const auto opacity = [&](uint32_t x, uint32_t y) { return std::min(level.rgba[(size_t(y) * level.width + x) * 4 + 3] * scale, 1.0f); };
+    const uint32_t steps = size_t(level.width) * level.height <= 65536 ? 4 : 1;
+    size_t count = 0;
+    for (uint32_t y = 0; y < level.height; ++y)
+        for (uint32_t x = 0; x < level.width; ++x) {
+            const uint32_t right = std::min(x + 1, level.width - 1), below = std::min(y + 1, level.height - 1);
+            const float corners[4]{opacity(x, y), opacity(right, y), opacity(x, below), opacity(right, below)};
+            const auto left = std::count_if(corners, corners + 4, [&](float corner) { return corner >= cutoff; });
+            if (left == 0 || left == 4) {  // and so is everything between them
+                count += left > 0 ? steps * steps : 0;
+                continue;
+            }
+            for (uint32_t j = 0; j < steps; ++j)
+                for (uint32_t i = 0; i < steps; ++i) {
+                    const float u = float(i) / float(steps), v = float(j) / float(steps);
+                    count += std::lerp(std::lerp(corners[0], corners[1], u), std::lerp(corners[2], corners[3], u), v) >= cutoff;
+                }
+        }
+    return double(count) / (double(level.width) * level.height * steps * steps);
+}
+
+/// Scales opacities so that `cutoff` leaves `part`, as nearly as can be.
+void cover(Level& level, float cutoff, double part) {
+    if (part == 0 || part == 1) return;
+    double low = -4, high = 4;  // log2 of the scale
+    for (int step = 0; step < 12; ++step) {
+        const double middle = (low + high) / 2;
+        (covered(level, cutoff, float(std::exp2(middle))) < part ? low : high) = middle;
+    }
+    const auto scale = float(std::exp2(high));
+    for (size_t i = 3; i < level.rgba.size(); i += 4) level.rgba[i] = std::min(level.rgba[i] * scale, 1.0f);
+}
+
+// A luminance picture divided by `unit`.
+std::vector<Level> mip_chain(const LuminancePicture& picture, float unit) {
+    Level base{picture.width, picture.height, {}};
+    base.rgba.reserve(picture.rgb.size() / 3 * 4);
+    for (size_t i = 0; i < picture.rgb.size(); i += 3)
+        for (size_t c = 0; c < 4; ++c) base.rgba.push_back(c < 3 ? picture.rgb[i + c] / unit : 1.0f);
+    return with_smaller(std::move(base));
+}
+
+bool filters_floats(const Device& device) {
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(device.physical(), VK_FORMAT_R32G32B32A32_SFLOAT, &properties);
+    return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+}
+
+size_t bytes_of_texel(VkFormat format) {
+    return format == VK_FORMAT_R32G32B32A32_SFLOAT ? 16 : format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 4;
+}
+
+void pack(VkFormat format, const glm::vec4& texel, std::byte* to) {
+    const auto put = [to](const auto& packed) { std::memcpy(to, &packed, sizeof packed); };
+    if (format == VK_FORMAT_R32G32B32A32_SFLOAT)
+        put(texel);
+    else if (format == VK_FORMAT_R16G16B16A16_SFLOAT)
+        put(glm::packHalf4x16(texel));
+    else
+        put(glm::packUnorm4x8(texel));
+}
+
+}  // namespace
+
+std::vector<float> decode_table(Decode decode, const Transfer& transfer) {
+    std::array<double, 256> linear;
+    if (decode == Decode::Data)
+        for (size_t code = 0; code < 256; ++code) linear[code] = double(code) / 255;
+    else
+        linear = linear_codes(decode == Decode::Colour ? transfer : Transfer{.kind = Transfer::Kind::Srgb});
+    std::vector<float> table;
+    for (const double value : linear) table.push_back(float(value));
+    return table;
+}
+
+Level half_size(const Level& level) {
+    Level half{std::max(1u, level.width / 2), std::max(1u, level.height / 2), {}};
+    half.rgba.assign(size_t(half.width) * half.height * 4, 0.0f);
+    std::vector<Tap> columns;
+    for (uint32_t x = 0; x < half.width; ++x) columns.push_back(taps(x, half.width, level.width));
+    for (uint32_t y = 0; y < half.height; ++y) {
+        const Tap rows = taps(y, half.height, level.height);
+        for (uint32_t x = 0; x < half.width; ++x) {
+            float* to = &half.rgba[(size_t(y) * half.width + x) * 4];
+            for (size_t j = 0; j < rows.weights.size(); ++j)
+                for (size_t i = 0; i < columns[x].weights.size(); ++i) {
+                    const float* from = &level.rgba[(size_t(rows.first + j) * level.width + columns[x].first + i) * 4];
+                    const float weight = rows.weights[j] * columns[x].weights[i];
+                    for (int c = 0; c < 4; ++c) to[c] += weight * from[c];
+                }
+        }
+    }
+    return half;
+}
+
+std::vector<Level> masked_levels(Level base, float cutoff) {
+    constexpr uint32_t kLeastSide = 8;
+    const double part = covered(base, cutoff);
+    for (size_t i = 0; i < base.rgba.size(); i += 4)
+        for (size_t c = 0; c < 3; ++c) base.rgba[i + c] *= base.rgba[i + 3];
+    std::vector<Level> levels = with_smaller(std::move(base));
+    // From the smallest up: where a texel has no opacity, the colour is that of the smaller level there.
+    for (size_t l = levels.size(); l-- > 0;) {
+        Level& level = levels[l];
+        for (uint32_t y = 0; y < level.height; ++y)
+            for (uint32_t x = 0; x < level.width; ++x) {
+                float* texel = &level.rgba[(size_t(y) * level.width + x) * 4];
+                if (texel[3] > 0) {
+                    for (int c = 0; c < 3; ++c) texel[c] /= texel[3];
+                } else if (l + 1 < levels.size()) {
+                    const Level& smaller = levels[l + 1];
+                    const float* there = &smaller.rgba[(size_t(std::min(y / 2, smaller.height - 1)) * smaller.width + std::min(x / 2, smaller.width - 1)) * 4];
+                    std::copy(there, there + 3, texel);
+                }
+            }
+    }
+    while (levels.size() > 1 && std::min(levels.back().width, levels.back().height) < kLeastSide) levels.pop_back();
+    for (size_t l = 1; l < levels.size(); ++l) cover(levels[l], cutoff, part);
+    constexpr double kWithin = 0.1;  // where opacities are all alike nothing is left to cut
+    while (levels.size() > 1 && std::abs(covered(levels.back(), cutoff) - part) > kWithin) levels.pop_back();
+    return levels;
+}
+
+TextureStore::TextureStore(const Device& device, Arena& arena, PictureFormat pictures)
+    : device_(&device), arena_(&arena), picture_format_(filters_floats(device) ? pictures : PictureFormat::Half) {}
+
+VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& use, Decode decode, float cutoff) {
+    const auto key = std::tuple(use.image, use.image == kNone ? Decode::Data : decode, use.image == kNone ? 0.0f : cutoff);
+    auto found = textures_.find(key);
+    if (found == textures_.end()) {
+        const Image white{"white", 1, 1, {255, 255, 255, 255}};
+        const Image& image = use.image == kNone ? white : scene.images[use.image];
+        const bool data = std::get<Decode>(key) == Decode::Data;
+        Level base = decoded(image, decode_table(std::get<Decode>(key), scene.transfer), !data);
+        const auto levels = std::get<float>(key) > 0 ? masked_levels(std::move(base), std::get<float>(key)) : with_smaller(std::move(base));
+        const VkFormat format = data ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
+        found = textures_.emplace(key, upload(levels, format)).first;
+    }
+    return {sampler(use), found->second.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+VkDescriptorImageInfo TextureStore::get_picture(const Scene& scene, const TextureUse& use, float& unit) {
+    auto found = pictures_.find(use.image);
+    if (found == pictures_.end()) {
+        const LuminancePicture& picture = scene.luminance_pictures[use.image];
+        const bool whole = picture_format_ == PictureFormat::Float;
+        const float largest = whole ? 0 : *std::max_element(picture.rgb.begin(), picture.rgb.end());
+        const float divided = largest > 0 ? std::max(largest / 60000, 1e-30f) : 1;
+        const VkFormat format = whole ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R16G16B16A16_SFLOAT;
+        found = pictures_.emplace(use.image, std::pair(upload(mip_chain(picture, divided), format), divided)).first;
+    }
+    unit = found->second.second;
+    return {sampler(use), found->second.first.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+TextureStore::Texture TextureStore::upload(const std::vector<Level>& levels, VkFormat format) {
+    const size_t texel_bytes = bytes_of_texel(format);
+    uint64_t bytes = 0;
+    for (const Level& level : levels) bytes += uint64_t(level.width) * level.height * texel_bytes;
+    const HostBuffer staging(*device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
+    std::vector<VkBufferImageCopy> copies;
+    std::byte* to = staging.data();
+    for (const Level& level : levels) {
+        copies.push_back({.bufferOffset = uint64_t(to - staging.data()),
+                          .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, uint32_t(copies.size()), 0, 1},
+                          .imageExtent = {level.width, level.height, 1}});
+        for (size_t i = 0; i < level.rgba.size(); i += 4, to += texel_bytes)
+            pack(format, {level.rgba[i], level.rgba[i + 1], level.rgba[i + 2], level.rgba[i + 3]}, to);
+    }
+    staging.flush();
+
+    Texture texture;
+    texture.image = make_image(*device_, image_info(format, {levels[0].width, levels[0].height}, uint32_t(levels.size()),
+                                                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+    arena_->bind(texture.image.get());
+    device_->run_once([&](VkCommandBuffer commands) {
+        record_upload(commands, staging.buffer(), texture.image.get(), copies);
+    });
+    texture.view = make_view(*device_, texture.image.get(), format);
+    return texture;
+}
+
+VkSampler TextureStore::sampler(const TextureUse& use) {
+    OwnedSampler& sampler = samplers_[{use.wrap_u, use.wrap_v, use.nearest}];
+    if (!sampler) {
+        // Between mip levels a CPU device takes the nearer one: blending two costs it as much again.
+        const VkSamplerMipmapMode mips =
+            device_->is_cpu() ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
+        const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                       .magFilter = use.nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
+                                       .minFilter = VK_FILTER_LINEAR,
+                                       .mipmapMode = mips,
+                                       .addressModeU = address_mode(use.wrap_u),
+                                       .addressModeV = address_mode(use.wrap_v),
+                                       .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                       .anisotropyEnable = device_->has_anisotropy() && !use.nearest,
+                                       .maxAnisotropy = std::min(8.0f, device_->limits().maxSamplerAnisotropy),
+                                       .maxLod = VK_LOD_CLAMP_NONE};
+        VkSampler raw = VK_NULL_HANDLE;
+        check(vkCreateSampler(device_->handle(), &info, nullptr, &raw), "making a sampler");
+        sampler = {device_->handle(), raw};
+    }
+    return sampler.get();
+}
+
+}  // namespace vesper

@@ -1,0 +1,23 @@
+#include "gpu_scene/view.h"
+
+#include <cmath>
+
+namespace vesper {
+
+View View::symmetric(VkExtent2D extent, float vertical_fov, const glm::dmat4& world_to_view, float near) {
+    const float y = std::tan(vertical_fov / 2), x = y * float(extent.width) / float(extent.height);
+    return {extent, world_to_view, {-x, -y}, {x, y}, near};
+}
+
+glm::vec2 View::ray_scale() const {
+    const glm::vec2 span = tangent_high - tangent_low;
+    return {span.x / float(extent.width), -span.y / float(extent.height)};
+}
+
+glm::vec2 View::ray_offset() const { return {tangent_low.x, tangent_high.y}; }
+
+double View::degrees_per_pixel() const {
+    return double(tangent_high.y - tangent_low.y) / extent.height * 180 / 3.14159265358979;
+}
+
+}  // namespace vesper

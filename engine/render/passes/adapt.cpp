@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include "render/passes/passes.h"
+#include "shared/photometry.h"
+
+namespace vesper {
+namespace {
+
+shared::ReceptorParameters receptors_of(ReceptorKind kind, const Receptors& r, ThresholdBreaks breaks) {
+    const ReceptorModel model(kind, r, breaks);
+    return {.response_step = float(model.response_step()),
+            .dark_sigma = float(model.dark_sigma()),
+            .factor = float(r.threshold_factor),
+            .fast_seconds = float(r.fast_seconds),
+            .slow_seconds = float(r.slow_seconds),
+            .fast_share = float(r.fast_share),
+            .bleach_seconds = float(r.bleach_seconds),
+            .bleach_trolands = float(r.bleach_trolands)};
+}
+
+}  // namespace
+
+shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSettings& bins, const ToneSettings& tone, const Display& display, const FovealView& fovea, float seconds) {
+    const uint32_t ceiling = tone.ceiling.value_or(op.ceiling);
+    // What others have computed with the published curves is to be met; an eye that adapts needs continuous ones.
+    const ThresholdBreaks breaks = ceiling == shared::kCeilingEye || op.bands ? ThresholdBreaks::continuous() : ThresholdBreaks::published();
+    const ReceptorModel viewer(ReceptorKind::Cones, Receptors::cones());
+    const float texel = float(1u << fovea.level);
+    return {.bins = bins.bins,
+            .steps_per_bin = bins.steps_per_bin(),
+            .window = bins.window(),
+            .ln_low = bins.ln_low(),
+            .bins_per_ln = bins.bins_per_ln(),
+            .display_low = display.low(),
+            .display_high = display.high(),
+            .key = tone.key,
+            .white = tone.white,
+            // What comes out of bands is luminance of the display.
+            .linear_low = op.bands ? display.low() : tone.linear_low,
+            .linear_high = op.bands ? display.high() : tone.linear_high,
+            .seconds = seconds,
+            .smoothing_seconds = tone.smoothing_seconds,
+            .adapt_to = tone.adapt_to.value_or(op.adapt_to),
+            .gaze = tone.gaze * glm::vec2(fovea.image.width, fovea.image.height) / texel,
+            .foveal_size = {fovea.texels.width, fovea.texels.height},
+            .ceiling = ceiling,
+            .use_rods = tone.observer.use_rods ? 1u : 0u,
+            .cone_break = float(breaks.cones),
+            .rod_break = float(breaks.rods),
+            .rod_constant = tone.rod_constant,
+            .automatic = tone.automatic ? 1u : 0u,
+            .rod_tint = op.rod_tint[0] > 0 ? glm::vec3(op.rod_tint[0], op.rod_tint[1], op.rod_tint[2]) : glm::vec3(1),
+            .scotopic = tone.photopic_rods ? 1 : shared::kScotopicOfWhite,
+            .colour_tiles = {},
+            .viewer_sigma = float(viewer.adapted_sigma(double(display.high()) * double(shared::kViewerOfWhite))),
+            .viewer_step = float(viewer.response_step()),
+            .cones = receptors_of(ReceptorKind::Cones, tone.observer.observed_cones(), breaks),
+            .rods = receptors_of(ReceptorKind::Rods, tone.observer.observed_rods(), breaks)};
+}
+
+Adaptation add_adaptation(FrameGraph& graph, const Kernels& kernels, const Pyramid& pyramid, Resource histogram, const OperatorInfo& op, shared::ToneParameters parameters, uint32_t foveal_level, const shared::EyeState* remembered, const Colours& colours) {
+    parameters.colour_tiles = {colours.extent.width, colours.extent.height};
+    const Adaptation adaptation{graph.transient("tone curve", buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT)),
+                                graph.history(kEyeHistory, buffer_shape(sizeof(shared::EyeState)))};
+    const Resource previous = remembered ? graph.upload("eye as set", std::vector{*remembered}) : adaptation.eye.previous;
+    graph.dispatch("adapt", kernels.adapt(op.model),
+                   {load(pyramid.levels.back()), load(pyramid.levels.at(foveal_level - 1)), load(histogram),
+                    load(graph.upload("tone parameters", std::vector{parameters})), load(previous), store(adaptation.eye.current), store(adaptation.curve), load(colours.tiles ? colours.tiles : pyramid.levels.back())},
+                   Groups{});
+    return adaptation;
+}
+
+}  // namespace vesper

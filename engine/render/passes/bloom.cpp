@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <cmath>
+
+#include "render/passes/passes.h"
+
+namespace vesper {
+namespace {
+
+constexpr uint32_t kMaxRadius = 256;  // texels
+
+// Weights 0 .. radius of a Gaussian that sums to one over -radius .. radius.
+std::vector<float> gaussian(double sigma) {
+    // In double: the sigma of a view of hardly any angle is beyond integers.
+    const uint32_t radius = uint32_t(std::min(double(kMaxRadius), std::ceil(3 * sigma)));
+    std::vector<float> weights;
+    double sum = 0;
+    for (uint32_t i = 0; i <= radius; ++i) {
+        const double w = std::exp(-0.5 * double(i) * double(i) / (sigma * sigma));
+        weights.push_back(float(w));
+        sum += i == 0 ? w : 2 * w;
+    }
+    for (float& w : weights) w = float(w / sum);
+    return weights;
+}
+
+}  // namespace
+
+Resource add_bloom(FrameGraph& graph, const Kernels& kernels, Resource scene, Resource curve, uint32_t tone, const View& view, const Display& display, const BloomSettings& settings) {
+    constexpr uint32_t shrink = shared::kGlareShrink;
+    const VkExtent2D small{(view.extent.width + shrink - 1) / shrink, (view.extent.height + shrink - 1) / shrink};
+    const glm::uvec2 size{small.width, small.height};
+    const Shape shape = image_shape(kGlareFormat, small);
+    const Groups groups = cover(small.width, small.height, kernels.blur.group[0], kernels.blur.group[1]);
+
+    const Resource bright = graph.transient("bright", shape);
+    graph.dispatch("bright", kernels.bright(tone), {load(scene), sample(curve), store(bright)},
+                   shared::BrightPush{{view.extent.width, view.extent.height}, size, display.low(), display.high(), settings.threshold}, groups);
+
+    const std::vector<float> weights = gaussian(std::max(1e-3, settings.sigma_degrees / view.degrees_per_pixel() / shrink));
+    const uint32_t radius = uint32_t(weights.size()) - 1;
+    const Resource taps = graph.upload("glare weights", weights, VK_FORMAT_R32_SFLOAT);
+    const Resource across = graph.transient("glare across", shape), glare = graph.transient("glare", shape);
+    graph.dispatch("glare across", kernels.blur, {load(bright), sample(taps), store(across)}, shared::BlurPush{size, {1, 0}, radius}, groups);
+    graph.dispatch("glare", kernels.blur, {load(across), sample(taps), store(glare)}, shared::BlurPush{size, {0, 1}, radius}, groups);
+    return glare;
+}
+
+}  // namespace vesper

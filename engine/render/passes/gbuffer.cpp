@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "render/passes/passes.h"
+#include "gpu_scene/gpu_scene.h"
+#include "shared/gbuffer.h"
+
+namespace vesper {
+namespace {
+
+// Instances of one part, drawn at once.
+struct Batch {
+    uint32_t part;
+    bool mirrored;
+    uint32_t layer;
+    uint32_t first_instance, instance_count;
+};
+
+struct Drawn {
+    uint32_t part;
+    bool mirrored;
+    uint32_t layer;  // see layer_of
+    shared::Instance instance;
+};
+
+// Whether a sphere of the view frame may be seen: it is in front of the near plane and inside the four sides.
+bool visible(const View& view, const Sphere& sphere) {
+    const auto [centre, radius] = sphere;
+    if (-centre.z + radius < view.near) return false;
+    const auto beyond = [z = centre.z, r = radius](float tangent, float across, float sign) {
+        return sign * (across + tangent * z) > r * std::sqrt(1 + tangent * tangent);
+    };
+    return !beyond(view.tangent_high.x, centre.x, 1) && !beyond(view.tangent_low.x, centre.x, -1) &&
+           !beyond(view.tangent_high.y, centre.y, 1) && !beyond(view.tangent_low.y, centre.y, -1);
+}
+
+// A rough order from front to back, in shells of distance of a ratio of 1.5, so that few instances are drawn apart: what is
+// beside the eye, such as one's own bonnet, hides most; sheets under everything, such as terrain, are hidden by most.
+uint32_t layer_of(const Sphere& sphere) {
+    constexpr uint32_t kFarthest = 9;
+    const float depth = -sphere.centre.z;
+    if (sphere.radius > 50) return kFarthest;
+    if (depth < sphere.radius + 4) return 0;
+    return std::min(kFarthest - 1, uint32_t(1 + std::max(0.0f, std::log(depth / 10) / std::log(1.5f))));
+}
+
+std::vector<Drawn> cull(const GpuScene& scene, const SceneFrame& frame, const View& view) {
+    std::vector<Drawn> drawn;
+    for (const GpuScene::Placement& placement : scene.placements()) {
+        const glm::mat4 m = view.from(frame.world[placement.node]);
+        const bool mirrored = glm::determinant(glm::mat3(m)) < 0;
+        const glm::mat4 rows = glm::transpose(m);
+        for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i) {
+            const GpuScene::Part& part = scene.parts()[i];
+            const Sphere sphere = sphere_of(part, m);
+            if (part.index_count == 0 || !visible(view, sphere)) continue;
+            drawn.push_back({i, mirrored, layer_of(sphere), {rows[0], rows[1], rows[2]}});
+        }
+    }
+    return drawn;
+}
+
+void record_batches(const Recording& recording, const GpuScene& scene, const View& view, Resource instances,
+                    const std::vector<Batch>& batches) {
+    const VkCommandBuffer commands = recording.commands();
+    const VkBuffer buffers[] = {scene.vertices(), recording.buffer(instances)};
+    const VkDeviceSize offsets[] = {0, recording.offset(instances)};
+    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+    vkCmdBindIndexBuffer(commands, scene.indices(), 0, VK_INDEX_TYPE_UINT32);
+    const glm::vec2 scale = 2.0f / (view.tangent_high - view.tangent_low);
+    const glm::vec2 offset = (view.tangent_high + view.tangent_low) / (view.tangent_high - view.tangent_low);
+    uint32_t last_material = kNone, last_variant = kNone;
+    for (const Batch& batch : batches) {
+        const GpuScene::Part& part = scene.parts()[batch.part];
+        const GpuScene::Surface& surface = scene.surfaces()[part.material];
+        const Material& m = surface.material;
+        if (surface.variant != last_variant)
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipeline(surface.variant));
+        if (part.material != last_material) {
+            VkWriteDescriptorSet writes[3];
+            for (uint32_t i = 0; i < 3; ++i)
+                writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                             .dstBinding = i,
+                             .descriptorCount = 1,
+                             .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                             .pImageInfo = &surface.textures[i]};
+            scene.push_descriptors()(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.layout(), 0, 3, writes);
+            // Clip space has y down: view y goes in with its sign turned.
+            const shared::GBufferPush push{m.base_colour, m.emission, m.alpha_cutoff, m.metallic, m.roughness,
+                                           {scale.x, -scale.y}, {offset.x, -offset.y}, view.near};
+            vkCmdPushConstants(commands, scene.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
+        }
+        vkCmdSetCullMode(commands, m.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+        vkCmdSetFrontFace(commands, batch.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        vkCmdDrawIndexed(commands, part.index_count, batch.instance_count, part.first_index, part.first_vertex, batch.first_instance);
+        last_material = part.material, last_variant = surface.variant;
+    }
+}
+
+}  // namespace
+
+GBuffer add_gbuffer(FrameGraph& graph, const GpuScene& scene, const SceneFrame& frame, const View& view) {
+    std::vector<Drawn> drawn = cull(scene, frame, view);
+    std::stable_sort(drawn.begin(), drawn.end(), [&](const Drawn& a, const Drawn& b) {
+        const auto key = [&](const Drawn& d) {
+            const uint32_t material = scene.parts()[d.part].material, variant = scene.surfaces()[material].variant;
+            const bool emits = variant & GpuScene::kEmits;  // last: only these write emission
+            return std::tuple(emits, d.layer, variant, material, d.part, d.mirrored);
+        };
+        return key(a) < key(b);
+    });
+    std::vector<shared::Instance> instances;
+    std::vector<Batch> batches;
+    for (const Drawn& d : drawn) {
+        if (batches.empty() || batches.back().part != d.part || batches.back().mirrored != d.mirrored || batches.back().layer != d.layer)
+            batches.push_back({d.part, d.mirrored, d.layer, uint32_t(instances.size()), 0});
+        ++batches.back().instance_count;
+        instances.push_back(d.instance);
+    }
+    if (instances.empty()) instances.emplace_back();  // an upload is never empty
+
+    const Resource placed = graph.upload("instances", instances);
+    const GBuffer g{graph.transient("reflectance", image_shape(kReflectanceFormat, view.extent)),
+                    graph.transient("surface", image_shape(kSurfaceFormat, view.extent)),
+                    graph.transient("emission", image_shape(kEmissionFormat, view.extent)),
+                    graph.transient("depth", image_shape(kDepthFormat, view.extent))};
+    graph.raster("gbuffer",
+                 {{placed, Access::Vertices},
+                  {g.reflectance, Access::ColorTarget},
+                  {g.surface, Access::ColorTarget},
+                  {g.emission, Access::ColorTarget},
+                  {g.depth, Access::DepthTarget}},
+                 [&scene, view, placed, batches = std::move(batches)](const Recording& recording) {
+                     if (!batches.empty()) record_batches(recording, scene, view, placed, batches);
+                 });
+    return g;
+}
+
+}  // namespace vesper

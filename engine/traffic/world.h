@@ -1,0 +1,169 @@
+// A road with everything that moves on it: the driver's car, traffic, pedestrians. Fixed steps, seeded, the same every time.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "traffic/autopilot.h"
+#include "traffic/barrier.h"
+#include "traffic/contact.h"
+#include "traffic/driver.h"
+#include "traffic/course.h"
+#include "traffic/vehicle.h"
+
+namespace vesper {
+
+/// A car that keeps to lanes.
+struct TrafficCar {
+    std::string node;        ///< of the scene: its origin on the ground below the middle, front towards -Z
+    size_t lane = 0;
+    double s = 0;            ///< of its middle along the lane at the start, m
+    double speed = 0;        ///< m/s
+    double length = 4.4, width = 1.8;  ///< m
+    double wish = 0;         ///< wanted speed, part of what the lane allows; 0: drawn, 0.9 .. 1.05
+    Beam beam = Beam::Low;
+};
+
+/// Somebody who goes to and fro over the road.
+struct Walker {
+    std::string node;
+    size_t path = 0;   ///< index into WorldDescription::paths
+    double wait = 5;   ///< before the first crossing, s; later waits are drawn
+    double s = 0;      ///< m of the path that are behind at the start; more than 0: under way
+};
+
+/// Something that moves as it did when it was recorded; it is there from its first pose to its last.
+struct RecordedMover {
+    struct Pose {
+        double time = 0;                     ///< s
+        glm::dvec3 position{0};              ///< of the node's origin, m
+        double yaw = 0, pitch = 0, roll = 0; ///< as of Actor
+        double speed = 0;                    ///< m/s
+        VehicleLamps lamps;                  ///< until the next
+    };
+    std::string node;
+    double length = 4.4, width = 1.8;  ///< m
+    double middle = 0;         ///< of it before the node's origin, m
+    bool person = false;       ///< does not stop a car
+    std::vector<Pose> poses;   ///< times ascending, at least one
+};
+
+/// What is there before anything moves.
+struct WorldDescription {
+    std::vector<Course> lanes;
+    std::vector<Course> paths;         ///< of walkers, from kerb to kerb and a little beyond; their speed is that of walking
+    std::vector<Barrier> barriers;
+    std::vector<TrafficCar> cars;
+    std::vector<Walker> walkers;
+    std::vector<RecordedMover> recordings;
+    VehicleParameters vehicle;       ///< of the driver
+    std::string driver_node;
+    size_t driver_lane = 0;
+    double driver_s = 0, driver_speed = 0;  ///< m, m/s
+    AutopilotSettings autopilot;
+};
+
+/// Something that moves, as it stands now.
+struct Actor {
+    std::string node;
+    glm::dvec3 position{0};             ///< of the node's origin, m
+    double yaw = 0, pitch = 0, roll = 0; ///< rad, in that order about Y, X and Z
+    double speed = 0;                   ///< m/s
+    VehicleLamps lamps;
+};
+
+/// The driver's car met something that moves.
+struct Contact {
+    double seconds = 0;   ///< when
+    std::string node;     ///< whom
+    double speed = 0;     ///< at which they met, m/s
+    double impulse = 0;   ///< N s
+};
+
+class World {
+public:
+    World(std::shared_ptr<const WorldDescription>, uint64_t seed);
+
+    /// Goes on by one step.
+    void step(const DriverInput&, double seconds);
+
+    double seconds() const { return seconds_; }
+    uint64_t steps() const { return steps_; }
+    const VehicleState& driver() const { return driver_; }
+    const WorldDescription& description() const { return *description_; }
+    size_t driver_lane() const { return driver_lane_; }  ///< the one the autopilot keeps to
+    bool touched() const { return touched_; }            ///< a barrier in the last step
+    /// What the driver's car met since the start, in that order. Cars of traffic give way along their lane by their mass, what was
+    /// recorded does not, and who walks falls and stays where he is.
+    const std::vector<Contact>& contacts() const { return contacts_; }
+    /// The driver's car first, then traffic, walkers and recordings, in the order of the description.
+    std::vector<Actor> actors() const;
+
+private:
+    struct Car {
+        double s = 0, speed = 0, acceleration = 0, wish = 1;  // wish: of the allowed speed
+        size_t lane = 0, from = 0;                            // from: the lane it is leaving
+        double change = 1, offset = 0;                        // 0 .. 1: part of the way to `lane`, which began so far to its left, m
+        double patience = 0;                                  // s until it thinks of changing again
+    };
+    struct Walk {
+        double s = 0, wait = 0;
+        bool back = false, under_way = false, fallen = false;
+        double speed = 0;
+    };
+    /// Whoever is next on a lane.
+    struct Neighbour {
+        double gap;   // bumper to bumper, m; infinite: nobody
+        double speed; // m/s
+    };
+    struct Occupant {  // somebody on a lane, of the last step
+        size_t lane;
+        double s, speed, half_length;
+        int who;  // index of a car, or one of these
+    };
+    static constexpr int kDriver = -1, kWalker = -2, kRecorded = -3;
+
+    void occupy();
+    Neighbour ahead(size_t lane, double s, double half_length, int self) const;
+    Neighbour behind(size_t lane, double s, double half_length, int self) const;
+    double follow(const Car&, size_t lane, double half_length, int self) const;
+    void move_cars(double seconds);
+    void consider_change(size_t index);
+    void move_walkers(double seconds);
+    void move_driver(const DriverInput&, double seconds);
+    Course::Place ground() const;  // below the driver's car
+    void meet_others(const VehicleState& before);
+    glm::dvec2 meet(size_t who, const std::string& node, const GroundBox&, double height, const Opponent&, bool person);
+    void find_crossings(const Course& path, size_t lane);
+    bool way_is_free(size_t path) const;
+    Course::Place place_of(size_t car) const;
+    Actor recorded(const RecordedMover&, bool& there) const;
+    double draw(double low, double high);
+
+    std::shared_ptr<const WorldDescription> description_;
+    std::mt19937_64 random_;
+    std::vector<Car> cars_;
+    std::vector<Walk> walks_;
+    std::vector<Course> back_;  // paths the other way
+    struct Crossing {
+        size_t lane;
+        double s;  // of the lane
+    };
+    std::vector<std::vector<Crossing>> crossings_;  // of each path
+    VehicleState driver_;
+    DriverInput input_;
+    bool braking_ = false, touched_ = false;
+    size_t driver_lane_ = 0;
+    std::vector<Occupant> occupants_;
+    std::vector<Contact> contacts_;
+    std::vector<double> touched_at_;  // s, of each car, walker and recording
+    double seconds_ = 0;
+    uint64_t steps_ = 0;
+};
+
+}  // namespace vesper

@@ -1,0 +1,38 @@
+// Worlds to drive in, as files (docs/simulator.md). SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/tunnel.h"
+#include "traffic/world.h"
+
+namespace vesper {
+
+/// Which lamps of vehicles are what, by the names of their rules in the photometry file.
+struct LampRoles {
+    std::vector<std::string> low, high, tail, brake, left, right;
+};
+/// As files call them.
+constexpr std::array<std::pair<const char*, std::vector<std::string> LampRoles::*>, 6> kLampRoles{
+    {{"low", &LampRoles::low}, {"high", &LampRoles::high}, {"tail", &LampRoles::tail}, {"brake", &LampRoles::brake}, {"left", &LampRoles::left}, {"right", &LampRoles::right}}};
+
+struct WorldFile {
+    std::filesystem::path scene;       ///< a glTF file
+    std::filesystem::path photometry;  ///< applied to it when it is loaded; empty: the scene is photometric
+    std::string camera;                ///< of the scene, in the driver's car; empty: 1.2 m above the middle of it
+    WorldDescription world;
+    std::map<std::string, double> turns;  ///< rad about +Y that bring the front of what such a node carries to -Z; others face -Z
+    LampRoles roles;
+    std::vector<std::string> by_day;   ///< names of lamps that are lit by day, too; empty: all are
+    std::vector<Tunnel> tunnels;
+};
+
+/// Throws Error, naming file, place and reason.
+WorldFile read_world(const std::filesystem::path&);
+
+}  // namespace vesper

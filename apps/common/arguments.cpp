@@ -49,34 +49,6 @@ std::string in_shell(const std::string& value) {
     return quoted + "'";
 }
 
-std::string options_of(const CLI::App& command, const std::set<std::string>& but) {
-    std::string text;
-    for (const CLI::Option* option : command.get_options()) {
-        if (!option->nonpositional() || option->count() == 0 || but.contains(option->get_name())) continue;
-        const std::string name = (text.empty() ? "" : " ") + option->get_name();
-        if (option->get_items_expected_max() == 0) {
-            text += name + (option->results().back() == "true" ? "" : "=" + option->results().back());
-            continue;
-        }
-        for (const std::string& value : option->results()) {
-            const bool first = &value == &option->results().front() || option->get_delimiter() == 0;
-            text += (first ? name + " " : std::string(1, option->get_delimiter())) + in_shell(value);
-        }
-    }
-    return one_line(text, 4000);
-}
-
-CLI::Validator between(double low, double high) {
-    const std::string range = format("%g to %g", low, high);
-    return {[=](const std::string& given) {
-                char* end = nullptr;
-                const double value = std::strtod(given.c_str(), &end);
-                return *end == 0 && value >= low && value <= high ? std::string()
-                                                                  : given + " is not a number from " + range;
-            },
-            range};
-}
-
 void write_text(const std::string& file, const std::string& text) {
     replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));
 }

@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "io/files_read.h"
 
 namespace vesper {
@@ -29,13 +27,9 @@ private:
     std::set<std::string> read_;
     std::map<std::string, std::pair<std::string, std::string>> written_;  // by their true names: option and file
 };
-/// A number in a range; not-a-number is in none.
-CLI::Validator between(double low, double high);
 
 /// A value as a shell takes it for one word.
 std::string in_shell(const std::string& value);
-/// The options given, but for those named, as they would be given again: what a picture was made with.
-std::string options_of(const CLI::App& command, const std::set<std::string>& but);
 
 /// Writes a text file, which is replaced only when complete.
 void write_text(const std::string& file, const std::string& text);

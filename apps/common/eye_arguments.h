@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "render/tone_chain.h"
 
@@ -16,11 +16,11 @@ struct EyeArguments {
     std::vector<float> gaze{0.5f, 0.5f};
     bool whole_votes = false;
     int foveal_level = 0;
-    const CLI::App* command = nullptr;  ///< tells which were given
+    Command command;  ///< tells which were given
 };
 
 /// Adds them to a command. Numbers of the observer and the histogram go straight to the settings.
-void add_eye_options(CLI::App& command, EyeArguments& arguments, HistogramSettings& histogram, ToneSettings& tone);
+void add_eye_options(Command command, EyeArguments& arguments, HistogramSettings& histogram, ToneSettings& tone);
 /// Takes the rest over.
 void apply(const EyeArguments& arguments, ToneChainSettings& settings);
 

@@ -8,7 +8,6 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
-#include "help.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
 #include "tone_arguments.h"
@@ -65,11 +64,11 @@ char separator_of(std::string_view line) {
 
 }  // namespace
 
-void add_glare_options(CLI::App& command, GlareArguments& a) {
-    help_group(command, "Glare");
+void add_glare_options(Command command, GlareArguments& a) {
+    command.help_group("Glare");
     command.add_option("--lamps", a.lamps, "CSV file of lamps on other screens, to be scattered into this one with --glare cie, spencer or ward: degrees to the right, degrees up, lx at the eye");
-    command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: prints how visible it is, as logs and .exr files say it, too")->delimiter(',')->expected(4)->check(between(0.0, 1.0));
-    help_group(command);
+    command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: prints how visible it is, as logs and .exr files say it, too").separated_by(',').values(4).check(between(0.0, 1.0));
+    command.help_group();
 }
 
 std::vector<OffscreenLamp> read_lamps(const std::string& file) {

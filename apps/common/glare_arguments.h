@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "io/image_file.h"
 #include "vision/glare_report.h"
@@ -19,7 +19,7 @@ struct GlareArguments {
     std::string lamps;           ///< file of lamps elsewhere
     std::vector<double> target;  ///< x, y, width, height
 };
-void add_glare_options(CLI::App&, GlareArguments&);
+void add_glare_options(Command, GlareArguments&);
 
 /// Lamps on other screens, one a line: azimuth to the right, elevation, degrees from the middle of the view, lx at the eye, on a
 /// plane facing the lamp. Empty lines, lines of # and a heading of words are passed by. Throws Error, naming file and line.

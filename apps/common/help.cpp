@@ -4,6 +4,10 @@
 #include <memory>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
+#include "command_line.h"
+
 namespace vesper {
 namespace {
 
@@ -101,12 +105,6 @@ private:
 
 }  // namespace
 
-void add_help(CLI::App& program) {
-    program.formatter(std::make_shared<Pages>());
-    program.set_help_flag("-h,--help", "Print this page");
-    program.set_help_all_flag("--help-all", "Print all options, with the ranges of numbers");
-}
-
-void help_group(CLI::App& command, const std::string& heading) { command.option_defaults()->group(heading); }
+std::shared_ptr<CLI::FormatterBase> help_pages() { return std::make_shared<Pages>(); }
 
 }  // namespace vesper

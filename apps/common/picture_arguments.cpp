@@ -87,9 +87,9 @@ void find_unit(PictureMeaning& meaning, const HdrImage& image, const PictureRequ
 
 }  // namespace
 
-void add_scale_options(CLI::App& command, ScaleArguments& a) {
+void add_scale_options(Command command, ScaleArguments& a) {
     constexpr double kLeast = 1e-12, kMost = 1e12, kStops = 40;
-    const CLI::Validator scale([=](const std::string& given) {
+    const Check scale([=](const std::string& given) {
         char* end = nullptr;
         const double value = std::strtod(given.c_str(), &end);
         const bool sound = given == "auto" || (*end == 0 && value >= kLeast && value <= kMost);
@@ -97,11 +97,11 @@ void add_scale_options(CLI::App& command, ScaleArguments& a) {
     }, "auto|N");
     const char* help = "cd/m^2 of a picture's 1.0; auto: as its header says, or, where it names no unit, as such a scene may have";
     command.add_option("--scale", a.scale, help)
-        ->check(scale)
-        ->capture_default_str();
+        .check(scale)
+        .shows_default();
     command.add_option("--exposure", a.exposure, "Stops by which pictures are brighter than by --scale: luminance times 2^EV")
-        ->check(between(-kStops, kStops))
-        ->capture_default_str();
+        .check(between(-kStops, kStops))
+        .shows_default();
 }
 
 VkExtent2D parse_size(const std::string& text, unsigned least, unsigned most) {

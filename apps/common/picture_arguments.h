@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 #include <vulkan/vulkan_core.h>
 
 #include "io/hdr_image.h"
@@ -22,7 +22,7 @@ struct ScaleArguments {
     std::string scale = "auto";  ///< or cd/m^2 of a picture's 1.0
     double exposure = 0;         ///< stops that luminance is raised by
 };
-void add_scale_options(CLI::App&, ScaleArguments&);
+void add_scale_options(Command, ScaleArguments&);
 
 /// How a picture is asked for.
 struct PictureRequest {

@@ -7,7 +7,6 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "help.h"
 #include "scene/display_file.h"
 #include "tone_log.h"
 
@@ -44,7 +43,7 @@ Display display_of(const ToneArguments& arguments) {
 
 }  // namespace
 
-void add_tone_options(CLI::App& command, ToneArguments& a) {
+void add_tone_options(Command command, ToneArguments& a) {
     add_eye_options(command, a.eye, a.histogram, a.tone);
     command.add_option("--glare", a.glare,
                        "Light scattered in the eye\n"
@@ -53,33 +52,33 @@ void add_tone_options(CLI::App& command, ToneArguments& a) {
                        "  ward: the veil of 1997\n"
                        "  temporal: cie with needles and halo that move, after Ritschel 2009\n"
                        "  ldr: the paper's, on the tone-mapped image; the others are in cd/m^2 before the operator")
-        ->check(CLI::IsMember(glare_names()))
-        ->capture_default_str();
-    help_group(command, "Glare");
-    command.add_option("--iris", a.iris, "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")->check(between(0.0, 1.5))->capture_default_str();
-    command.add_option("--pupil", a.pupil, "spencer: of what size, for the eye's adaptation")->check(CLI::IsMember({"photopic", "mesopic", "scotopic"}))->capture_default_str();
-    command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: whose eye: what needles it has, and when it moves")->check(CLI::Range(0u, 0xffffffffu))->capture_default_str();
+        .check(one_of(glare_names()))
+        .shows_default();
+    command.help_group("Glare");
+    command.add_option("--iris", a.iris, "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue").check(between(0.0, 1.5)).shows_default();
+    command.add_option("--pupil", a.pupil, "spencer: of what size, for the eye's adaptation").check(one_of({"photopic", "mesopic", "scotopic"})).shows_default();
+    command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: whose eye: what needles it has, and when it moves").check(range(0u, 0xffffffffu)).shows_default();
     command.add_flag("--lashes", a.lashes, "temporal: the eye squints, and lashes hang before its pupil");
-    help_group(command, "Operators and their curves");
-    command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
-    command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2")->check(between(1e-6, 1e9))->capture_default_str();
-    command.add_option("--key", a.tone.key, "Reinhard: what the log average is scaled to, relative to white, before compression")->check(between(1e-4, 10.0))->capture_default_str();
+    command.help_group("Operators and their curves");
+    command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2").check(between(1e-6, 1e9)).shows_default();
+    command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2").check(between(1e-6, 1e9)).shows_default();
+    command.add_option("--key", a.tone.key, "Reinhard: what the log average is scaled to, relative to white, before compression").check(between(1e-4, 10.0)).shows_default();
     command.add_flag("--automatic", a.tone.automatic, "reinhard: key and white from the frame (Reinhard 2003)");
-    command.add_option("--log-epsilon", a.tone.log_epsilon, "reinhard: added to luminance before logarithms, cd/m^2 (his program: 1e-5; default: none, but not below 1e-4)")->check(between(0.0, 1.0));
-    command.add_option("--rod-constant", a.tone.rod_constant, "pattanaik: constant of the rods (pfstmo_pattanaik00: 5e4)")->check(between(1.0, 1e9))->capture_default_str();
-    command.add_option("--white", a.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
-    command.add_option("--linear-min", a.tone.linear_low, "linear: luminance shown as black, cd/m^2")->check(between(0.0, 1e9))->capture_default_str();
-    command.add_option("--linear-max", a.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)")->check(between(0.0, 1e9));
-    help_group(command);
+    command.add_option("--log-epsilon", a.tone.log_epsilon, "reinhard: added to luminance before logarithms, cd/m^2 (his program: 1e-5; default: none, but not below 1e-4)").check(between(0.0, 1.0));
+    command.add_option("--rod-constant", a.tone.rod_constant, "pattanaik: constant of the rods (pfstmo_pattanaik00: 5e4)").check(between(1.0, 1e9)).shows_default();
+    command.add_option("--white", a.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)").check(between(0.0, 1e9));
+    command.add_option("--linear-min", a.tone.linear_low, "linear: luminance shown as black, cd/m^2").check(between(0.0, 1e9)).shows_default();
+    command.add_option("--linear-max", a.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)").check(between(0.0, 1e9));
+    command.help_group();
     command.add_option("--display", a.display, "NAME (" + known_display_names() + ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
-    help_group(command, "Display");
-    command.add_option("--gamut", a.gamut, "What a colour keeps that the display cannot show as bright: luminance (brighter is brighter, and goes towards white), chromaticity (as bright as it can be), clip (neither: each channel ends by itself)")->check(CLI::IsMember(gamut_names()))->capture_default_str();
-    command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2")->check(between(0.1, 1e5));
-    command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2")->check(between(1e-6, 1e3));
-    command.add_option("--display-gamma", a.gamma, "Display: exponent")->check(between(0.5, 5.0));
-    command.add_option("--display-ambient", a.ambient, "Display: illuminance on the screen, lx")->check(between(0.0, 1e5));
-    command.add_option("--display-reflection", a.reflection, "Display: diffuse reflectance")->check(between(0.0, 1.0));
-    help_group(command);
+    command.help_group("Display");
+    command.add_option("--gamut", a.gamut, "What a colour keeps that the display cannot show as bright: luminance (brighter is brighter, and goes towards white), chromaticity (as bright as it can be), clip (neither: each channel ends by itself)").check(one_of(gamut_names())).shows_default();
+    command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2").check(between(0.1, 1e5));
+    command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2").check(between(1e-6, 1e3));
+    command.add_option("--display-gamma", a.gamma, "Display: exponent").check(between(0.5, 5.0));
+    command.add_option("--display-ambient", a.ambient, "Display: illuminance on the screen, lx").check(between(0.0, 1e5));
+    command.add_option("--display-reflection", a.reflection, "Display: diffuse reflectance").check(between(0.0, 1.0));
+    command.help_group();
 }
 
 ToneChainSettings tone_settings(const ToneArguments& arguments) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "eye_arguments.h"
 #include "io/image_file.h"
@@ -24,7 +24,7 @@ struct ToneArguments {
     HistogramSettings histogram;
     ToneSettings tone;
 };
-void add_tone_options(CLI::App&, ToneArguments&);
+void add_tone_options(Command, ToneArguments&);
 /// What they say; throws Error if they contradict each other.
 ToneChainSettings tone_settings(const ToneArguments&);
 

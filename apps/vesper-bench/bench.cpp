@@ -30,7 +30,7 @@ struct BenchArguments {
     std::string json, picture, growth, tables;
     std::vector<std::string> compared;
     bool no_start = false;
-    const CLI::App* command = nullptr;
+    Command command;
 };
 
 /// One run of those that the arguments ask for.
@@ -42,7 +42,7 @@ struct Planned {
 
 void take_defaults_of_matrix(BenchArguments& a) {
     const auto unless_given = [&](const char* option, auto& values, auto defaults) {
-        if (!a.command->count(option)) values = std::move(defaults);
+        if (!a.command.count(option)) values = std::move(defaults);
     };
     unless_given("--scene", a.scenes, std::vector<std::string>{"street"});
     unless_given("--lamps", a.lamps, std::vector<uint32_t>{64, 256, 1024, 4096});
@@ -106,9 +106,9 @@ void check_files(const BenchArguments& a) {
 
 std::string command_line(const BenchArguments& a) {
     std::string text;
-    for (const CLI::Option* option : a.command->get_options())
-        if (option->count())
-            for (const std::string& value : option->results()) text += (text.empty() ? "" : " ") + option->get_name() + "=" + value;
+    for (const Option& option : a.command.options())
+        if (option.count())
+            for (const std::string& value : option.results()) text += (text.empty() ? "" : " ") + option.name() + "=" + value;
     return text;
 }
 
@@ -165,38 +165,33 @@ void work(BenchArguments& a) {
         run(a);
 }
 
-/// An option of one value takes a list of them; what belongs to it checks each.
-void take_list(CLI::App& program, const char* option, std::vector<std::string>& values) {
-    program.get_option(option)->delimiter(',')->take_last()->each([&values](const std::string& value) { values.push_back(value); });
-}
-
 }  // namespace
 
-void add_bench(CLI::App& program) {
+void add_bench(Command program) {
     const auto a = std::make_shared<BenchArguments>();
     RunSettings& s = a->run.settings;
-    a->command = &program;
-    program.add_option("--scene", a->scenes, "rivoli: the night street; rivoli-measured: with measured lamps and road; street: generated; or a .gltf or .glb")->delimiter(',')->capture_default_str();
+    a->command = program;
+    program.add_option("--scene", a->scenes, "rivoli: the night street; rivoli-measured: with measured lamps and road; street: generated; or a .gltf or .glb").separated_by(',').shows_default();
     program.add_option("--camera,-c", a->run.camera, "Name of a camera of the scene (default: the first)");
-    program.add_option("--size,-s", a->sizes, "WIDTHxHEIGHT of a channel, px")->delimiter(',')->capture_default_str();
-    program.add_option("--lamps", a->lamps, "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")->delimiter(',')->check(CLI::Range(0u, kMaxLamps));
-    program.add_option("--luminaire", a->luminaires, "Of the street, in place of its spots of 1,500 cd: point (1,500 cd), none, or a file of a distribution (.ies, .ldt, .csv, .exr), scaled to the flux that the point sends down")->delimiter(',');
-    program.add_option("--triangles", a->triangles, "Of the street: at least so many")->check(CLI::Range(0u, 100'000'000u))->capture_default_str();
-    program.add_option("--channels", a->channels, "Views in every frame, side by side")->delimiter(',')->check(CLI::Range(1u, 16u))->capture_default_str();
-    program.add_option("--frames", s.frames, "Of a lap: the path of the scene's camera in equal steps")->check(CLI::Range(1u, 100000u))->capture_default_str();
-    program.add_option("--laps", s.laps, "How often the path is driven")->check(CLI::Range(1u, 1000u))->capture_default_str();
-    program.add_option("--warm-up", s.warm_up, "Frames from all along the path before the first lap, not counted")->check(CLI::Range(0u, 10000u))->capture_default_str();
-    program.add_option("--threshold", a->run.render.clusters.threshold, "Illuminance below which a lamp counts as dark, lx")->check(between(1e-9, 1e3))->capture_default_str();
+    program.add_option("--size,-s", a->sizes, "WIDTHxHEIGHT of a channel, px").separated_by(',').shows_default();
+    program.add_option("--lamps", a->lamps, "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)").separated_by(',').check(range(0u, kMaxLamps));
+    program.add_option("--luminaire", a->luminaires, "Of the street, in place of its spots of 1,500 cd: point (1,500 cd), none, or a file of a distribution (.ies, .ldt, .csv, .exr), scaled to the flux that the point sends down").separated_by(',');
+    program.add_option("--triangles", a->triangles, "Of the street: at least so many").check(range(0u, 100'000'000u)).shows_default();
+    program.add_option("--channels", a->channels, "Views in every frame, side by side").separated_by(',').check(range(1u, 16u)).shows_default();
+    program.add_option("--frames", s.frames, "Of a lap: the path of the scene's camera in equal steps").check(range(1u, 100000u)).shows_default();
+    program.add_option("--laps", s.laps, "How often the path is driven").check(range(1u, 1000u)).shows_default();
+    program.add_option("--warm-up", s.warm_up, "Frames from all along the path before the first lap, not counted").check(range(0u, 10000u)).shows_default();
+    program.add_option("--threshold", a->run.render.clusters.threshold, "Illuminance below which a lamp counts as dark, lx").check(between(1e-9, 1e3)).shows_default();
     program.add_option("--device", a->run.device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
-    CLI::Option* json = program.add_option("--json", a->json, "Write everything that was measured to a file");
-    CLI::Option* picture = program.add_option("--picture", a->picture, "Write the last frame to a .png file");
+    Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");
+    Option picture = program.add_option("--picture", a->picture, "Write the last frame to a .png file");
     program.add_flag("--no-start", a->no_start, "Do not time starts with a cold and a warm cache of shaders");
-    CLI::Option* matrix = program.add_option("--matrix", a->growth, "Drive the street with 64 to 4096 lamps at several sizes with several operators, and draw how time grows into a folder");
-    CLI::Option* compare = program.add_option("--compare", a->compared, "A.json B.json: print what B takes relative to A")->expected(2)->excludes(matrix)->excludes(json)->excludes(picture);
-    program.add_option("--tables", a->tables, "FILE.json: print what was measured as tables of Markdown")->excludes(matrix)->excludes(compare)->excludes(json)->excludes(picture);
+    Option matrix = program.add_option("--matrix", a->growth, "Drive the street with 64 to 4096 lamps at several sizes with several operators, and draw how time grows into a folder");
+    Option compare = program.add_option("--compare", a->compared, "A.json B.json: print what B takes relative to A").values(2).excludes(matrix).excludes(json).excludes(picture);
+    program.add_option("--tables", a->tables, "FILE.json: print what was measured as tables of Markdown").excludes(matrix).excludes(compare).excludes(json).excludes(picture);
     add_tone_options(program, a->tone);
-    take_list(program, "--operator", a->operators);
-    take_list(program, "--glare", a->glares);
+    program.option("--operator").takes_list(a->operators);
+    program.option("--glare").takes_list(a->glares);
     program.footer("Lists (scenes, sizes, lamps, luminaires, channels, operators, glare) are separated by commas; every combination is a run.\n"
                    "Examples:\n  vesper-bench --json now.json\n"
                    "  vesper-bench --compare before.json now.json\n"

@@ -1,12 +1,10 @@
 // The `vesper-bench` program. SPDX-License-Identifier: MIT
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "command_line.h"
 
 namespace vesper {
 
-void add_bench(CLI::App& program);
+void add_bench(Command program);
 
 }  // namespace vesper

@@ -4,7 +4,6 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "help.h"
 #include "io/atomic_file.h"
 #include "own_data.h"
 #include "picture_arguments.h"
@@ -14,7 +13,7 @@ namespace vesper {
 namespace {
 
 // Options that say nothing where the others are as they are, and why.
-void refuse_idle(const CLI::App& program, const DriveArguments& a) {
+void refuse_idle(const Command& program, const DriveArguments& a) {
     const bool logs = !a.log.empty(), films = !a.video.empty(), replays = !a.replay.empty();
     const auto camera = a.settings.find("camera");
     struct Rule {
@@ -40,7 +39,7 @@ void refuse_idle(const CLI::App& program, const DriveArguments& a) {
             if (rule.here && program.count(option)) throw Error(std::string(option) + ": " + rule.why);
 }
 
-void check(const CLI::App& program, DriveArguments& a) {
+void check(const Command& program, DriveArguments& a) {
     refuse_idle(program, a);
     if (a.scene.empty() && a.replay.empty()) a.scene = (own_data() / "rivoli/rivoli.world.json").string();
     Files files;
@@ -65,51 +64,51 @@ DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {
     return start;
 }
 
-void add_drive(CLI::App& program) {
+void add_drive(Command program) {
     const auto a = std::make_shared<DriveArguments>();
     program.add_option("scene", a->scene,
                        "A world (.json), roads (.xodr) or a scene (.gltf, .glb)\n"
                        "Worlds: docs/simulator.md; scenes as vesper convert writes them; default: the street of data/rivoli");
-    help_group(program, "Roads and traffic");
+    program.help_group("Roads and traffic");
     program.add_option("--scenario", a->run, "On roads (.xodr): a run that esmini recorded there (.csv of its dat2csv or CSV logger), as traffic with its lamps");
     program.add_option("--storyboard", a->scenario, "The scenario of that run (.xosc): sizes, lamps and traffic lights");
-    help_group(program);
+    program.help_group();
     program.add_flag("--headless", a->headless, "Without a window");
     program.add_flag("--autopilot", a->autopilot, "The car keeps to its lane and to the distance by itself");
-    program.add_option("--seconds", a->seconds, "Headless: how long to drive, s")->check(between(0.0, 86400.0))->capture_default_str();
+    program.add_option("--seconds", a->seconds, "Headless: how long to drive, s").check(between(0.0, 86400.0)).shows_default();
     program.add_option("--record", a->record, "Write the drive to a file that --replay takes");
     program.add_option("--replay", a->replay, "Drive a recording again\nThe same frames to the last bit on the same device");
     program.add_option("--video", a->video,
                        "Headless: FILM.mp4, NAME.%05d.png or NAME.%05d.exr (cd/m^2)\n"
                        "Films are made by ffmpeg; the others are one file a frame");
-    help_group(program, "Films and logs");
-    program.add_option("--fps", a->fps, "Headless: frames a second (default: those that were recorded, or 30)")->check(between(1.0, 1000.0));
+    program.help_group("Films and logs");
+    program.add_option("--fps", a->fps, "Headless: frames a second (default: those that were recorded, or 30)").check(between(1.0, 1000.0));
     program.add_option("--log", a->log, "Write one row per frame to a CSV file: pose, eye, luminances, glare, times");
     program.add_option("--probe", a->probes, "X,Y, parts of the picture from its top left: a column of luminance in the log; may be given several times");
-    help_group(program);
+    program.help_group();
     program.add_option("--size,-s", a->size, "WIDTHxHEIGHT of pictures, px\nDefault: in a replay as recorded, in a window its size")
-        ->capture_default_str();
-    help_group(program, "Window");
+        .shows_default();
+    program.help_group("Window");
     program.add_option("--channels", a->channels, "A file of views of the driver's eye, on screens side by side (docs/simulator.md)");
-    help_group(program, "Roads and traffic");
-    program.add_option("--seed", a->seed, "Seed of all that is drawn by lot: when people walk, how cars are driven")->capture_default_str();
-    help_group(program);
+    program.help_group("Roads and traffic");
+    program.add_option("--seed", a->seed, "Seed of all that is drawn by lot: when people walk, how cars are driven").shows_default();
+    program.help_group();
     program.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
-    help_group(program, "Window");
-    program.add_option("--window", a->window, "WIDTHxHEIGHT of the window, px")->capture_default_str();
-    program.add_option("--fullscreen", a->full_screen, "Fill a monitor, counted from 0")->expected(0, 1)->default_str("0")->check(CLI::NonNegativeNumber);
-    program.add_option("--vsync", a->vsync, "wait for the refresh; latest: the newest picture at each; off: at once")->check(CLI::IsMember({"wait", "latest", "off"}))->capture_default_str();
-    program.add_option("--limit", a->limit, "Pictures a second at most (default: as many as there can be)")->check(between(1.0, 1000.0));
-    program.add_option("--scaling", a->scaling, "Pictures of another size than the window: fit it, or repeat whole pixels")->check(CLI::IsMember({"fit", "whole"}))->capture_default_str();
+    program.help_group("Window");
+    program.add_option("--window", a->window, "WIDTHxHEIGHT of the window, px").shows_default();
+    program.add_option("--fullscreen", a->full_screen, "Fill a monitor, counted from 0").values(0, 1).shows_default("0").check(not_negative());
+    program.add_option("--vsync", a->vsync, "wait for the refresh; latest: the newest picture at each; off: at once").check(one_of({"wait", "latest", "off"})).shows_default();
+    program.add_option("--limit", a->limit, "Pictures a second at most (default: as many as there can be)").check(between(1.0, 1000.0));
+    program.add_option("--scaling", a->scaling, "Pictures of another size than the window: fit it, or repeat whole pixels").check(one_of({"fit", "whole"})).shows_default();
     program.add_option("--controllers", a->controllers, "What axes and buttons of wheels and gamepads mean (docs/simulator.md)");
-    help_group(program);
+    program.help_group();
     DriveSettings::add_options(program);
     program.footer("Operator, eye, glare, display, camera, sun and lamps can change during a drive: F1 lists the keys.\n"
                    "Examples:\n  vesper-drive                                    the street of data/rivoli, in a window\n"
                    "  vesper-drive street.glb --autopilot             a scene of your own\n"
                    "  vesper-drive --headless --autopilot --seconds 60 --record mine.json\n"
                    "  vesper-drive --headless --replay mine.json --glare cie --age 60 --video mine.mp4\n");
-    program.callback([a, &program] {
+    program.callback([a, program] {
         a->settings = DriveSettings::given(program);
         check(program, *a);
         a->size_given = program.count("--size") > 0;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "drive_file.h"
 #include "io/files_read.h"
@@ -31,7 +31,7 @@ struct DriveArguments {
     bool size_given = false;  ///< pictures are of `size`, not of the window's
 };
 
-void add_drive(CLI::App& program);
+void add_drive(Command program);
 
 /// How the drive begins that the command line asks for: where it names a recording, as that does, with the settings given beside it.
 DriveStart start_of(const DriveArguments&, const DriveStart& recorded);

@@ -8,7 +8,6 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "help.h"
 #include "io/atomic_file.h"
 #include "tone_arguments.h"
 
@@ -26,31 +25,30 @@ struct SettingsArguments {
     float threshold = ClusterSettings{}.threshold;
 };
 
-void add(CLI::App& command, SettingsArguments& a) {
+void add(Command command, SettingsArguments& a) {
     add_tone_options(command, a.tone);
     command.add_option("--camera", a.camera, "Who sees the street: the driver, somebody behind, above, or free to go")
-        ->check(CLI::IsMember({"driver", "chase", "bird", "free"}))
-        ->capture_default_str();
-    help_group(command, "Cameras and lamps");
-    command.add_option("--free", a.free, "Where the free camera stands and looks: X,Y,Z,YAW,PITCH, m and degrees")->delimiter(',')->expected(5);
-    command.add_option("--fov", a.fov, "Angle of the picture's height, degrees (default: the camera's)")->check(between(0.0, 170.0));
-    help_group(command);
+        .check(one_of({"driver", "chase", "bird", "free"}))
+        .shows_default();
+    command.help_group("Cameras and lamps");
+    command.add_option("--free", a.free, "Where the free camera stands and looks: X,Y,Z,YAW,PITCH, m and degrees").separated_by(',').values(5);
+    command.add_option("--fov", a.fov, "Angle of the picture's height, degrees (default: the camera's)").check(between(0.0, 170.0));
+    command.help_group();
     command.add_option("--sun", a.sun, "Elevation of the sun under a closed cover of cloud, degrees\nDefault: the night of the scene")
-        ->check(between(-90.0, 90.0));
-    help_group(command, "Cameras and lamps");
-    command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx")->check(between(1e-9, 1e3))->capture_default_str();
-    help_group(command);
+        .check(between(-90.0, 90.0));
+    command.help_group("Cameras and lamps");
+    command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx").check(between(1e-9, 1e3)).shows_default();
+    command.help_group();
 }
 
 // Names of all settings but lamps, without dashes.
 const std::set<std::string>& setting_names() {
     static const std::set<std::string> names = [] {
-        CLI::App known;
-        known.set_help_flag();
+        Program known;
         SettingsArguments a;
         add(known, a);
         std::set<std::string> found;
-        for (const CLI::Option* option : known.get_options()) found.insert(option->get_name().substr(2));
+        for (const Option& option : known.options()) found.insert(option.name().substr(2));
         return found;
     }();
     return names;
@@ -87,7 +85,7 @@ void DriveSettings::set(const std::string& name, const std::string& value) {
 }
 
 void DriveSettings::apply(const Values& values) {
-    CLI::App command;
+    Program command;
     SettingsArguments a;
     add(command, a);
     std::vector<std::string> words;
@@ -104,9 +102,9 @@ void DriveSettings::apply(const Values& values) {
         lamps[name.substr(std::string(kLamp).size())] = factor;
     }
     try {
-        command.parse(std::vector<std::string>(words.rbegin(), words.rend()));
-    } catch (const CLI::ParseError& error) {
-        throw Error("settings: " + one_line(error.what()));
+        command.parse(words);
+    } catch (const Error& error) {
+        throw Error(std::string("settings: ") + error.what());
     }
     RenderSettings render;
     static_cast<ToneChainSettings&>(render) = tone_settings(a.tone);
@@ -120,24 +118,24 @@ void DriveSettings::apply(const Values& values) {
     lamps_ = std::move(lamps);
 }
 
-void DriveSettings::add_options(CLI::App& command) {
+void DriveSettings::add_options(Command command) {
     const auto a = std::make_shared<SettingsArguments>();
     add(command, *a);
-    help_group(command, "Cameras and lamps");
-    command.add_option("--lamp", "NAME=FACTOR on the intensity of lamps of that name; may be given several times")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    help_group(command);
-    command.parse_complete_callback([a] {});  // keeps them as long as the command
+    command.help_group("Cameras and lamps");
+    command.add_option("--lamp", "NAME=FACTOR on the intensity of lamps of that name; may be given several times").repeats();
+    command.help_group();
+    command.keep(a);
 }
 
-DriveSettings::Values DriveSettings::given(const CLI::App& command) {
+DriveSettings::Values DriveSettings::given(const Command& command) {
     Values values;
     for (const std::string& name : setting_names()) {
         if (!command.count("--" + name)) continue;
         std::string text;
-        for (const std::string& result : command.get_option("--" + name)->results()) text += (text.empty() ? "" : ",") + result;
+        for (const std::string& result : command.option("--" + name).results()) text += (text.empty() ? "" : ",") + result;
         values[name] = text;
     }
-    for (const std::string& lamp : command.get_option("--lamp")->results()) {
+    for (const std::string& lamp : command.option("--lamp").results()) {
         const size_t equals = lamp.rfind('=');
         if (equals == lamp.npos) throw Error("--lamp " + one_line(lamp) + ": NAME=FACTOR is expected");
         values[kLamp + lamp.substr(0, equals)] = lamp.substr(equals + 1);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "render/renderer.h"
 
@@ -45,8 +45,8 @@ public:
     const std::map<std::string, double>& lamps() const { return lamps_; }
 
     /// Adds them all as options to a command, and takes over those that were given.
-    static void add_options(CLI::App&);
-    static Values given(const CLI::App&);
+    static void add_options(Command);
+    static Values given(const Command&);
 
 private:
     void apply(const Values&);

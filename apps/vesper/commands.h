@@ -1,19 +1,17 @@
 // The commands of the `vesper` program. SPDX-License-Identifier: MIT
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "command_line.h"
 
 namespace vesper {
 
-void add_render(CLI::App& program);
-void add_convert(CLI::App& program);
-void add_road(CLI::App& program);
-void add_merge(CLI::App& program);
-void add_inspect(CLI::App& program);
-void add_tonemap(CLI::App& program);
-void add_display(CLI::App& program);
-void add_study(CLI::App& program);
+void add_render(Command program);
+void add_convert(Command program);
+void add_road(Command program);
+void add_merge(Command program);
+void add_inspect(Command program);
+void add_tonemap(Command program);
+void add_display(Command program);
+void add_study(Command program);
 
 }  // namespace vesper

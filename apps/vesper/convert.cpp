@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "base/error.h"
 #include "commands.h"
@@ -28,7 +28,7 @@ struct ConvertArguments {
     bool srgb = false;
     StreetLampOptions lamps;
     std::string side = "auto", luminaire;
-    std::vector<const CLI::Option*> for_databases, for_lamps;
+    std::vector<Option> for_databases, for_lamps;
 };
 
 void print(const std::vector<std::string>& changes, const std::vector<std::string>& warnings,
@@ -38,9 +38,9 @@ void print(const std::vector<std::string>& changes, const std::vector<std::strin
     std::printf("wrote %s\n", output.c_str());
 }
 
-void refuse(const std::vector<const CLI::Option*>& options, const std::string& why) {
-    for (const CLI::Option* option : options)
-        if (option->count() > 0) throw Error(option->get_name() + why);
+void refuse(const std::vector<Option>& options, const std::string& why) {
+    for (const Option& option : options)
+        if (option.count() > 0) throw Error(option.name() + why);
 }
 
 void run_roads(const ConvertArguments& arguments) {
@@ -48,9 +48,9 @@ void run_roads(const ConvertArguments& arguments) {
     const std::filesystem::path input = arguments.input;
     const std::string output = arguments.output.empty() ? input.stem().string() + ".gltf" : arguments.output;
     LitRoadOptions options;
-    for (const CLI::Option* option : arguments.for_lamps)
-        if (option->count() > 0) options.lamps = arguments.lamps, options.lamps->side = kSides.at(arguments.side);
-    if (options.lamps) options.lamps->beside_own = arguments.for_lamps.front()->count() > 0;  // --lamp-spacing
+    for (const Option& option : arguments.for_lamps)
+        if (option.count() > 0) options.lamps = arguments.lamps, options.lamps->side = kSides.at(arguments.side);
+    if (options.lamps) options.lamps->beside_own = arguments.for_lamps.front().count() > 0;  // --lamp-spacing
     if (!arguments.luminaire.empty()) options.lamps->luminaire = read_distribution(arguments.luminaire);
     const RoadNetwork network = read_opendrive(input);
     const LitRoads lit = in_file(arguments.input, [&] { return lit_roads(network, options); });
@@ -71,36 +71,34 @@ void run(const ConvertArguments& arguments) {
 
 }  // namespace
 
-void add_convert(CLI::App& program) {
-    CLI::App* command = program.add_subcommand(
+void add_convert(Command program) {
+    Command command = program.add_command(
         "convert", "Make a daytime glTF database photometric, or a night street of an OpenDRIVE file");
     const auto a = std::make_shared<ConvertArguments>();
-    command->add_option("input", a->input, "The database: .gltf or .glb; or roads: .xodr (docs/roads.md)")->required();
+    command.add_option("input", a->input, "The database: .gltf or .glb; or roads: .xodr (docs/roads.md)").required();
     a->for_databases = {
-        command->add_option(
+        command.add_option(
             "--photometry,-p", a->photometry,
             "Which nodes are lamps, which materials shine (docs/photometry.md); required for databases"),
-        command->add_flag("--srgb", a->srgb,
+        command.add_flag("--srgb", a->srgb,
                           "Decode textures as sRGB instead of with the gamma of the photometry file")};
-    command->add_option("--output,-o", a->output,
+    command.add_option("--output,-o", a->output,
                         "One self-contained .gltf or .glb (default for roads: the input's name with .gltf)");
-    a->for_lamps = {command
-                        ->add_option("--lamp-spacing", a->lamps.spacing,
+    a->for_lamps = {command.add_option("--lamp-spacing", a->lamps.spacing,
                                      "Roads: m between street lamps, 0 for none (default: 30, or those of the file)")
-                        ->check(CLI::Range(0.0, 1000.0)),
-                    command
-                        ->add_option("--lamp-height", a->lamps.height,
+                        .check(range(0.0, 1000.0)),
+                    command.add_option("--lamp-height", a->lamps.height,
                                      "Roads: m, of the light points (default: 8, up to 12 on wide roads)")
-                        ->check(CLI::Range(2.0, 60.0)),
-                    command->add_option("--lamp-side", a->side, "Roads: on which side of the way")->check(CLI::IsMember(kSides)),
-                    command->add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
-                        ->check(CLI::Range(0.1, 20.0)),
-                    command->add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
-    command->footer(
+                        .check(range(2.0, 60.0)),
+                    command.add_option("--lamp-side", a->side, "Roads: on which side of the way").check(one_of_keys(kSides)),
+                    command.add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
+                        .check(range(0.1, 20.0)),
+                    command.add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
+    command.footer(
         "Examples:\n  vesper convert data/rivoli/rivoli.gltf --photometry data/rivoli/rivoli.photometry.json -o "
         "out/night.gltf\n"
         "  vesper convert data/rivoli/rivoli.xodr --lamp-spacing 25 --lamp-side both -o out/lanes.gltf\n");
-    command->callback([a] { run(*a); });
+    command.callback([a] { run(*a); });
 }
 
 }  // namespace vesper

@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "arguments.h"
 #include "base/error.h"
@@ -90,39 +90,39 @@ void run_list() {
 
 }  // namespace
 
-void add_display(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("display", "Test patterns, and a display's profile from measurements (docs/display.md)");
-    command->require_subcommand(1);
-    command->footer("Example:\n  vesper display patterns -o patterns/ --size 1920x1080    # show each patch, measure it, fill in measurements.csv\n"
+void add_display(Command program) {
+    Command command = program.add_command("display", "Test patterns, and a display's profile from measurements (docs/display.md)");
+    command.requires_command();
+    command.footer("Example:\n  vesper display patterns -o patterns/ --size 1920x1080    # show each patch, measure it, fill in measurements.csv\n"
                     "  vesper display fit patterns/measurements.csv -o wall.json\n"
                     "  vesper render night.gltf --display wall.json -o night.png\n");
 
     const auto p = std::make_shared<PatternArguments>();
-    CLI::App* patterns = command->add_subcommand("patterns", "Write ramps, black and near-black steps, and patches to measure");
-    patterns->add_option("--output,-o", p->folder, "A folder that exists")->required();
-    patterns->add_option("--size,-s", p->size, "WIDTHxHEIGHT of the display, px")->capture_default_str();
-    patterns->add_option("--bits", p->settings.bits, "Of a channel's code; 10 are written as PNG of 16 bits")->check(CLI::IsMember({8, 10}))->capture_default_str();
-    patterns->add_option("--patches", p->settings.patches, "How many codes to measure, besides some near black")->check(CLI::Range(3u, 256u))->capture_default_str();
-    patterns->add_option("--window", p->settings.window, "Side of the patch as part of the picture's; 1: all of it")->check(between(0.01, 1.0))->capture_default_str();
-    patterns->footer("Example:\n  vesper display patterns -o patterns/ --size 1920x1080 --bits 8\n");
-    patterns->callback([p] { run_patterns(*p); });
+    Command patterns = command.add_command("patterns", "Write ramps, black and near-black steps, and patches to measure");
+    patterns.add_option("--output,-o", p->folder, "A folder that exists").required();
+    patterns.add_option("--size,-s", p->size, "WIDTHxHEIGHT of the display, px").shows_default();
+    patterns.add_option("--bits", p->settings.bits, "Of a channel's code; 10 are written as PNG of 16 bits").check(one_of({8, 10})).shows_default();
+    patterns.add_option("--patches", p->settings.patches, "How many codes to measure, besides some near black").check(range(3u, 256u)).shows_default();
+    patterns.add_option("--window", p->settings.window, "Side of the patch as part of the picture's; 1: all of it").check(between(0.01, 1.0)).shows_default();
+    patterns.footer("Example:\n  vesper display patterns -o patterns/ --size 1920x1080 --bits 8\n");
+    patterns.callback([p] { run_patterns(*p); });
 
     const auto f = std::make_shared<FitArguments>();
     std::vector<std::string> kinds = names_of(kEotfNames);
     kinds.insert(kinds.begin(), "auto");
-    CLI::App* fit = command->add_subcommand("fit", "Make a profile from measured luminances");
-    fit->add_option("measurements", f->measurements, "Lines of code,cd/m^2, measured in the dark")->required();
-    fit->add_option("--output,-o", f->output, "PROFILE.json")->required();
-    fit->add_option("--kind", f->kind, "Transfer function; auto: the simplest within 1 %, or the table")->check(CLI::IsMember(kinds))->capture_default_str();
-    fit->add_option("--bits", f->bits, "Of a channel's code")->check(CLI::IsMember({8, 10}))->capture_default_str();
-    fit->add_option("--primaries", f->primaries, "Of the display; others can be written into the profile")->check(CLI::IsMember(names_of(kPrimariesNames)))->capture_default_str();
-    fit->add_option("--ambient", f->ambient, "Illuminance on the screen when in use, lx")->check(between(0.0, 1e5))->capture_default_str();
-    fit->add_option("--reflection", f->reflection, "Diffuse reflectance of the screen")->check(between(0.0, 1.0))->capture_default_str();
-    fit->add_option("--name", f->name, "What the profile calls the display");
-    fit->footer("Example:\n  vesper display fit measurements.csv --name 'wall of cave 2' --ambient 0 -o wall.json\n");
-    fit->callback([f] { run_fit(*f); });
+    Command fit = command.add_command("fit", "Make a profile from measured luminances");
+    fit.add_option("measurements", f->measurements, "Lines of code,cd/m^2, measured in the dark").required();
+    fit.add_option("--output,-o", f->output, "PROFILE.json").required();
+    fit.add_option("--kind", f->kind, "Transfer function; auto: the simplest within 1 %, or the table").check(one_of(kinds)).shows_default();
+    fit.add_option("--bits", f->bits, "Of a channel's code").check(one_of({8, 10})).shows_default();
+    fit.add_option("--primaries", f->primaries, "Of the display; others can be written into the profile").check(one_of(names_of(kPrimariesNames))).shows_default();
+    fit.add_option("--ambient", f->ambient, "Illuminance on the screen when in use, lx").check(between(0.0, 1e5)).shows_default();
+    fit.add_option("--reflection", f->reflection, "Diffuse reflectance of the screen").check(between(0.0, 1.0)).shows_default();
+    fit.add_option("--name", f->name, "What the profile calls the display");
+    fit.footer("Example:\n  vesper display fit measurements.csv --name 'wall of cave 2' --ambient 0 -o wall.json\n");
+    fit.callback([f] { run_fit(*f); });
 
-    command->add_subcommand("list", "The displays that are known by name")->callback(run_list);
+    command.add_command("list", "The displays that are known by name").callback(run_list);
 }
 
 }  // namespace vesper

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "arguments.h"
 #include "base/error.h"
@@ -80,21 +80,21 @@ void run(const InspectArguments& a) {
 
 }  // namespace
 
-void add_inspect(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("inspect", "Say what a scene, a lamp or a picture holds (docs/inspect.md)");
+void add_inspect(Command program) {
+    Command command = program.add_command("inspect", "Say what a scene, a lamp or a picture holds (docs/inspect.md)");
     const auto a = std::make_shared<InspectArguments>();
-    command->add_option("file", a->file, "A scene (.gltf, .glb), lamp (.ies, .ldt, .csv, .exr), r-table (.csv) or picture (.exr, .hdr)")
-        ->required();
-    command->add_option("--json", a->json, "Write the report to a JSON file");
-    command->add_option("--output,-o", a->picture, "OUT.png: diagrams of a lamp, false colours of a picture");
-    command->add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
-    command->add_option("--layer", a->layer, kLayerHelp);
-    command->add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2")->check(between(1e-30, 1e30));
-    command->add_option("--high", a->high, "Pictures: upper end of the colour scale, cd/m^2")->check(between(1e-30, 1e30));
-    command->add_flag("--contours", a->contours, "Pictures: lines at the luminances of the classes M6 to M1 of EN 13201-2");
-    command->footer("Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
+    command.add_option("file", a->file, "A scene (.gltf, .glb), lamp (.ies, .ldt, .csv, .exr), r-table (.csv) or picture (.exr, .hdr)")
+        .required();
+    command.add_option("--json", a->json, "Write the report to a JSON file");
+    command.add_option("--output,-o", a->picture, "OUT.png: diagrams of a lamp, false colours of a picture");
+    command.add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
+    command.add_option("--layer", a->layer, kLayerHelp);
+    command.add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2").check(between(1e-30, 1e30));
+    command.add_option("--high", a->high, "Pictures: upper end of the colour scale, cd/m^2").check(between(1e-30, 1e30));
+    command.add_flag("--contours", a->contours, "Pictures: lines at the luminances of the classes M6 to M1 of EN 13201-2");
+    command.footer("Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
                     "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
-    command->callback([a] { run(*a); });
+    command.callback([a] { run(*a); });
 }
 
 }  // namespace vesper

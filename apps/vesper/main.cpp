@@ -4,14 +4,12 @@
 
 #include "commands.h"
 #include "gpu/device.h"
-#include "help.h"
-#include "program.h"
+#include "command_line.h"
 
 int main(int argc, char** argv) {
-    CLI::App program{"What a driver sees at night, on the screen you have.", "vesper"};
-    vesper::add_help(program);
-    program.set_version_flag("--version", VESPER_VERSION);
-    program.require_subcommand(1);
+    vesper::Program program{"What a driver sees at night, on the screen you have.", "vesper"};
+    program.version(VESPER_VERSION);
+    program.requires_command();
     program.footer("vesper SUBCOMMAND --help says what each takes; vesper-drive is the simulator.\n"
                    "Example:\n"
                    "  vesper convert street.gltf --photometry street.photometry.json -o night.gltf\n"
@@ -24,9 +22,9 @@ int main(int argc, char** argv) {
     vesper::add_tonemap(program);
     vesper::add_display(program);
     vesper::add_study(program);
-    CLI::App* devices = program.add_subcommand("devices", "List the Vulkan devices of this machine");
-    devices->callback([] {
+    vesper::Command devices = program.add_command("devices", "List the Vulkan devices of this machine");
+    devices.callback([] {
         for (const std::string& line : vesper::list_devices()) std::puts(line.c_str());
     });
-    return vesper::run_program(program, argc, argv);
+    return program.run(argc, argv);
 }

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "arguments.h"
 #include "base/error.h"
@@ -191,20 +191,20 @@ void run(const MergeArguments& arguments) {
 
 }  // namespace
 
-void add_merge(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("merge", "Merge photographs of different exposure into luminance (docs/merge.md)");
+void add_merge(Command program) {
+    Command command = program.add_command("merge", "Merge photographs of different exposure into luminance (docs/merge.md)");
     const auto a = std::make_shared<MergeArguments>();
-    command->add_option("images", a->images, "2 to 32 PNG or JPEG of equal size, from one tripod")->required();
-    command->add_option("--output,-o", a->output, "OUT.exr: cd/m^2 if scaled, relative otherwise")->required();
-    command->add_option("--exposures,-e", a->exposures, "Exposure of each picture, such as 1/60,1/15 (default: Exif time * ISO / f-number^2)");
-    command->add_flag("--align", a->align, "Undo the shifts between the pictures, whole pixels");
-    command->add_option("--curve", a->curve, "Response of the camera: recover, srgb, gamma2.2, linear or a file that --response wrote")->capture_default_str();
-    command->add_option("--smoothness", a->smoothness, "Smoothness of a recovered response")->check(CLI::Range(0.1, 10000.0))->capture_default_str();
-    command->add_option("--response", a->response, "Write the response to a CSV file");
-    command->add_option("--luminance", a->luminance, "A measured luminance: X,Y,CD_M2 or X,Y,WIDTH,HEIGHT,CD_M2 (px, from the top left)");
-    command->add_option("--scale", a->scale, "cd/m^2 per unit, from an earlier --luminance")->check(CLI::Range(1e-12, 1e12));
-    command->footer("Example:\n  vesper merge street-1.jpg street-2.jpg street-3.jpg --align --luminance 812,440,9,9,3.2 -o street.exr\n");
-    command->callback([a] { run(*a); });
+    command.add_option("images", a->images, "2 to 32 PNG or JPEG of equal size, from one tripod").required();
+    command.add_option("--output,-o", a->output, "OUT.exr: cd/m^2 if scaled, relative otherwise").required();
+    command.add_option("--exposures,-e", a->exposures, "Exposure of each picture, such as 1/60,1/15 (default: Exif time * ISO / f-number^2)");
+    command.add_flag("--align", a->align, "Undo the shifts between the pictures, whole pixels");
+    command.add_option("--curve", a->curve, "Response of the camera: recover, srgb, gamma2.2, linear or a file that --response wrote").shows_default();
+    command.add_option("--smoothness", a->smoothness, "Smoothness of a recovered response").check(range(0.1, 10000.0)).shows_default();
+    command.add_option("--response", a->response, "Write the response to a CSV file");
+    command.add_option("--luminance", a->luminance, "A measured luminance: X,Y,CD_M2 or X,Y,WIDTH,HEIGHT,CD_M2 (px, from the top left)");
+    command.add_option("--scale", a->scale, "cd/m^2 per unit, from an earlier --luminance").check(range(1e-12, 1e12));
+    command.footer("Example:\n  vesper merge street-1.jpg street-2.jpg street-3.jpg --align --luminance 812,440,9,9,3.2 -o street.exr\n");
+    command.callback([a] { run(*a); });
 }
 
 }  // namespace vesper

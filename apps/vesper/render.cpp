@@ -5,12 +5,11 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "arguments.h"
 #include "commands.h"
 #include "glare_arguments.h"
-#include "help.h"
 #include "io/atomic_file.h"
 #include "io/growing_file.h"
 #include "io/image_file.h"
@@ -147,7 +146,7 @@ struct Moment {
 // A replay shows what was logged: with the operator and the histogram of the log, at its times.
 void check_replay(const RenderArguments& arguments, const std::vector<LoggedFrame>& log) {
     const auto fail = [&](const std::string& reason) { throw Error("--replay " + one_line(arguments.replay_file) + ": " + reason); };
-    if (arguments.tone.eye.command->count("--dt")) fail("times are those of the log: --dt has no meaning beside it");
+    if (arguments.tone.eye.command.count("--dt")) fail("times are those of the log: --dt has no meaning beside it");
     const std::string wanted = name_of(arguments.settings.tone_operator);
     const HistogramSettings& bins = arguments.settings.histogram;
     for (const LoggedFrame& frame : log) {
@@ -169,7 +168,7 @@ std::vector<Moment> moments_of(const RenderArguments& arguments) {
     }
     const std::vector<LoggedFrame> log = read_log(arguments.replay_file);
     check_replay(arguments, log);
-    const unsigned frames = arguments.tone.eye.command->count("--frames") ? arguments.frames : ~0u;
+    const unsigned frames = arguments.tone.eye.command.count("--frames") ? arguments.frames : ~0u;
     for (size_t i = 0; i < log.size() && moments.size() < frames; ++i)
         if (log[i].seconds >= arguments.start) moments.push_back({log[i].seconds, log[i].step, i == 0 ? shared::EyeState{} : log[i - 1].eye});
     if (moments.empty()) throw Error(arguments.replay_file + ": no frame from --start on");
@@ -245,41 +244,41 @@ void run(RenderArguments& arguments) {
 
 }  // namespace
 
-void add_render(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("render", "Render a photometric scene to a display image or to luminance");
+void add_render(Command program) {
+    Command command = program.add_command("render", "Render a photometric scene to a display image or to luminance");
     const auto a = std::make_shared<RenderArguments>();
-    command->add_option("scene", a->scene, "A .gltf or .glb, as vesper convert writes it")->required();
-    command->add_option("--output,-o", a->outputs, "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
-    command->add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");
-    command->add_option("--size,-s", a->size, "WIDTHxHEIGHT, px")->capture_default_str();
-    command->add_option("--frames", a->frames, "How many frames; files are numbered")->check(CLI::Range(1u, 1000000u))->capture_default_str();
-    command->add_option("--dt", a->dt, "Time between frames, s")->check(between(1e-6, 3600.0))->capture_default_str();
-    help_group(*command, "Logs and replay");
-    command->add_option("--log", a->log_file, "Write the state of the eye, the tone curve and what glare hides of every frame to a CSV file");
-    command->add_option("--glare-sources", a->sources_file, "Write the lamps before the eye to a CSV file: direction in degrees, cd, lx at the eye and veil, as if nothing stood between");
-    command->add_option("--replay", a->replay_file, "Take times and the state of the eye from such a log: the same frames to the last bit; --start and --frames choose from them");
-    command->add_option("--start", a->start, "Time of the first frame, s")->check(between(0.0, 1e6))->capture_default_str();
-    help_group(*command);
-    command->add_flag("--stats", a->statistics, "Print luminances and milliseconds of the last frame");
-    help_group(*command, "Logs and replay");
-    command->add_option("--stats-json", a->statistics_file, "Write the luminances of the last frame to a JSON file");
-    command->add_flag("--plan", a->plan, "Print the plan of the frame: passes, barriers, memory");
-    help_group(*command);
-    command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
-    help_group(*command, "Light");
-    command->add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")->check(CLI::IsMember({"physical", "paper"}))->capture_default_str();
-    command->add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")->check(between(1e-9, 1e3))->capture_default_str();
-    help_group(*command);
-    add_tone_options(*command, a->tone);
-    add_glare_options(*command, a->glare);
-    help_group(*command, "Light");
-    command->add_flag("--all-lights", a->settings.all_lamps, "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what is below the threshold");
-    help_group(*command);
-    command->footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
+    command.add_option("scene", a->scene, "A .gltf or .glb, as vesper convert writes it").required();
+    command.add_option("--output,-o", a->outputs, "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
+    command.add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");
+    command.add_option("--size,-s", a->size, "WIDTHxHEIGHT, px").shows_default();
+    command.add_option("--frames", a->frames, "How many frames; files are numbered").check(range(1u, 1000000u)).shows_default();
+    command.add_option("--dt", a->dt, "Time between frames, s").check(between(1e-6, 3600.0)).shows_default();
+    command.help_group("Logs and replay");
+    command.add_option("--log", a->log_file, "Write the state of the eye, the tone curve and what glare hides of every frame to a CSV file");
+    command.add_option("--glare-sources", a->sources_file, "Write the lamps before the eye to a CSV file: direction in degrees, cd, lx at the eye and veil, as if nothing stood between");
+    command.add_option("--replay", a->replay_file, "Take times and the state of the eye from such a log: the same frames to the last bit; --start and --frames choose from them");
+    command.add_option("--start", a->start, "Time of the first frame, s").check(between(0.0, 1e6)).shows_default();
+    command.help_group();
+    command.add_flag("--stats", a->statistics, "Print luminances and milliseconds of the last frame");
+    command.help_group("Logs and replay");
+    command.add_option("--stats-json", a->statistics_file, "Write the luminances of the last frame to a JSON file");
+    command.add_flag("--plan", a->plan, "Print the plan of the frame: passes, barriers, memory");
+    command.help_group();
+    command.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    command.help_group("Light");
+    command.add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R").check(one_of({"physical", "paper"})).shows_default();
+    command.add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx").check(between(1e-9, 1e3)).shows_default();
+    command.help_group();
+    add_tone_options(command, a->tone);
+    add_glare_options(command, a->glare);
+    command.help_group("Light");
+    command.add_flag("--all-lights", a->settings.all_lamps, "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what is below the threshold");
+    command.help_group();
+    command.footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
                     "  vesper render night.gltf --camera driver -o night.exr\n"
                     "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
-    command->callback([a, command] {
-        a->options = options_of(*command, {"--output", "--log", "--glare-sources", "--stats", "--stats-json", "--plan"});
+    command.callback([a, command] {
+        a->options = options_of(command, {"--output", "--log", "--glare-sources", "--stats", "--stats-json", "--plan"});
         run(*a);
     });
 }

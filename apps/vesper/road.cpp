@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/CLI.hpp>
+#include "command_line.h"
 
 #include "arguments.h"
 #include "base/error.h"
@@ -65,36 +65,36 @@ void run(const RoadArguments& arguments) {
 
 }  // namespace
 
-void add_road(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("road", "Calculate road lighting: Lav, Uo, Ul, TI, EIR (EN 13201-3)");
+void add_road(Command program) {
+    Command command = program.add_command("road", "Calculate road lighting: Lav, Uo, Ul, TI, EIR (EN 13201-3)");
     const auto a = std::make_shared<RoadArguments>();
     RoadOverrides& o = a->overrides;
     std::vector<std::string> classes;
     for (const LightingClass& c : lighting_classes()) classes.emplace_back(c.name);
-    command->add_option("layout", a->layout, "The road: a .json file (docs/road.md)")->required();
-    command->add_flag("--grid", a->grid, "Print illuminance and luminance of every point");
-    command->add_option("--csv", a->csv, "Write the points to a CSV file");
-    command->add_option("--json", a->json, "Write figures and points to a JSON file");
-    command->add_option("--render", a->pictures, "Render the road too and compare: OUT.png in false colours, OUT.exr in cd/m^2; may be given twice");
-    command->add_option("--scene", a->scene, "Write the road as a scene for vesper render: OUT.gltf or OUT.glb, with a camera for each observer");
-    command->add_option("--device", a->device, "Where to render: part of a name, cpu, or an index of vesper devices");
-    command->add_option("--class", a->wanted, "Lighting class to compare with (default: that of the file)")
-        ->check(CLI::IsMember(classes));
-    command->add_option("--luminaire", o.luminaire, "Another luminaire: .ies or .ldt");
-    command->add_option("--r-table", o.reflection_table, "Another surface: R1 to R4, C1, C2, W3, W4 or a .csv file");
-    command->add_option("--q0", o.q0, "Scale the surface to this mean luminance coefficient, 1/sr")
-        ->check(CLI::Range(0.001, 10.0));
-    command->add_option("--spacing", o.spacing, "m");
-    command->add_option("--height", o.height, "m");
-    command->add_option("--overhang", o.overhang, "m");
-    command->add_option("--tilt", o.tilt, "degrees; raises the street side");
-    command->add_option("--maintenance", o.maintenance_factor, "Maintenance factor");
-    command->footer(
+    command.add_option("layout", a->layout, "The road: a .json file (docs/road.md)").required();
+    command.add_flag("--grid", a->grid, "Print illuminance and luminance of every point");
+    command.add_option("--csv", a->csv, "Write the points to a CSV file");
+    command.add_option("--json", a->json, "Write figures and points to a JSON file");
+    command.add_option("--render", a->pictures, "Render the road too and compare: OUT.png in false colours, OUT.exr in cd/m^2; may be given twice");
+    command.add_option("--scene", a->scene, "Write the road as a scene for vesper render: OUT.gltf or OUT.glb, with a camera for each observer");
+    command.add_option("--device", a->device, "Where to render: part of a name, cpu, or an index of vesper devices");
+    command.add_option("--class", a->wanted, "Lighting class to compare with (default: that of the file)")
+        .check(one_of(classes));
+    command.add_option("--luminaire", o.luminaire, "Another luminaire: .ies or .ldt");
+    command.add_option("--r-table", o.reflection_table, "Another surface: R1 to R4, C1, C2, W3, W4 or a .csv file");
+    command.add_option("--q0", o.q0, "Scale the surface to this mean luminance coefficient, 1/sr")
+        .check(range(0.001, 10.0));
+    command.add_option("--spacing", o.spacing, "m");
+    command.add_option("--height", o.height, "m");
+    command.add_option("--overhang", o.overhang, "m");
+    command.add_option("--tilt", o.tilt, "degrees; raises the street side");
+    command.add_option("--maintenance", o.maintenance_factor, "Maintenance factor");
+    command.footer(
         "Examples:\n  vesper road data/road/worked-example.json\n"
         "  vesper road data/road/worked-example.json --r-table R2 --spacing 36 --grid --csv points.csv\n"
         "  vesper road data/road/worked-example.json --render road.png\n"
         "  vesper road data/road/worked-example.json --scene road.gltf && vesper render road.gltf --camera \"observer lane 1\" --glare cie -o seen.png\n");
-    command->callback([a] { run(*a); });
+    command.callback([a] { run(*a); });
 }
 
 }  // namespace vesper

@@ -49,7 +49,7 @@ std::vector<Operator> histogram_operators() {
 
 std::vector<Operator> studied_operators(const StudyArguments& arguments, const std::vector<Operator>& candidates, const std::string& why) {
     const EyeArguments& eye = arguments.tone.eye;
-    if (!eye.command || eye.command->count("--operator") == 0) return candidates;
+    if (eye.command.count("--operator") == 0) return candidates;
     const Operator given = tone_settings(arguments.tone).tone_operator;
     if (std::find(candidates.begin(), candidates.end(), given) == candidates.end()) throw Error("--operator " + name_of(given) + ": " + why);
     return {given};

@@ -247,31 +247,31 @@ void run(const TonemapArguments& arguments) {
 
 }  // namespace
 
-void add_tonemap(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("tonemap", "Show HDR pictures and films on a display (docs/tonemap.md)");
+void add_tonemap(Command program) {
+    Command command = program.add_command("tonemap", "Show HDR pictures and films on a display (docs/tonemap.md)");
     const auto a = std::make_shared<TonemapArguments>();
-    command->add_option("pictures", a->inputs, "OpenEXR or Radiance pictures, or frame.%04d.exr for a sequence")->required();
-    command->add_option("--output,-o", a->outputs,
+    command.add_option("pictures", a->inputs, "OpenEXR or Radiance pictures, or frame.%04d.exr for a sequence").required();
+    command.add_option("--output,-o", a->outputs,
                         "OUT.png: codes; OUT.exr: cd/m^2 on the display; OUT.mp4; or a folder\n"
                         "A folder or %04d for several; may be given more than once")
-        ->required();
-    command->add_option("--layer", a->layer, kLayerHelp);
-    add_scale_options(*command, a->scale);
-    command->add_option("--fps", a->fps, "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for frame.%04d.exr: 30)")->check(between(0.001, 10000.0));
-    command->add_option("--fov", a->fov,
+        .required();
+    command.add_option("--layer", a->layer, kLayerHelp);
+    add_scale_options(command, a->scale);
+    command.add_option("--fps", a->fps, "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for frame.%04d.exr: 30)").check(between(0.001, 10000.0));
+    command.add_option("--fov", a->fov,
                         "Angle the picture covers in height, degrees\n"
                         "Default: what the picture says, if Vesper or Radiance made it, or 40")
-        ->check(between(0.1, 170.0));
-    command->add_flag("--stats", a->statistics, "Print adaptation, glare and milliseconds of each picture");
-    command->add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
-    add_tone_options(*command, a->tone);
-    add_glare_options(*command, a->glare);
-    command->footer("Examples:\n  vesper tonemap night.exr --display projector -o night.png\n"
+        .check(between(0.1, 170.0));
+    command.add_flag("--stats", a->statistics, "Print adaptation, glare and milliseconds of each picture");
+    command.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    add_tone_options(command, a->tone);
+    add_glare_options(command, a->glare);
+    command.footer("Examples:\n  vesper tonemap night.exr --display projector -o night.png\n"
                     "  vesper tonemap *.hdr --exposure 1 --operator reinhard -o shown/\n"
                     "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"
                     "  vesper tonemap night.exr --display hdr10 -o night-pq.png -o night-on-display.exr\n");
-    command->callback([a, command] {
-        a->options = options_of(*command, {"--output", "--stats"});
+    command.callback([a, command] {
+        a->options = options_of(command, {"--output", "--stats"});
         run(*a);
     });
 }

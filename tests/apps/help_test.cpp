@@ -1,6 +1,6 @@
 // What all programs say of themselves: text, whatever is asked; a short first page, and everything on request.
 // SPDX-License-Identifier: MIT
-#include "help.h"
+#include "command_line.h"
 
 #include <functional>
 #include <regex>
@@ -85,14 +85,10 @@ TEST_P(Help, NamesWhatIsUnknown) {
 }
 
 /// Calls back with the three commands that have most options.
-void for_large_commands(const std::function<void(const CLI::App&)>& look) {
-    CLI::App vesper{"", "vesper"}, drive{"", "vesper-drive"};
-    add_help(vesper), add_help(drive);
+void for_large_commands(const std::function<void(const Command&)>& look) {
+    Program vesper("", "vesper"), drive("", "vesper-drive");
     add_render(vesper), add_tonemap(vesper), add_drive(drive);
-    for (const CLI::App* command :
-         {static_cast<const CLI::App*>(vesper.get_subcommand("render")),
-          static_cast<const CLI::App*>(vesper.get_subcommand("tonemap")), static_cast<const CLI::App*>(&drive)})
-        look(*command);
+    for (const Command& command : {vesper.command("render"), vesper.command("tonemap"), Command(drive)}) look(command);
 }
 
 bool lists(const std::string& page, const std::string& option) {
@@ -103,45 +99,44 @@ bool lists(const std::string& page, const std::string& option) {
 }
 
 TEST(HelpPages, TheFirstIsShort) {
-    for_large_commands([](const CLI::App& command) {
+    for_large_commands([](const Command& command) {
         const std::string page = command.help();
         EXPECT_LE(lines_of(page).size(), 40u) << page;
         for (const std::string& line : lines_of(page)) EXPECT_LE(line.size(), 100u) << line;
         for (const char* needed : {"--help", "--help-all", "--operator", "--glare", "--display", "Examples:"})
-            EXPECT_NE(page.find(needed), page.npos) << command.get_name() << " " << needed;
+            EXPECT_NE(page.find(needed), page.npos) << command.name() << " " << needed;
     });
 }
 
 TEST(HelpPages, AllOptionsAreOnTheOther) {
-    for_large_commands([](const CLI::App& command) {
-        const std::string first = command.help(), all = command.help("", CLI::AppFormatMode::All);
+    for_large_commands([](const Command& command) {
+        const std::string first = command.help(), all = command.help(true);
         const std::string unbroken = std::regex_replace(first, std::regex("\\s+"), " ");
         size_t beyond = 0;
-        for (const CLI::Option* option : command.get_options()) {
-            const std::string name = option->get_name(option->get_positional(), !option->get_positional());
-            const bool on_first = option->get_positional() || option->get_group() == kFirstPage;
-            EXPECT_TRUE(lists(all, name)) << command.get_name() << " " << name;
-            EXPECT_EQ(lists(first, name), on_first) << command.get_name() << " " << name;
+        for (const Option& option : command.options()) {
+            const std::string name = Command::listed_name(option);
+            const bool on_first = option.is_positional() || option.group() == kFirstPage;
+            EXPECT_TRUE(lists(all, name)) << command.name() << " " << name;
+            EXPECT_EQ(lists(first, name), on_first) << command.name() << " " << name;
             beyond += !on_first;
             if (on_first) continue;
-            EXPECT_NE(all.find("\n" + option->get_group() + ":\n"), all.npos) << option->get_group();
-            EXPECT_NE(unbroken.find(option->get_group()), unbroken.npos)
-                << "the first page says that there is " << option->get_group();
+            EXPECT_NE(all.find("\n" + option.group() + ":\n"), all.npos) << option.group();
+            EXPECT_NE(unbroken.find(option.group()), unbroken.npos)
+                << "the first page says that there is " << option.group();
         }
-        EXPECT_GT(beyond, 20u) << command.get_name();
+        EXPECT_GT(beyond, 20u) << command.name();
         for (const std::string& line : lines_of(all)) EXPECT_LE(line.size(), 100u) << line;
     });
 }
 
 // Where an option is declared says where it is listed, and what its page shows of it.
 TEST(HelpPages, AnOptionIsWhereItWasDeclared) {
-    CLI::App program{"Does things.", "program"};
-    add_help(program);
+    Program program("Does things.", "program");
     int number = 0;
-    program.add_option("--plain", number, "Said at once\nand at length")->check(CLI::Range(1, 7));
-    help_group(program, "Rare things");
-    program.add_option("--rare", number, "Seldom needed")->check(CLI::IsMember({1, 2}));
-    help_group(program);
+    program.add_option("--plain", number, "Said at once\nand at length").check(range(1, 7));
+    program.help_group("Rare things");
+    program.add_option("--rare", number, "Seldom needed").check(one_of({1, 2}));
+    program.help_group();
     bool last = false;
     program.add_flag("--last", last, "A flag");
     const std::string head = "Does things.\nUsage: program [OPTIONS]\n\nOptions:\n",
@@ -150,7 +145,7 @@ TEST(HelpPages, AnOptionIsWhereItWasDeclared) {
                       flag = "  --last                    A flag\n", indent(28, ' ');
     EXPECT_EQ(program.help(), head + help + all + "  --plain INT               Said at once\n" + flag +
                                   "\nMore options with --help-all: Rare things.\n");
-    EXPECT_EQ(program.help("", CLI::AppFormatMode::All),
+    EXPECT_EQ(program.help(true),
               head + help + all + "  --plain INT:INT in [1 - 7]\n" + indent + "Said at once\n" + indent +
                   "and at length\n" + flag + "\nRare things:\n  --rare INT:{1,2}          Seldom needed\n");
 }

@@ -1,0 +1,207 @@
+#include "command_line.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <optional>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <CLI/CLI.hpp>
+
+#include "arguments.h"
+#include "base/error.h"
+#include "help.h"
+#include "io/atomic_file.h"
+
+namespace vesper {
+namespace {
+
+// A CPU device builds tens of MiB of its own lists in every frame. glibc would give them back to the system after each, and
+// have every page cleared again in the next: a twentieth of the frame.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_TOP_PAD, 64 << 20);
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);  // setting the first fixes this at 128 KiB
+#endif
+}
+
+/// Returns true if everything printed was written; prints the reason to standard error otherwise.
+bool output_ended(const std::string& program) {
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
+    std::fprintf(stderr, "%s: standard output: %s\n", program.c_str(), std::strerror(errno));
+    return false;
+}
+
+}  // namespace
+
+Check::Check(const std::function<std::string(const std::string&)>& complaint, const std::string& words)
+    : validator_(std::make_shared<CLI::Validator>([complaint](const std::string& given) { return complaint(given); }, words)) {}
+
+Check::Check(const CLI::Validator& validator) : validator_(std::make_shared<CLI::Validator>(validator)) {}
+
+Check between(double low, double high) {
+    const std::string words = format("%g to %g", low, high);
+    return {[=](const std::string& given) {
+                char* end = nullptr;
+                const double value = std::strtod(given.c_str(), &end);
+                return *end == 0 && value >= low && value <= high ? std::string() : given + " is not a number from " + words;
+            },
+            words};
+}
+
+Check range(double low, double high) { return Check(CLI::Range(low, high)); }
+Check range(int low, int high) { return Check(CLI::Range(low, high)); }
+Check range(unsigned low, unsigned high) { return Check(CLI::Range(low, high)); }
+Check not_negative() { return Check(CLI::NonNegativeNumber); }
+Check one_of(const std::vector<std::string>& words) { return Check(CLI::IsMember(words)); }
+Check one_of(std::initializer_list<const char*> words) { return one_of(std::vector<std::string>(words.begin(), words.end())); }
+Check one_of(std::initializer_list<int> numbers) { return Check(CLI::IsMember(std::vector<int>(numbers))); }
+
+Option& Option::check(const Check& check) { return option_->check(check.validator()), *this; }
+Option& Option::required() { return option_->required(), *this; }
+Option& Option::shows_default() { return option_->capture_default_str(), *this; }
+Option& Option::shows_default(const std::string& text) { return option_->default_str(text), *this; }
+Option& Option::separated_by(char separator) { return option_->delimiter(separator), *this; }
+Option& Option::values(int least, int most) { return option_->expected(least, most), *this; }
+Option& Option::excludes(const Option& other) { return option_->excludes(other.option_), *this; }
+
+Option& Option::repeats() {
+    option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    return *this;
+}
+
+Option& Option::takes_list(std::vector<std::string>& list) {
+    option_->delimiter(',')->take_last()->each([&list](const std::string& value) { list.push_back(value); });
+    return *this;
+}
+
+size_t Option::count() const { return option_->count(); }
+const std::vector<std::string>& Option::results() const { return option_->results(); }
+std::string Option::name() const { return option_->get_name(); }
+std::string Option::group() const { return option_->get_group(); }
+bool Option::is_positional() const { return option_->get_positional(); }
+
+std::string Option::as_given() const {
+    const std::string name = option_->get_name();
+    if (option_->get_items_expected_max() == 0) return name + (results().back() == "true" ? "" : "=" + results().back());
+    std::string text;
+    for (const std::string& value : results()) {
+        const bool first = &value == &results().front(), separate = option_->get_delimiter() == 0;
+        if (first || separate)
+            text += (first ? "" : " ") + name + " ";
+        else
+            text += option_->get_delimiter();
+        text += in_shell(value);
+    }
+    return text;
+}
+
+template <class T>
+Option Command::add_option(const std::string& names, T& value, const std::string& help) {
+    return Option(app_->add_option(names, value, help));
+}
+template Option Command::add_option(const std::string&, std::string&, const std::string&);
+template Option Command::add_option(const std::string&, double&, const std::string&);
+template Option Command::add_option(const std::string&, float&, const std::string&);
+template Option Command::add_option(const std::string&, int&, const std::string&);
+template Option Command::add_option(const std::string&, unsigned&, const std::string&);
+template Option Command::add_option(const std::string&, uint64_t&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<float>&, const std::string&);
+template Option Command::add_option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Command::add_option(const std::string&, std::vector<double>&, const std::string&);
+template Option Command::add_option(const std::string&, std::vector<float>&, const std::string&);
+template Option Command::add_option(const std::string&, std::vector<unsigned>&, const std::string&);
+
+Option Command::add_option(const std::string& names, const std::string& help) { return Option(app_->add_option(names, help)); }
+Option Command::add_flag(const std::string& names, bool& value, const std::string& help) { return Option(app_->add_flag(names, value, help)); }
+Command Command::add_command(const std::string& name, const std::string& help) { return Command(app_->add_subcommand(name, help)); }
+void Command::requires_command() { app_->require_subcommand(1); }
+void Command::footer(const std::string& text) { app_->footer(text); }
+void Command::callback(const std::function<void()>& run) { app_->callback(run); }
+void Command::keep(std::shared_ptr<void> kept) {
+    app_->parse_complete_callback([kept] {});
+}
+void Command::help_group(const std::string& heading) { app_->option_defaults()->group(heading); }
+void Command::help_group() { help_group(kFirstPage); }
+
+size_t Command::count(const std::string& option) const { return app_ ? app_->count(option) : 0; }
+Option Command::option(const std::string& name) const { return Option(app_->get_option(name)); }
+std::vector<Option> Command::options() const {
+    std::vector<Option> options;
+    for (CLI::Option* option : app_->get_options({})) options.emplace_back(option);
+    return options;
+}
+Command Command::command(const std::string& name) const { return Command(app_->get_subcommand(name)); }
+std::string Command::name() const { return app_->get_name(); }
+std::string Command::listed_name(const Option& option) { return option.option_->get_name(option.is_positional(), !option.is_positional()); }
+std::string Command::help(bool all) const { return app_->help("", all ? CLI::AppFormatMode::All : CLI::AppFormatMode::Normal); }
+
+Program::Program(const std::string& description, const std::string& name) : owned_(std::make_unique<CLI::App>(description, name)) {
+    app_ = owned_.get();
+    if (name.empty()) {
+        app_->set_help_flag();
+        return;
+    }
+    app_->formatter(help_pages());
+    app_->set_help_flag("-h,--help", "Print this page");
+    app_->set_help_all_flag("--help-all", "Print all options, with the ranges of numbers");
+}
+
+Program::~Program() = default;
+
+void Program::version(const std::string& text) { app_->set_version_flag("--version", text); }
+
+int Program::run(int argc, char** argv) {
+    keep_freed_memory();
+    const std::string name = app_->get_name();
+    try {
+        app_->parse(argc, argv);
+        if (!output_ended(name)) return kBadInput;
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) {  // --help, --version
+            app_->exit(error);
+            return output_ended(name) ? 0 : kBadInput;
+        }
+        std::string message = error.what();
+        // What is missing may be missing only because this was meant for it.
+        const std::vector<std::string> unknown = app_->remaining(true);
+        if (error.get_name() == "RequiredError" && !unknown.empty()) message = "there is no " + unknown.front();
+        std::replace(message.begin(), message.end(), '\n', ' ');
+        std::fprintf(stderr, "%s: %s (--help shows what is possible)\n", name.c_str(), one_line(message, 1000).c_str());
+        return kBadInput;
+    } catch (const Error& error) {
+        std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
+        return kBadInput;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "%s: out of memory\n", name.c_str());
+        return kBadInput;
+    }
+    return 0;
+}
+
+void Program::parse(const std::vector<std::string>& words) {
+    try {
+        app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    } catch (const CLI::ParseError& error) {
+        throw Error(one_line(error.what()));
+    }
+}
+
+std::string options_of(const Command& command, const std::vector<std::string>& but) {
+    std::string text;
+    for (const Option& option : command.options()) {
+        if (option.is_positional() || option.count() == 0 || std::count(but.begin(), but.end(), option.name())) continue;
+        text += (text.empty() ? "" : " ") + option.as_given();
+    }
+    return one_line(text, 4000);
+}
+
+}  // namespace vesper

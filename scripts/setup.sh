@@ -1,4 +1,4 @@
-# Sourced by the other scripts: installs what is missing (Debian 12, Ubuntu 24.04) and says where everything is.
+# Sourced by the other scripts: installs what is missing (Debian 12, Ubuntu 24.04), says what is done and how long it took.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -10,6 +10,27 @@ packages=(
     nlohmann-json3-dev libcli11-dev libgtest-dev libcairo2-dev fonts-dejavu-core libglfw3-dev libimgui-dev doxygen
     "$@"
 )
+
+# step TEXT: says what begins, and how long the step before took.
+step_began=
+step() {
+    step_end
+    step_began=$SECONDS step_text=$1
+    echo "== $1"
+}
+step_end() {
+    [[ -z $step_began ]] || echo "   $step_text: $(in_minutes $((SECONDS - step_began)))"
+    step_began=
+}
+in_minutes() { printf '%d min %02d s' $(($1 / 60)) $(($1 % 60)); }
+
+# bar DONE OF TEXT: a bar that stays on its line in a terminal.
+bar() {
+    local width=30 filled end='\n'
+    filled=$((width * $1 / $2))
+    [[ ! -t 1 || $1 == "$2" ]] || end='\r'
+    printf "[%-${width}s] %*d/%d %-50.50s$end" "$(printf '%*s' "$filled" '' | tr ' ' '#')" ${#2} "$1" "$2" "$3"
+}
 
 missing=()
 if command -v dpkg-query >/dev/null; then
@@ -28,13 +49,13 @@ if ((${#missing[@]})); then
         echo "Missing here: ${missing[*]}" >&2
         exit 1
     fi
-    echo "Installing ${missing[*]}"
+    step "Installing ${missing[*]}"
     "${as_root[@]}" apt-get update -qq
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+    step_end
 fi
 
-# build_preset NAME [SETTING...]: configures and builds; quick when nothing has changed.
-build_preset() {
-    cmake --preset "$@" >/dev/null
-    cmake --build --preset "$1"
-}
+# configure PRESET [SETTING...]
+configure() { cmake --preset "$@" >/dev/null; }
+# build PRESET [--target TARGET...]: quick when nothing has changed. Ninja shows a share and seconds.
+build() { NINJA_STATUS='[%p, %e s] ' cmake --build --preset "$@"; }

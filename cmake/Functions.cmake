@@ -39,8 +39,43 @@ endfunction()
 function(vesper_warnings target)
     target_compile_options(${target} PRIVATE
         -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+        $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${VESPER_PRECOMPILE}>>:-Wno-array-bounds -Wno-stringop-overflow>  # the same, from precompiled headers
+        $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>  # files of a unity build look like headers
         -Wno-missing-field-initializers  # designated initializers leave the other Vulkan fields zero
         $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # false alarms on std::string in GCC 12 (its bug 105651)
         # false alarms on references into a document, got through a temporary that refers to it
         $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>>:-Wno-dangling-reference>)
+endfunction()
+
+# vesper_precompile(<target> <header>...)
+#   For shorter builds. Compiles <header>..., and the headers of the standard library that most files use, once for all files of <target>. Every
+#   file still includes what it uses: with VESPER_PRECOMPILE=OFF all compile without.
+option(VESPER_PRECOMPILE "Precompile headers" ON)
+function(vesper_precompile target)
+    if(VESPER_PRECOMPILE)
+        target_precompile_headers(${target} PRIVATE
+            <algorithm> <array> <cmath> <cstdint> <cstdio> <cstring> <filesystem> <functional> <limits> <map> <memory> <numbers>
+            <optional> <random> <set> <span> <string> <string_view> <tuple> <utility> <vector> ${ARGN})
+    endif()
+    vesper_unity(${target})
+endfunction()
+
+# vesper_unity(<target>)
+#   In a unity build, files of one folder of <target> are compiled together, eight at a time. Names in anonymous
+#   namespaces must differ within a folder.
+function(vesper_unity target)
+    set(most 8)
+    get_target_property(sources ${target} SOURCES)
+    list(FILTER sources INCLUDE REGEX "\\.cpp$")
+    foreach(source IN LISTS sources)
+        cmake_path(GET source PARENT_PATH folder)
+        string(MD5 key "${folder}")
+        if(NOT DEFINED number_${key})
+            set(number_${key} 0)
+        endif()
+        math(EXPR group "${number_${key}} / ${most}")
+        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${key}_${group})
+        math(EXPR number_${key} "${number_${key}} + 1")
+    endforeach()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()

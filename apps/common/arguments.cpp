@@ -33,11 +33,11 @@ void Files::writes(const std::string& option, const std::string& file) {
     if (!written_.try_emplace(name, option, file).second) throw Error(place + "would be written twice");
 }
 
-void Files::spare(const FilesRead& read) const {
-    for (const auto& [name, written] : written_) vesper::spare(read, written.first, written.second);
+void Files::refuse_overwriting(const FilesRead& read) const {
+    for (const auto& [name, written] : written_) vesper::refuse_overwriting(read, written.first, written.second);
 }
 
-void spare(const FilesRead& read, const std::string& option, const std::string& file) {
+void refuse_overwriting(const FilesRead& read, const std::string& option, const std::string& file) {
     if (!file.empty() && read.contains(file)) throw Error(option + " " + one_line(file) + ": would replace what is read");
 }
 

@@ -11,7 +11,7 @@
 namespace vesper {
 
 /// Throws Error if the file that an option names was read.
-void spare(const FilesRead&, const std::string& option, const std::string& file);
+void refuse_overwriting(const FilesRead&, const std::string& option, const std::string& file);
 
 /// The files of a command: no output may replace an input or another output.
 class Files {
@@ -21,7 +21,7 @@ public:
     /// Throws Error if the folder that `file` is to be written to does not exist, if the file is read or written twice.
     void writes(const std::string& option, const std::string& file);
     /// Throws Error if something that is written was read since, whatever named it.
-    void spare(const FilesRead&) const;
+    void refuse_overwriting(const FilesRead&) const;
 
 private:
     std::set<std::string> read_;

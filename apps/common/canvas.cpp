@@ -17,15 +17,15 @@ struct Canvas::Drawing {
     cairo_surface_t* surface;
     cairo_t* cairo;
 
-    void colour(Colour c) { cairo_set_source_rgb(cairo, c.r, c.g, c.b); }
-    void stroke(Colour c, double thickness) {
+    void colour(CanvasColour c) { cairo_set_source_rgb(cairo, c.r, c.g, c.b); }
+    void stroke(CanvasColour c, double thickness) {
         colour(c);
         cairo_set_line_width(cairo, thickness);
         cairo_stroke(cairo);
     }
 };
 
-Canvas::Canvas(uint32_t width, uint32_t height, Colour background) : width_(width), height_(height) {
+Canvas::Canvas(uint32_t width, uint32_t height, CanvasColour background) : width_(width), height_(height) {
     cairo_surface_t* surface =
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width), static_cast<int>(height));
     if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
@@ -44,7 +44,7 @@ Canvas::~Canvas() {
     cairo_surface_destroy(drawing_->surface);
 }
 
-void Canvas::line(std::span<const glm::dvec2> points, Colour c, double thickness, bool dashed) {
+void Canvas::line(std::span<const glm::dvec2> points, CanvasColour c, double thickness, bool dashed) {
     if (points.size() < 2) return;
     cairo_new_path(drawing_->cairo);
     for (const glm::dvec2 p : points) cairo_line_to(drawing_->cairo, p.x, p.y);
@@ -54,36 +54,36 @@ void Canvas::line(std::span<const glm::dvec2> points, Colour c, double thickness
     cairo_set_dash(drawing_->cairo, nullptr, 0, 0);
 }
 
-void Canvas::line(glm::dvec2 from, glm::dvec2 to, Colour c, double thickness, bool dashed) {
+void Canvas::line(glm::dvec2 from, glm::dvec2 to, CanvasColour c, double thickness, bool dashed) {
     const glm::dvec2 points[] = {from, to};
     line(points, c, thickness, dashed);
 }
 
-void Canvas::rectangle(glm::dvec2 corner, glm::dvec2 size, Colour c, double thickness) {
+void Canvas::rectangle(glm::dvec2 corner, glm::dvec2 size, CanvasColour c, double thickness) {
     cairo_rectangle(drawing_->cairo, corner.x, corner.y, size.x, size.y);
     drawing_->stroke(c, thickness);
 }
 
-void Canvas::fill(glm::dvec2 corner, glm::dvec2 size, Colour c) {
+void Canvas::fill(glm::dvec2 corner, glm::dvec2 size, CanvasColour c) {
     drawing_->colour(c);
     cairo_rectangle(drawing_->cairo, corner.x, corner.y, size.x, size.y);
     cairo_fill(drawing_->cairo);
 }
 
-void Canvas::circle(glm::dvec2 centre, double radius, Colour c, double thickness) {
+void Canvas::circle(glm::dvec2 centre, double radius, CanvasColour c, double thickness) {
     cairo_new_path(drawing_->cairo);
     cairo_arc(drawing_->cairo, centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
     drawing_->stroke(c, thickness);
 }
 
-void Canvas::disc(glm::dvec2 centre, double radius, Colour c) {
+void Canvas::disc(glm::dvec2 centre, double radius, CanvasColour c) {
     drawing_->colour(c);
     cairo_new_path(drawing_->cairo);
     cairo_arc(drawing_->cairo, centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
     cairo_fill(drawing_->cairo);
 }
 
-void Canvas::text(glm::dvec2 at, const std::string& words, double size, Align align, Colour c, bool halo, bool turned) {
+void Canvas::text(glm::dvec2 at, const std::string& words, double size, Align align, CanvasColour c, bool halo, bool turned) {
     cairo_t* cairo = drawing_->cairo;
     const double width = text_width(words, size);
     cairo_save(cairo);
@@ -93,7 +93,7 @@ void Canvas::text(glm::dvec2 at, const std::string& words, double size, Align al
     cairo_move_to(cairo, left, 0.36 * size);  // half the height of capitals
     if (halo) {
         cairo_text_path(cairo, words.c_str());
-        drawing_->stroke(Colour(c.r + c.g + c.b > 1.5 ? 0 : 1), 3);
+        drawing_->stroke(CanvasColour(c.r + c.g + c.b > 1.5 ? 0 : 1), 3);
         cairo_move_to(cairo, left, 0.36 * size);
     }
     drawing_->colour(c);

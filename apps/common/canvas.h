@@ -11,14 +11,14 @@
 
 namespace vesper {
 
-using Colour = glm::dvec3;  ///< as displayed (sRGB codes), [0, 1]
+using CanvasColour = glm::dvec3;  ///< as displayed (sRGB codes), [0, 1]
 
 /// A picture in the making: pixels from the top left, y down. Words are in DejaVu Sans or what there is instead.
 class Canvas {
 public:
     enum class Align : uint8_t { Left, Centre, Right };
 
-    Canvas(uint32_t width, uint32_t height, Colour background = Colour(1));
+    Canvas(uint32_t width, uint32_t height, CanvasColour background = CanvasColour(1));
     ~Canvas();
     Canvas(const Canvas&) = delete;
     Canvas& operator=(const Canvas&) = delete;
@@ -26,14 +26,14 @@ public:
     uint32_t width() const { return width_; }
     uint32_t height() const { return height_; }
 
-    void line(std::span<const glm::dvec2> points, Colour, double thickness = 1, bool dashed = false);
-    void line(glm::dvec2 from, glm::dvec2 to, Colour, double thickness = 1, bool dashed = false);
-    void rectangle(glm::dvec2 corner, glm::dvec2 size, Colour, double thickness = 1);
-    void fill(glm::dvec2 corner, glm::dvec2 size, Colour);
-    void circle(glm::dvec2 centre, double radius, Colour, double thickness = 1);
-    void disc(glm::dvec2 centre, double radius, Colour);
+    void line(std::span<const glm::dvec2> points, CanvasColour, double thickness = 1, bool dashed = false);
+    void line(glm::dvec2 from, glm::dvec2 to, CanvasColour, double thickness = 1, bool dashed = false);
+    void rectangle(glm::dvec2 corner, glm::dvec2 size, CanvasColour, double thickness = 1);
+    void fill(glm::dvec2 corner, glm::dvec2 size, CanvasColour);
+    void circle(glm::dvec2 centre, double radius, CanvasColour, double thickness = 1);
+    void disc(glm::dvec2 centre, double radius, CanvasColour);
     /// One line of UTF-8, its middle at the height of `at`; `halo` outlines it against what lies below. `turned` runs up.
-    void text(glm::dvec2 at, const std::string&, double size, Align = Align::Left, Colour = Colour(0), bool halo = false,
+    void text(glm::dvec2 at, const std::string&, double size, Align = Align::Left, CanvasColour = CanvasColour(0), bool halo = false,
               bool turned = false);
     double text_width(const std::string&, double size);
     /// A block of RGBA pixels with its upper left corner at (x, y), clipped.

@@ -13,7 +13,7 @@ constexpr std::array<uint32_t, 17> kMap{0x440154, 0x48186a, 0x472d7b, 0x424086, 
                                         0x2c728e, 0x26828e, 0x21918c, 0x1fa088, 0x28ae80, 0x3fbc73,
                                         0x5ec962, 0x84d44b, 0xaddc30, 0xd8e219, 0xfde725};
 
-Colour colour_of(uint32_t hex) { return glm::dvec3(hex >> 16 & 255, hex >> 8 & 255, hex & 255) / 255.0; }
+CanvasColour colour_of(uint32_t hex) { return glm::dvec3(hex >> 16 & 255, hex >> 8 & 255, hex & 255) / 255.0; }
 
 /// 1, 2 or 5 times a power of ten, at most or at least the value.
 double rounded(double value, bool up) {
@@ -28,7 +28,7 @@ double rounded(double value, bool up) {
 
 }  // namespace
 
-Colour map_colour(double position) {
+CanvasColour map_colour(double position) {
     const double place = std::clamp(position, 0.0, 1.0) * (kMap.size() - 1);
     const size_t below = std::min(static_cast<size_t>(place), kMap.size() - 2);
     return glm::mix(colour_of(kMap[below]), colour_of(kMap[below + 1]), place - static_cast<double>(below));
@@ -77,11 +77,11 @@ std::vector<uint8_t> false_colours(const ValuePicture& picture, const ColourScal
     std::vector<uint8_t> rgba;
     rgba.reserve(picture.values.size() * 4);
     for (const float value : picture.values) {
-        Colour c = map_colour(scale.position(static_cast<double>(value)));
+        CanvasColour c = map_colour(scale.position(static_cast<double>(value)));
         if (!std::isfinite(value))
             c = {1, 0, 1};
         else if (!(value > 0))
-            c = Colour(0);
+            c = CanvasColour(0);
         for (int i = 0; i < 3; ++i) rgba.push_back(static_cast<uint8_t>(c[i] * 255 + 0.5));
         rgba.push_back(255);
     }
@@ -106,7 +106,7 @@ void draw_contours(Canvas& canvas, const ValuePicture& picture, std::span<const 
                         crossing[found++] = glm::mix(place[i], place[(i + 1) % 4], (level - a) / (b - a));
                 }
                 for (size_t i = 0; i + 1 < found; i += 2)
-                    canvas.line(corner + crossing[i] + 0.5, corner + crossing[i + 1] + 0.5, Colour(1), 1);
+                    canvas.line(corner + crossing[i] + 0.5, corner + crossing[i + 1] + 0.5, CanvasColour(1), 1);
             }
 }
 
@@ -114,11 +114,11 @@ void draw_colour_bar(Canvas& canvas, glm::dvec2 corner, double height, const Col
     constexpr double kWide = 24;
     canvas.text(corner + glm::dvec2(0, -14), unit, 13);
     for (double y = 0; y < height; ++y) canvas.fill(corner + glm::dvec2(0, y), {kWide, 1.5}, map_colour(1 - y / height));
-    canvas.rectangle(corner, {kWide, height}, Colour(0));
+    canvas.rectangle(corner, {kWide, height}, CanvasColour(0));
     double free = HUGE_VAL;
     for (const double tick : log_ticks(scale.low, scale.high)) {
         const double y = corner.y + height * (1 - scale.position(tick));
-        canvas.line({corner.x + kWide, y}, {corner.x + kWide + 5, y}, Colour(0));
+        canvas.line({corner.x + kWide, y}, {corner.x + kWide + 5, y}, CanvasColour(0));
         if (free - y < 14) continue;  // labels must not touch
         canvas.text({corner.x + kWide + 9, y}, tick_label(tick), 12);
         free = y;

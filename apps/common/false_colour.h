@@ -10,7 +10,7 @@
 namespace vesper {
 
 /// viridis (Smith and van der Walt, CC0): dark to light in steps that look even. `position` in [0, 1].
-Colour map_colour(double position);
+CanvasColour map_colour(double position);
 
 /// A logarithmic scale.
 struct ColourScale {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "arguments.h"
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/luminance.h"
 #include "io/atomic_file.h"
@@ -15,7 +15,6 @@
 namespace vesper {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr size_t kMostLamps = 10000;
 constexpr uint64_t kMostLampBytes = 4u << 20;  // of their file
 
@@ -91,7 +90,7 @@ std::vector<OffscreenLamp> read_lamps(const std::string& file) {
         const double azimuth = *values[0], elevation = *values[1], lux = *values[2];
         if (std::abs(azimuth) > 180 || std::abs(elevation) > 90 || lux < 0 || lux > 1e9) lines.fail("degrees of -180 to 180 and -90 to 90 and 0 to 1e9 lx are expected");
         if (lamps.size() == kMostLamps) lines.fail("more than " + std::to_string(kMostLamps) + " lamps");
-        const double a = azimuth / kDegrees, e = elevation / kDegrees;
+        const double a = azimuth / kDegreesPerRadian, e = elevation / kDegreesPerRadian;
         lamps.push_back({{std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)}, glm::dvec3(lux)});
     }
     return lamps;
@@ -148,10 +147,10 @@ std::string glare_sources_lines(unsigned frame, const Scene& scene, std::vector<
     std::stable_sort(sources.begin(), sources.end(), [](const GlareSource& a, const GlareSource& b) { return luminance(a.illuminance) > luminance(b.illuminance); });
     std::string text;
     for (const GlareSource& s : sources) {
-        const double cosine = -s.direction.z, theta = std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees, lux = luminance(s.illuminance);
+        const double cosine = -s.direction.z, theta = std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegreesPerRadian, lux = luminance(s.illuminance);
         std::string name = scene.nodes[s.node].name;
         std::replace_if(name.begin(), name.end(), [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }, ' ');
-        text += format("%u,%s,%.4f,%.4f,%.3f,%.6g,%.6g,%.6g,%.3f\n", frame, name.c_str(), std::atan2(s.direction.x, -s.direction.z) * kDegrees, std::asin(s.direction.y) * kDegrees,
+        text += format("%u,%s,%.4f,%.4f,%.3f,%.6g,%.6g,%.6g,%.3f\n", frame, name.c_str(), std::atan2(s.direction.x, -s.direction.z) * kDegreesPerRadian, std::asin(s.direction.y) * kDegreesPerRadian,
                        s.distance, s.candela, lux, lux * cosine * cie_general_glare(std::max(theta, 0.1), eye), s.inside);
     }
     return text;

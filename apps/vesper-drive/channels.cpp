@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/angle.h"
 #include "io/atomic_file.h"
 #include "scene/json_value.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr size_t kMost = 32;
 constexpr uint64_t kMostPixels = 1ull << 27;  // of all: sixteen times 3840 x 2160
 
@@ -25,10 +24,10 @@ ScreenChannel channel_of(const JsonValue& value) {
     const auto size = value.at("size_px").elements(2);
     c.extent = {uint32_t(size[0].integer(16384)), uint32_t(size[1].integer(16384))};
     if (c.extent.width == 0 || c.extent.height == 0) value.at("size_px").fail("must be at least 1 x 1");
-    c.yaw = value.number_or("yaw_deg", 0, -180, 180) * kDegree;
-    c.pitch = value.number_or("pitch_deg", 0, -90, 90) * kDegree;
-    c.roll = value.number_or("roll_deg", 0, -180, 180) * kDegree;
-    const auto edge = [&](const char* key) { return value.at(key).number(-89, 89) * kDegree; };
+    c.yaw = value.number_or("yaw_deg", 0, -180, 180) * kRadiansPerDegree;
+    c.pitch = value.number_or("pitch_deg", 0, -90, 90) * kRadiansPerDegree;
+    c.roll = value.number_or("roll_deg", 0, -180, 180) * kRadiansPerDegree;
+    const auto edge = [&](const char* key) { return value.at(key).number(-89, 89) * kRadiansPerDegree; };
     c.left = edge("left_deg"), c.right = edge("right_deg"), c.bottom = edge("bottom_deg"), c.top = edge("top_deg");
     if (!(c.right > c.left + 1e-3)) value.at("right_deg").fail("must be more than left_deg");
     if (!(c.top > c.bottom + 1e-3)) value.at("top_deg").fail("must be more than bottom_deg");
@@ -42,7 +41,7 @@ glm::dmat4 turned(const ScreenChannel& c) {
 }
 
 // What `picture` tells of each channel, side by side. What is not finite has no vote.
-std::vector<float> side_by_side(const Wall& wall, VkExtent2D extent, std::vector<float> Frame::*picture) {
+std::vector<float> side_by_side(const ChannelMosaic& wall, VkExtent2D extent, std::vector<float> Frame::*picture) {
     std::vector<float> pixels(size_t(extent.width) * extent.height * 4, std::numeric_limits<float>::quiet_NaN());
     for (size_t i = 0; i < wall.channels.size(); ++i) {
         const auto [width, height] = wall.channels[i].extent;
@@ -87,7 +86,7 @@ View channel_view(const ScreenChannel& c, const View& driver) {
     return view;
 }
 
-Frame looked_at(Wall& wall, const Channels& channels) {
+Frame looked_at(ChannelMosaic& wall, const Channels& channels) {
     double device = 0;
     for (const Frame& channel : wall.channels)
         for (const Timing& timing : channel.timings) device += timing.milliseconds;
@@ -98,9 +97,9 @@ Frame looked_at(Wall& wall, const Channels& channels) {
     return frame;
 }
 
-Wall ChannelRenderer::render(Renderer& renderer, const Channels& channels, const RenderSettings& settings, const View& driver, const SceneFrame& frame,
+ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channels, const RenderSettings& settings, const View& driver, const SceneFrame& frame,
                              float seconds, Outputs outputs) {
-    Wall wall;
+    ChannelMosaic wall;
     VkExtent2D extent{0, 0};
     for (const ScreenChannel& c : channels.screens) {
         wall.columns.push_back(extent.width);

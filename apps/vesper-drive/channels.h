@@ -31,14 +31,14 @@ Channels read_channels(const std::filesystem::path&);
 View channel_view(const ScreenChannel&, const View& driver);
 
 /// All channels of a moment, side by side, tops aligned; what lies below the shorter ones is black.
-struct Wall {
+struct ChannelMosaic {
     ToneMapped shown;                ///< the picture of all of them; `scene`: before anything is scattered in the eye
     std::vector<uint32_t> columns;   ///< where each begins
     std::vector<Frame> channels;     ///< each with its lamps and times; of `retina` and `scene` the first is empty where nothing is scattered
 };
 
 /// The channel that is looked at, with the eye, curve and times of the whole: what is logged.
-Frame looked_at(Wall&, const Channels&);
+Frame looked_at(ChannelMosaic&, const Channels&);
 
 /// Renders channels one after the other, scatters the light of all of them in the one eye, then adapts and shows them as one picture:
 /// one histogram, one eye, one tone curve.
@@ -46,7 +46,7 @@ class ChannelRenderer {
 public:
     explicit ChannelRenderer(Device& device) : glare_(device), mapper_(device) {}
 
-    Wall render(Renderer&, const Channels&, const RenderSettings&, const View& driver, const SceneFrame&, float seconds, Outputs);
+    ChannelMosaic render(Renderer&, const Channels&, const RenderSettings&, const View& driver, const SceneFrame&, float seconds, Outputs);
     void reset_adaptation() { eye_.reset(), mapper_.reset_adaptation(); }
     void set_eye(const shared::EyeState& eye) { eye_ = eye, mapper_.set_eye(eye); }
 

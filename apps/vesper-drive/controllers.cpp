@@ -14,7 +14,7 @@ namespace vesper {
 namespace {
 
 constexpr size_t kMostAxes = 64, kMostButtons = 256, kMostMappings = 256;
-constexpr uint64_t kMostBytes = 1 << 20;
+constexpr uint64_t kMaxControllerBytes = 1 << 20;
 
 /// The member that is an end of an axis.
 double end_of(const JsonValue& value, const char* key, double fallback) { return value.number_or(key, fallback, -1, 1); }
@@ -91,7 +91,7 @@ const ControllerMapping& gamepad_mapping() {
 }
 
 std::vector<ControllerMapping> read_controllers(const std::filesystem::path& file) {
-    const JsonFile json = parse_json(read_file(file, kMostBytes), file.string());
+    const JsonFile json = parse_json(read_file(file, kMaxControllerBytes), file.string());
     const JsonValue root(json);
     root.allow_only({"controllers"});
     std::vector<ControllerMapping> mappings;

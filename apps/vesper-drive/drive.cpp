@@ -54,7 +54,7 @@ std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArgu
 }
 
 void check_outputs(const DriveArguments& a, const FilesRead& read) {
-    for (const auto& [option, file] : growing_outputs(a)) spare(read, option, file);
+    for (const auto& [option, file] : growing_outputs(a)) refuse_overwriting(read, option, file);
 }
 
 DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {

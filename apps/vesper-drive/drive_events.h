@@ -18,7 +18,7 @@ namespace vesper {
 struct DriveEvent {
     enum class Kind : uint8_t { Step, Frame, Set, Restart };
     Kind kind = Kind::Step;
-    DriverInput input;              ///< Step
+    traffic::DriverInput input;              ///< Step
     std::optional<glm::dvec4> pose; ///< Step: X, Z (m), yaw (rad) and speed (m/s) of the driver's car after it, where that is known
     std::string name, value;        ///< Set
     uint64_t place = 0;             ///< Set: which event of its file it is in
@@ -52,7 +52,7 @@ public:
 private:
     struct Held {
         size_t from;  // the first step
-        DriverInput input;
+        traffic::DriverInput input;
     };
     struct Change {
         std::string name, value;

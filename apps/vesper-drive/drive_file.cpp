@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr uint64_t kMostBytes = 2ull << 30;
+constexpr uint64_t kMaxDriveBytes = 2ull << 30;
 constexpr uint64_t kLargestSide = 16384;  // px, as of --size
 constexpr const char* kBeams[]{"off", "low", "high"};
 constexpr const char* kIndicators[]{"none", "left", "right", "both"};
@@ -31,21 +31,21 @@ size_t choice(const JsonValue& value, const char* const (&names)[N]) {
     value.fail("is not known");
 }
 
-DriverInput read_input(const JsonValue& step, const DriverInput& before) {
+traffic::DriverInput read_input(const JsonValue& step, const traffic::DriverInput& before) {
     step.allow_only({"steering", "throttle", "brake", "reverse", "beam", "indicator", "autopilot"});
-    DriverInput input = before;
+    traffic::DriverInput input = before;
     input.steering = step.number_or("steering", before.steering, -1, 1);
     input.throttle = step.number_or("throttle", before.throttle, 0, 1);
     input.brake = step.number_or("brake", before.brake, 0, 1);
     input.reverse = step.boolean_or("reverse", before.reverse);
     input.autopilot = step.boolean_or("autopilot", before.autopilot);
-    if (const auto beam = step.find("beam")) input.beam = Beam(choice(*beam, kBeams));
-    if (const auto indicator = step.find("indicator")) input.indicator = Indicator(choice(*indicator, kIndicators));
+    if (const auto beam = step.find("beam")) input.beam = traffic::Beam(choice(*beam, kBeams));
+    if (const auto indicator = step.find("indicator")) input.indicator = traffic::Indicator(choice(*indicator, kIndicators));
     return input;
 }
 
 // What differs from the step before.
-std::string input_text(const DriverInput& input, const DriverInput& before) {
+std::string input_text(const traffic::DriverInput& input, const traffic::DriverInput& before) {
     json made = json::object();
     if (input.steering != before.steering) made["steering"] = input.steering;
     if (input.throttle != before.throttle) made["throttle"] = input.throttle;
@@ -57,7 +57,7 @@ std::string input_text(const DriverInput& input, const DriverInput& before) {
     return made.dump();
 }
 
-std::string step_text(const DriveEvent& event, const DriverInput& before) {
+std::string step_text(const DriveEvent& event, const traffic::DriverInput& before) {
     const glm::dvec4 pose = event.pose.value_or(glm::dvec4(0));
     return "{\"step\":" + input_text(event.input, before) + format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]}", pose.x, pose.y, pose.z, pose.w);
 }
@@ -100,7 +100,7 @@ DriveSettings::Values read_values(const JsonValue& object) {
 }
 
 // What an event of a file says, added to a drive. `input`: of the step before.
-void read_event(const JsonValue& event, uint64_t place, DriverInput& input, DriveEvents& events) {
+void read_event(const JsonValue& event, uint64_t place, traffic::DriverInput& input, DriveEvents& events) {
     event.allow_only({"step", "pose", "frame", "set", "restart"});
     if (event.find("pose") && !event.find("step")) event.fail("has a pose without a step");
     if (event.json().size() != (event.find("pose") ? 2 : 1)) event.fail("is more than one step, frame, set or restart");
@@ -175,14 +175,14 @@ private:
     std::string key_;  // of the root, where the parser is
     int values_ = 0;
     uint64_t place_ = 0;
-    DriverInput input_;
+    traffic::DriverInput input_;
 };
 
 }  // namespace
 
 Drive read_drive(const std::filesystem::path& file) {
     Drive drive{.file = file, .start = {}, .events = {}};
-    const JsonFile text = DriveParser(one_line(file.string()), drive).parse(read_file(file, kMostBytes));
+    const JsonFile text = DriveParser(one_line(file.string()), drive).parse(read_file(file, kMaxDriveBytes));
     const JsonValue root(text);
     root.allow_only({"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "size_px", "settings", "events"});
     if (root.at("vesper_drive").integer() != 1) root.at("vesper_drive").fail("this version of Vesper reads drives of version 1");

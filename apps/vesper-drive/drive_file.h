@@ -58,7 +58,7 @@ private:
     DriveStart start_;
     DriveEvents events_;
     bool first_ = true;  // the next line
-    DriverInput last_;   // of the lines so far
+    traffic::DriverInput last_;   // of the lines so far
     std::unique_ptr<GrowingFile> file_;
 };
 

@@ -63,13 +63,13 @@ std::vector<LogProbe> probes_of(const std::vector<std::string>& texts) {
 DriveLog::DriveLog(const std::string& file, std::vector<LogProbe> probes) : file_(file), probes_(std::move(probes)) { file_.append(heading(probes_)); }
 
 // NODE@SPEED of each, the speed (m/s) at which they met; several are parted by semicolons.
-void DriveLog::add(const Contact& contact) { contacts_ += (contacts_.empty() ? "" : ";") + csv_name(contact.node) + format("@%.3g", contact.speed); }
+void DriveLog::add(const traffic::Contact& contact) { contacts_ += (contacts_.empty() ? "" : ";") + csv_name(contact.node) + format("@%.3g", contact.speed); }
 
 void DriveLog::add(const Session& session, const View& view, const Frame& frame) {
-    const World& world = session.world();
-    const Actor& me = session.actors().front();
-    const VehicleState& car = world.driver();
-    const DriverInput& input = session.input();
+    const traffic::World& world = session.world();
+    const traffic::Actor& me = session.actors().front();
+    const traffic::VehicleState& car = world.driver();
+    const traffic::DriverInput& input = session.input();
     const RenderSettings& settings = session.settings().render();
     std::string line = format("%u,%llu,%.6f,%.9g,%s", rows_++, static_cast<unsigned long long>(world.steps()), world.seconds(), session.eye_step(), name_of(settings.tone_operator).c_str());
     for (const double value : {me.position.x, me.position.y, me.position.z, me.yaw, me.pitch, me.speed, car.acceleration, car.angle}) line += format(",%.9g", value);

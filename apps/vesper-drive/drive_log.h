@@ -23,7 +23,7 @@ public:
     DriveLog(const std::string& file, std::vector<LogProbe> probes);
 
     /// What the next row says was met.
-    void add(const Contact&);
+    void add(const traffic::Contact&);
     /// `frame` must have its luminances; without them (the ldr operator) the columns that need them are empty.
     void add(const Session&, const View&, const Frame& frame);
     void complete() { file_.complete(); }

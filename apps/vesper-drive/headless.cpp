@@ -96,7 +96,7 @@ public:
         if (names_) check_numbered(read, frames);
         if (!arguments_.log.empty()) log_.emplace(arguments_.log, probes_);
     }
-    void add(const Contact& contact) {
+    void add(const traffic::Contact& contact) {
         if (log_) log_->add(contact);
     }
     Outputs outputs(const Session& session) const {
@@ -134,7 +134,7 @@ private:
         Files others;
         for (const auto& [option, other] : growing_outputs(arguments_)) others.writes(option, other);
         others.writes("--video", file);
-        spare(read, "--video", file);
+        refuse_overwriting(read, "--video", file);
     }
     Header header(const Session& session, const ToneMapped& frame, uint32_t lamps) const {
         std::string options;  // settings other than the defaults
@@ -163,7 +163,7 @@ private:
 
 // One picture of all channels; the log is of the one that is looked at.
 void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, double fps) {
-    Wall wall = session.render(channels, outlet.outputs(session));
+    ChannelMosaic wall = session.render(channels, outlet.outputs(session));
     const Frame logged = looked_at(wall, channels);
     outlet.take(index, session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), wall.shown, logged, fps);
 }
@@ -203,7 +203,7 @@ void run_headless(const DriveArguments& a) {
     Session session(device, options, std::move(scenery));
     Playback playback(std::move(drive.events), a.settings);
     outlet.open(read, playback.frames());
-    session.on_contact = [&](const Contact& contact) { outlet.add(contact); };
+    session.on_contact = [&](const traffic::Contact& contact) { outlet.add(contact); };
     for (const std::string& note : session.scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
     if (!a.record.empty()) session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height)) : std::nullopt);
     Progress progress(replays ? "replaying" : "driving", unsigned(std::max<size_t>(1, playback.frames())));

@@ -1,4 +1,4 @@
-#include "hands.h"
+#include "input_devices.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,14 +21,14 @@ const std::vector<bool>& buttons_of(const ControllerState& c, const ControllerMa
 }  // namespace
 
 double KeyboardWheel::turn(const HeldInput& held, double speed, double seconds) {
-    const double wish = (held.left ? 1 : 0) - (held.right ? 1 : 0);
+    const double target = (held.left ? 1 : 0) - (held.right ? 1 : 0);
     const double lock = lock_at(speed);
-    const bool back = wish == 0 || wish * angle_ < 0;
-    angle_ = std::clamp(towards(angle_, wish * lock, (back ? kReturn : kTurn) * lock * seconds), -1.0, 1.0);
+    const bool back = target == 0 || target * angle_ < 0;
+    angle_ = std::clamp(towards(angle_, target * lock, (back ? kReturn : kTurn) * lock * seconds), -1.0, 1.0);
     return angle_;
 }
 
-std::vector<Action> Hands::look(std::vector<ControllerState> now) {
+std::vector<Action> InputDevices::look(std::vector<ControllerState> now) {
     std::vector<Action> actions;
     for (const ControllerState& c : now) {
         const auto before = std::find_if(controllers_.begin(), controllers_.end(), [&](const ControllerState& o) { return o.name == c.name; });
@@ -47,20 +47,20 @@ std::vector<Action> Hands::look(std::vector<ControllerState> now) {
     return actions;
 }
 
-bool Hands::press(Action action) {
-    const auto indicate = [&](Indicator side) { input_.indicator = input_.indicator == side ? Indicator::None : side; };
+bool InputDevices::press(Action action) {
+    const auto indicate = [&](traffic::Indicator side) { input_.indicator = input_.indicator == side ? traffic::Indicator::None : side; };
     switch (action) {
         case Action::Autopilot: input_.autopilot = !input_.autopilot; return true;
         case Action::Reverse: input_.reverse = !input_.reverse; return true;
-        case Action::Beam: input_.beam = input_.beam == Beam::Low ? Beam::High : input_.beam == Beam::High ? Beam::Off : Beam::Low; return true;
-        case Action::IndicateLeft: indicate(Indicator::Left); return true;
-        case Action::IndicateRight: indicate(Indicator::Right); return true;
-        case Action::Hazard: indicate(Indicator::Both); return true;
+        case Action::Beam: input_.beam = input_.beam == traffic::Beam::Low ? traffic::Beam::High : input_.beam == traffic::Beam::High ? traffic::Beam::Off : traffic::Beam::Low; return true;
+        case Action::IndicateLeft: indicate(traffic::Indicator::Left); return true;
+        case Action::IndicateRight: indicate(traffic::Indicator::Right); return true;
+        case Action::Hazard: indicate(traffic::Indicator::Both); return true;
         default: return false;
     }
 }
 
-DriverInput Hands::next(const HeldInput& held, double speed, double seconds) {
+traffic::DriverInput InputDevices::next(const HeldInput& held, double speed, double seconds) {
     input_.steering = wheel_.turn(held, speed, seconds);
     input_.throttle = held.accelerate ? 1 : 0;
     input_.brake = held.brake ? 1 : 0;

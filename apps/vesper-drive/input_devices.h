@@ -1,4 +1,4 @@
-// Hands and feet of the driver: keys, gamepads and wheels become the input of a simulation. SPDX-License-Identifier: MIT
+// Keys, gamepads and wheels, combined into the input of the driver. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <optional>
@@ -27,18 +27,18 @@ private:
 };
 
 /// Everything that drives. What keys and controllers say is combined: the wheel that is turned further, the pedal that is pressed harder.
-class Hands {
+class InputDevices {
 public:
-    explicit Hands(std::vector<ControllerMapping> mappings = {}) : mappings_(std::move(mappings)) {}
+    explicit InputDevices(std::vector<ControllerMapping> mappings = {}) : mappings_(std::move(mappings)) {}
 
     /// Looks at what is plugged in now. Gives actions of buttons that went down since; what was just plugged in or out is said.
     std::vector<Action> look(std::vector<ControllerState>);
     /// Beam, indicators, autopilot, gear. False: the action is none of the driver's.
     bool press(Action);
     /// The input of the next step.
-    DriverInput next(const HeldInput&, double speed, double seconds);
+    traffic::DriverInput next(const HeldInput&, double speed, double seconds);
 
-    const DriverInput& last() const { return input_; }
+    const traffic::DriverInput& last() const { return input_; }
     void release() { input_ = {}, wheel_ = {}; }  ///< as at the start
     const std::vector<ControllerState>& controllers() const { return controllers_; }
     /// What a controller is used as; nothing: it has no mapping.
@@ -49,7 +49,7 @@ private:
     std::vector<ControllerMapping> mappings_;
     std::vector<ControllerState> controllers_;
     KeyboardWheel wheel_;
-    DriverInput input_;
+    traffic::DriverInput input_;
     std::string notice_;
 };
 

@@ -72,7 +72,7 @@ std::span<const uint8_t> Instruments::coloured(const Frame& frame, uint64_t numb
     return coloured_;
 }
 
-std::vector<Change> Instruments::draw(const Moment& now) {
+std::vector<Change> Instruments::draw(const FrameState& now) {
     std::vector<Change> changes;
     if (!now.message.empty() && (now.alarm || !clean_)) draw_message(now.message);
     if (clean_) return changes;
@@ -102,10 +102,10 @@ bool Instruments::begin(Panel panel, const char* title, glm::vec2 place, glm::ve
     return drawn;
 }
 
-void Instruments::draw_status(const Moment& now) const {
+void Instruments::draw_status(const FrameState& now) const {
     const RenderSettings& settings = now.session.settings().render();
-    const VehicleState& me = now.session.world().driver();
-    const DriverInput& input = now.hands.last();
+    const traffic::VehicleState& me = now.session.world().driver();
+    const traffic::DriverInput& input = now.hands.last();
     const auto& values = now.session.settings().values();
     const auto value_or = [&](const char* name, const char* fallback) {
         const auto found = values.find(name);
@@ -115,7 +115,7 @@ void Instruments::draw_status(const Moment& now) const {
     ImGui::SetNextWindowBgAlpha(0.55f);
     if (ImGui::Begin("status", nullptr, kPlain)) {
         ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x - 32);
-        const char* beam = input.beam == Beam::Low ? "low beam" : input.beam == Beam::High ? "high beam" : "no lights";
+        const char* beam = input.beam == traffic::Beam::Low ? "low beam" : input.beam == traffic::Beam::High ? "high beam" : "no lights";
         ImGui::Text("%3.0f km/h  %s%s%s", std::abs(me.speed) * 3.6, beam, input.reverse ? "  reverse" : "", input.autopilot ? "  autopilot" : "");
         ImGui::TextUnformatted(format("%s  |  glare %s  |  display %s  |  observer of %.0f  |  adapted to %.3g cd/m²  |  %.1f pictures/s%s%s", name_of(settings.tone_operator).c_str(), value_or("glare", "none").c_str(),
                                       value_or("display", known_displays().front().name).c_str(), settings.tone.observer.age, double(now.frame.curve.adaptation), now.shown_per_second,
@@ -168,7 +168,7 @@ void Instruments::draw_keys() {
     ImGui::End();
 }
 
-void Instruments::draw_performance(const Moment& now) {
+void Instruments::draw_performance(const FrameState& now) {
     if (begin(kPerformance, "Performance (F3)", {-8, 8}, {380, 420})) {
         double total = 0;
         for (const Timing& timing : now.frame.timings) total += timing.milliseconds;
@@ -186,7 +186,7 @@ void Instruments::draw_performance(const Moment& now) {
     ImGui::End();
 }
 
-void Instruments::draw_controllers(const Moment& now) {
+void Instruments::draw_controllers(const FrameState& now) {
     if (begin(kControllers, "Controllers (J)", {-8, -8}, {420, 300}, ImGuiWindowFlags_HorizontalScrollbar)) {
         if (now.hands.controllers().empty()) ImGui::TextDisabled("nothing is plugged in");
         for (const ControllerState& c : now.hands.controllers()) {
@@ -198,7 +198,7 @@ void Instruments::draw_controllers(const Moment& now) {
                 if (c.buttons[i]) pressed += " " + std::to_string(i);
             ImGui::Text("  buttons pressed:%s", pressed.empty() ? " none" : pressed.c_str());
         }
-        const DriverInput& input = now.hands.last();
+        const traffic::DriverInput& input = now.hands.last();
         ImGui::Text("steering %+.2f  throttle %.2f  brake %.2f", input.steering, input.throttle, input.brake);
     }
     ImGui::End();

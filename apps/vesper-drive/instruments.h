@@ -8,21 +8,21 @@
 #include <utility>
 #include <vector>
 
-#include "hands.h"
+#include "input_devices.h"
 #include "screen.h"
 #include "session.h"
 
-#include "false_colour.h"  // last: g++ 12 takes its Colour for the one that others have within an enumeration
+#include "false_colour.h"
 
 namespace vesper {
 
 /// What is shown at the moment.
-struct Moment {
+struct FrameState {
     const Session& session;
     const Screen& screen;
     const Frame& frame;              ///< the last one that was rendered
     const View& view;                ///< of the channel under the mouse, or of all of it
-    const Hands& hands;
+    const InputDevices& hands;
     std::optional<glm::uvec2> pixel, view_pixel; ///< of the frame and of that view, under the mouse
     double shown_per_second = 0;     ///< pictures
     bool paused = false;
@@ -52,7 +52,7 @@ public:
     std::span<const uint8_t> coloured(const Frame&, uint64_t number);
 
     /// Declares everything that is visible; gives what was changed.
-    std::vector<Change> draw(const Moment&);
+    std::vector<Change> draw(const FrameState&);
 
 private:
     enum Panel : unsigned { kKeys = 1, kPerformance = 2, kLight = 4, kEye = 8, kSwitches = 16, kLamps = 32, kProbe = 64, kControllers = 128 };
@@ -61,16 +61,16 @@ private:
     bool begin(Panel, const char* title, glm::vec2 place, glm::vec2 size, int flags = 0);
     bool leave();
 
-    void draw_status(const Moment&) const;
+    void draw_status(const FrameState&) const;
     void draw_message(const std::string&) const;
     void draw_keys();
-    void draw_performance(const Moment&);
-    void draw_light(const Moment&);
+    void draw_performance(const FrameState&);
+    void draw_light(const FrameState&);
     void draw_eye();
-    void draw_switches(const Moment&, std::vector<Change>&);
-    void draw_lamps(const Moment&, std::vector<Change>&);
-    void draw_probe(const Moment&);
-    void draw_controllers(const Moment&);
+    void draw_switches(const FrameState&, std::vector<Change>&);
+    void draw_lamps(const FrameState&, std::vector<Change>&);
+    void draw_probe(const FrameState&);
+    void draw_controllers(const FrameState&);
     void draw_scale();
 
     struct Past {

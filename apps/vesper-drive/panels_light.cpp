@@ -15,7 +15,7 @@
 namespace vesper {
 
 // Votes of luminances, and what the operator makes of each: both over the same axis, on which the range of the display lies too.
-void Instruments::draw_light(const Moment& now) {
+void Instruments::draw_light(const FrameState& now) {
     if (begin(kLight, "Light (F4)", {8, 8}, {520, 300})) {
         const RenderSettings& settings = now.session.settings().render();
         const HistogramSettings& bins = settings.histogram;
@@ -89,7 +89,7 @@ void Instruments::draw_eye() {
     ImGui::End();
 }
 
-void Instruments::draw_probe(const Moment& now) {
+void Instruments::draw_probe(const FrameState& now) {
     if (begin(kProbe, "Probe (F8)", {-8, 440}, {380, 200}, ImGuiWindowFlags_HorizontalScrollbar)) {
         const Frame& frame = now.frame;
         if (!now.pixel) {
@@ -128,7 +128,7 @@ void Instruments::draw_scale() {
         const float width = ImGui::GetContentRegionAvail().x;
         ImDrawList* list = ImGui::GetWindowDrawList();
         for (float x = 0; x < width; ++x) {
-            const Colour c = map_colour(double(x / (width - 1)));
+            const CanvasColour c = map_colour(double(x / (width - 1)));
             list->AddRectFilled({at.x + x, at.y}, {at.x + x + 1, at.y + 16}, ImGui::ColorConvertFloat4ToU32({float(c.r), float(c.g), float(c.b), 1}));
         }
         float free = -1;

@@ -46,7 +46,7 @@ private:
 
 }  // namespace
 
-void Instruments::draw_switches(const Moment& now, std::vector<Change>& changes) {
+void Instruments::draw_switches(const FrameState& now, std::vector<Change>& changes) {
     if (begin(kSwitches, "Switches (F6)", {-8, 8}, {430, 560})) {
         const DriveSettings& settings = now.session.settings();
         const RenderSettings& render = settings.render();
@@ -98,7 +98,7 @@ void Instruments::draw_switches(const Moment& now, std::vector<Change>& changes)
     ImGui::End();
 }
 
-void Instruments::draw_lamps(const Moment& now, std::vector<Change>& changes) {
+void Instruments::draw_lamps(const FrameState& now, std::vector<Change>& changes) {
     if (begin(kLamps, "Lamps (F7)", {-446, 8}, {430, 360}, ImGuiWindowFlags_HorizontalScrollbar)) {
         const auto& factors = now.session.settings().lamps();
         for (const LampGroup& group : now.session.scenery().lamp_groups()) {

@@ -10,7 +10,7 @@
 namespace vesper {
 namespace {
 
-constexpr float kDegree = std::numbers::pi_v<float> / 180;
+constexpr float kRadiansPerDegreeF = std::numbers::pi_v<float> / 180;
 constexpr float kHalogen = 3800;                                            // K
 const glm::vec3 kRed(1, 0.02f, 0.01f), kAmber(1, 0.38f, 0);
 
@@ -53,13 +53,13 @@ uint32_t beam(Scene& scene, const std::string& name, const std::string& file) {
 }
 
 uint32_t signal(Scene& scene, const std::string& name, float candela, float outer, glm::vec3 colour, double width, double height) {
-    return light_of(scene, {.name = name, .kind = Lamp::Kind::Spot, .intensity = candela, .colour = of_luminance_one(colour), .inner_cone = 10 * kDegree, .outer_cone = outer * kDegree,
+    return light_of(scene, {.name = name, .kind = Lamp::Kind::Spot, .intensity = candela, .colour = of_luminance_one(colour), .inner_cone = 10 * kRadiansPerDegreeF, .outer_cone = outer * kRadiansPerDegreeF,
                             .opening = {.length = width, .width = height}});
 }
 
 }  // namespace
 
-LampRoles plain_lamps() {
+traffic::LampRoles plain_lamps() {
     return {{"low beam"}, {"high beam"}, {"tail lamp"}, {"brake lamp"}, {"left front indicator", "left rear indicator"}, {"right front indicator", "right rear indicator"}};
 }
 

@@ -17,7 +17,7 @@ struct PlainBody {
 };
 
 /// Names of the lamps that plain bodies have.
-LampRoles plain_lamps();
+traffic::LampRoles plain_lamps();
 
 /// Gives a node the body and, at its corners, low and high beams (standard_lamp), tail and brake lamps and indicators. The candela
 /// are those of UN Regulations 6 and 7, as data/rivoli has them.

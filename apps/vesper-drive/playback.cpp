@@ -9,7 +9,7 @@ std::optional<DriveEvent::Kind> Playback::next(Session& session) {
     switch (event.kind) {
         case DriveEvent::Kind::Step: {
             session.step(event.input);
-            const VehicleState& me = session.world().driver();
+            const traffic::VehicleState& me = session.world().driver();
             strayed_ |= event.pose && glm::dvec4(me.position, me.yaw, me.speed) != *event.pose;
             break;
         }

@@ -24,13 +24,13 @@ constexpr double kOffRoad = 3;            // m beyond the edge of the nearest la
 constexpr double kMostOffNoted = 0.05, kMostOff = 0.5;
 
 // A way over lanes as one line.
-std::optional<Course> course_of(const LaneGraph& graph, const std::vector<uint32_t>& way) {
+std::optional<traffic::Course> course_of(const roads::LaneGraph& graph, const std::vector<uint32_t>& way) {
     std::vector<glm::dvec3> points;
     std::vector<double> limits;  // m/s from each point on
     const double width = std::max(graph.lanes()[way.front()].poses.front().width, 2.0);
     for (const uint32_t index : way) {
-        const Lane& lane = graph.lanes()[index];
-        for (const LanePose& pose : lane.poses) {
+        const roads::Lane& lane = graph.lanes()[index];
+        for (const roads::LanePose& pose : lane.poses) {
             const double limit = allowed_speed(lane, pose, limits.empty() ? 0 : limits.back());
             if (points.empty() || std::hypot(pose.position.x - points.back().x, pose.position.z - points.back().z) > 0.2)
                 points.push_back(pose.position), limits.push_back(limit);
@@ -42,13 +42,13 @@ std::optional<Course> course_of(const LaneGraph& graph, const std::vector<uint32
     const auto& next = graph.lanes()[way.back()].successors;
     const bool closed = std::find(next.begin(), next.end(), way.front()) != next.end();
     if (closed && std::hypot(points.front().x - points.back().x, points.front().z - points.back().z) < 0.2) points.pop_back(), limits.pop_back();
-    return Course(graph.lanes()[way.front()].name, std::move(points), width, std::move(limits), closed);
+    return traffic::Course(graph.lanes()[way.front()].name, std::move(points), width, std::move(limits), closed);
 }
 
 // Ways from every lane that none leads to, and from the first of what these leave out; the longest first.
-std::vector<Course> courses_of(const LaneGraph& graph) {
+std::vector<traffic::Course> courses_of(const roads::LaneGraph& graph) {
     std::vector<bool> passed(graph.lanes().size(), false);
-    std::vector<Course> courses;
+    std::vector<traffic::Course> courses;
     const auto take = [&](uint32_t from) {
         const std::vector<uint32_t> way = graph.long_route(from);
         for (const uint32_t lane : way) passed[lane] = true;
@@ -56,21 +56,21 @@ std::vector<Course> courses_of(const LaneGraph& graph) {
     };
     for (const bool entries : {true, false})
         for (uint32_t i = 0; i < graph.lanes().size() && courses.size() < kMostCourses; ++i) {
-            const Lane& lane = graph.lanes()[i];
-            if (lane.type == LaneType::Driving && !passed[i] && (!entries || lane.predecessors.empty())) take(i);
+            const roads::Lane& lane = graph.lanes()[i];
+            if (lane.type == roads::LaneType::Driving && !passed[i] && (!entries || lane.predecessors.empty())) take(i);
         }
-    std::stable_sort(courses.begin(), courses.end(), [](const Course& a, const Course& b) { return a.length() > b.length(); });
+    std::stable_sort(courses.begin(), courses.end(), [](const traffic::Course& a, const traffic::Course& b) { return a.length() > b.length(); });
     return courses;
 }
 
-VehicleLamps lamps_at(const RunEntity& e, double time) {
-    const auto lit = [&](RunLamp lamp) { return lamp_at(e, lamp, time).level > 0.5; };
-    const bool low = lit(RunLamp::LowBeam), high = lit(RunLamp::HighBeam);
-    return {.low = low, .high = high, .tail = low || high || lit(RunLamp::FogRear), .brake = lit(RunLamp::Brake), .left = lit(RunLamp::IndicatorLeft), .right = lit(RunLamp::IndicatorRight)};
+traffic::VehicleLamps lamps_at(const roads::RunEntity& e, double time) {
+    const auto lit = [&](roads::RunLamp lamp) { return lamp_at(e, lamp, time).level > 0.5; };
+    const bool low = lit(roads::RunLamp::LowBeam), high = lit(roads::RunLamp::HighBeam);
+    return {.low = low, .high = high, .tail = low || high || lit(roads::RunLamp::FogRear), .brake = lit(roads::RunLamp::Brake), .left = lit(roads::RunLamp::IndicatorLeft), .right = lit(roads::RunLamp::IndicatorRight)};
 }
 
-PlainBody body_of(const RunEntity& e) {
-    using Kind = RunEntity::Kind;
+PlainBody body_of(const roads::RunEntity& e) {
+    using Kind = roads::RunEntity::Kind;
     const bool vehicle = e.kind == Kind::Car || e.kind == Kind::Truck || e.kind == Kind::Bus || e.kind == Kind::Motorcycle;
     const glm::dvec3 usual = e.kind == Kind::Truck || e.kind == Kind::Bus ? glm::dvec3(10, 2.5, 3) : vehicle ? glm::dvec3(4.4, 1.8, 1.5) : glm::dvec3(0.5, 0.6, 1.75);
     PlainBody body{.size = usual, .centre = {vehicle ? usual.x * 0.3 : 0, 0, usual.z / 2}, .lamps = vehicle};
@@ -78,11 +78,11 @@ PlainBody body_of(const RunEntity& e) {
     return body;
 }
 
-RecordedMover recording_of(const RunEntity& e, const std::string& node, const RoadNetwork& network) {
-    using Kind = RunEntity::Kind;
+traffic::RecordedMover recording_of(const roads::RunEntity& e, const std::string& node, const roads::RoadNetwork& network) {
+    using Kind = roads::RunEntity::Kind;
     const PlainBody body = body_of(e);
-    RecordedMover r{.node = node, .length = body.size.x, .width = body.size.y, .middle = body.centre.x, .person = e.kind == Kind::Pedestrian || e.kind == Kind::Animal, .poses = {}};
-    for (const RunPose& p : e.poses)
+    traffic::RecordedMover r{.node = node, .length = body.size.x, .width = body.size.y, .middle = body.centre.x, .person = e.kind == Kind::Pedestrian || e.kind == Kind::Animal, .poses = {}};
+    for (const roads::RunPose& p : e.poses)
         r.poses.push_back({p.time, network.to_world(p.position), p.heading - std::numbers::pi / 2, -p.pitch, p.roll, p.speed, lamps_at(e, p.time)});
     return r;
 }
@@ -94,7 +94,7 @@ std::string add_body(Scene& scene, const std::string& name, const PlainBody& bod
 }
 
 // The driver's car of the road's scene stands on the middle of its front axle, that of a world on its own middle.
-void add_drivers_car(RoadWorld& made, const VehicleParameters& vehicle) {
+void add_drivers_car(RoadWorld& made, const traffic::VehicleParameters& vehicle) {
     Scene& scene = made.scene;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
         if (scene.nodes[i].name != "car_ego") continue;
@@ -109,20 +109,20 @@ void add_drivers_car(RoadWorld& made, const VehicleParameters& vehicle) {
 }
 
 // Whether the run was made on these roads: part of the places of its vehicles that lie off all lanes.
-double share_off(const EsminiRun& run, const RoadNetwork& network, const LaneGraph& graph) {
+double share_off(const roads::EsminiRun& run, const roads::RoadNetwork& network, const roads::LaneGraph& graph) {
     constexpr size_t kLooks = 500;  // of an entity
     size_t all = 0, off = 0;
-    for (const RunEntity& e : run.entities) {
-        if (e.kind == RunEntity::Kind::Pedestrian || e.kind == RunEntity::Kind::Animal || e.kind == RunEntity::Kind::Object) continue;
+    for (const roads::RunEntity& e : run.entities) {
+        if (e.kind == roads::RunEntity::Kind::Pedestrian || e.kind == roads::RunEntity::Kind::Animal || e.kind == roads::RunEntity::Kind::Object) continue;
         for (size_t i = 0; i < e.poses.size(); i += 1 + e.poses.size() / kLooks, ++all) {
-            const auto lane = graph.nearest(network.to_world(e.poses[i].position), 20, [](const Lane&) { return true; });
+            const auto lane = graph.nearest(network.to_world(e.poses[i].position), 20, [](const roads::Lane&) { return true; });
             off += !lane || lane->distance - graph.pose(*lane).width / 2 > kOffRoad;
         }
     }
     return all > 0 ? double(off) / double(all) : 0;
 }
 
-void check_place(RoadWorld& made, const EsminiRun& run, const std::filesystem::path& file, const RoadNetwork& network, const LaneGraph& graph) {
+void check_place(RoadWorld& made, const roads::EsminiRun& run, const std::filesystem::path& file, const roads::RoadNetwork& network, const roads::LaneGraph& graph) {
     const double share = share_off(run, network, graph);
     if (share <= kMostOffNoted) return;
     char text[160];
@@ -132,7 +132,7 @@ void check_place(RoadWorld& made, const EsminiRun& run, const std::filesystem::p
     made.notes.push_back(complaint);
 }
 
-void add_run(RoadWorld& made, const EsminiRun& run, const RoadNetwork& network) {
+void add_run(RoadWorld& made, const roads::EsminiRun& run, const roads::RoadNetwork& network) {
     made.notes.insert(made.notes.end(), run.notes.begin(), run.notes.end());
     for (size_t i = 0; i < run.entities.size(); ++i) {
         const std::string node = add_body(made.scene, "entity_" + std::to_string(i), body_of(run.entities[i]));
@@ -141,7 +141,7 @@ void add_run(RoadWorld& made, const EsminiRun& run, const RoadNetwork& network) 
 }
 
 void add_traffic(RoadWorld& made) {
-    const std::vector<Course>& lanes = made.world.world.lanes;
+    const std::vector<traffic::Course>& lanes = made.world.world.lanes;
     for (size_t i = 0, lane = 0; i < kTraffic && lane < lanes.size(); ++lane) {
         const double first = lane == made.world.world.driver_lane ? kTrafficGap : 5;
         for (double s = first; s < lanes[lane].length() - 5 && i < kTraffic; s += 2.5 * kTrafficGap, ++i) {
@@ -154,20 +154,20 @@ void add_traffic(RoadWorld& made) {
 }  // namespace
 
 RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::path& run, const std::filesystem::path& scenario) {
-    const RoadNetwork network = read_opendrive(roads);
-    const LaneGraph graph(network);
-    std::optional<EsminiRun> recorded;
-    if (!run.empty()) recorded = read_esmini_run(run, scenario.empty() ? std::nullopt : std::optional(scenario), &network);
+    const roads::RoadNetwork network = roads::read_opendrive(roads);
+    const roads::LaneGraph graph(network);
+    std::optional<roads::EsminiRun> recorded;
+    if (!run.empty()) recorded = roads::read_esmini_run(run, scenario.empty() ? std::nullopt : std::optional(scenario), &network);
     const bool switched = recorded && !recorded->signals.empty();
-    LitRoads lit = in_file(roads.string(), [&] { return lit_roads(network, {.headlamps = false, .every_lens = switched}); });
+    roads::LitRoads lit = in_file(roads.string(), [&] { return lit_roads(network, {.headlamps = false, .every_lens = switched}); });
     RoadWorld made{.scene = std::move(lit.scene), .world = {}, .lenses = {}, .notes = std::move(lit.notes)};
     made.world.scene = roads;
     made.world.roles = plain_lamps();
-    WorldDescription& world = made.world.world;
+    traffic::WorldDescription& world = made.world.world;
     world.lanes = courses_of(graph);
     if (world.lanes.empty()) throw Error(one_line(roads.string()) + ": there is no lane to drive on");
     // Where nothing rises there is nothing to hit: edges without a kerb also lie across junctions, between one road's lanes and another's.
-    for (const Kerb& kerb : graph.kerbs())
+    for (const roads::Kerb& kerb : graph.kerbs())
         if (kerb.height > 0) world.barriers.push_back({.line = {{kerb.from.x, kerb.from.z}, {kerb.to.x, kerb.to.z}}, .height = (kerb.from.y + kerb.to.y) / 2});
     world.driver_s = 3;
     if (recorded) check_place(made, *recorded, run, network, graph);

@@ -13,7 +13,7 @@ namespace vesper {
 
 struct RoadWorld {
     Scene scene;
-    WorldFile world;
+    traffic::WorldFile world;
     std::vector<SignalLens> lenses;
     std::vector<std::string> notes;
 };

@@ -53,7 +53,7 @@ glm::dmat4 rigid(const glm::dmat4& m) {
     return r;
 }
 
-glm::dmat4 pose_of(const Actor& a) {
+glm::dmat4 pose_of(const traffic::Actor& a) {
     glm::dmat4 m = glm::translate(glm::dmat4(1), a.position);
     m = glm::rotate(m, a.yaw, glm::dvec3(0, 1, 0));
     m = glm::rotate(m, a.pitch, glm::dvec3(1, 0, 0));
@@ -67,8 +67,8 @@ uint32_t first_camera(const Scene& scene) {
 }
 
 // A scene alone: straight on from where the camera on that node stands, if there is one.
-WorldFile plain_world(const Scene& scene, uint32_t camera) {
-    WorldFile file;
+traffic::WorldFile plain_world(const Scene& scene, uint32_t camera) {
+    traffic::WorldFile file;
     glm::dvec3 eye(0, kEyeHeight, 0), ahead(0, 0, -1);
     if (camera != kNone) {
         const glm::dmat4 stands = world_transforms(scene, 0)[camera];
@@ -99,38 +99,38 @@ Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scen
         scene_.name = file.string();
         adopt(roads.world);
     } else if (extension == ".json") {
-        WorldFile world = read_world(file);
+        traffic::WorldFile world = traffic::read_world(file);
         LoadedScene loaded = load(world.scene, world.photometry);
         notes_ = notes_of(loaded, world.scene.string()), scene_ = std::move(loaded.scene);
         scene_.name = world.scene.string();
         adopt(world);
         const std::string at = one_line(file.string()) + ": ";
-        for (const auto& [role, names] : kLampRoles) require_lamps(world.roles.*names, at + "/lamps/" + role);
+        for (const auto& [role, names] : traffic::kLampRoles) require_lamps(world.roles.*names, at + "/lamps/" + role);
         require_lamps(world.by_day, at + "/lit_by_day");
     } else if (extension == ".gltf" || extension == ".glb") {
         LoadedScene loaded = load(file, {});
         notes_ = notes_of(loaded, file.string()), scene_ = std::move(loaded.scene);
         scene_.name = file.string();
         const uint32_t camera = first_camera(scene_);
-        WorldFile plain = plain_world(scene_, camera);
+        traffic::WorldFile plain = plain_world(scene_, camera);
         adopt(plain, camera);
     } else {
         throw Error(one_line(file.string()) + ": a world (.json), roads (.xodr) or a scene (.gltf, .glb) is expected");
     }
 }
 
-void Scenery::adopt(WorldFile& file, uint32_t eye) {
+void Scenery::adopt(traffic::WorldFile& file, uint32_t eye) {
     scene_.channels.clear();
     rest_ = world_transforms(scene_, 0);
     night_ = {scene_.ambient_illuminance * scene_.ambient_colour, scene_.sky_luminance * scene_.sky_colour};
     camera_ = file.camera;
     if (!camera_.empty() && !contains(camera_names(scene_), camera_)) throw Error(one_line(scene_.name) + ": there is no camera " + one_line(camera_) + " for the driver");
     tunnels_ = file.tunnels;
-    world_ = std::make_shared<const WorldDescription>(std::move(file.world));
+    world_ = std::make_shared<const traffic::WorldDescription>(std::move(file.world));
 
     // Each node rides on the nearest actor above it.
     std::map<std::string, uint32_t> actors;
-    const std::vector<Actor> start = World(world_, 0).actors();
+    const std::vector<traffic::Actor> start = traffic::World(world_, 0).actors();
     for (uint32_t i = 0; i < start.size(); ++i)
         if (!start[i].node.empty() && !actors.try_emplace(start[i].node, i).second) throw Error("node " + one_line(start[i].node) + " is to move in two ways");
     std::vector<uint32_t> root(scene_.nodes.size(), kNone);
@@ -142,7 +142,7 @@ void Scenery::adopt(WorldFile& file, uint32_t eye) {
         if (root[i] == kNone && (actor != actors.end() || i == eye)) root[i] = i;
         if (root[i] == kNone) continue;
         if (root[i] == eye) {
-            Actor below = start.front();  // of the eye, not quite where the car begins
+            traffic::Actor below = start.front();  // of the eye, not quite where the car begins
             below.position = glm::dvec3(rest_[eye][3]) - glm::dvec3(0, kEyeHeight, 0);
             riders_.push_back({i, 0, glm::inverse(pose_of(below)) * rest_[i]});
             continue;
@@ -159,7 +159,7 @@ void Scenery::adopt(WorldFile& file, uint32_t eye) {
     find_lamps(file.roles, file.by_day);
 }
 
-void Scenery::find_lamps(const LampRoles& roles, const std::vector<std::string>& by_day) {
+void Scenery::find_lamps(const traffic::LampRoles& roles, const std::vector<std::string>& by_day) {
     std::vector<uint32_t> rider(scene_.nodes.size(), kNone);
     for (const Rider& r : riders_) rider[r.node] = r.actor;
     std::vector<uint32_t> lens(scene_.nodes.size(), kNone);
@@ -168,8 +168,8 @@ void Scenery::find_lamps(const LampRoles& roles, const std::vector<std::string>&
         if (scene_.nodes[i].lamp == kNone) continue;
         SwitchedLamp lamp{i, rider[i], kFixed, true, lens[i], lamp_name(scene_, i)};
         if (lamp.actor != kNone)
-            for (size_t r = 0; r < kLampRoles.size(); ++r)
-                if (contains(roles.*kLampRoles[r].second, lamp.name)) lamp.role = Role(kLow + r);
+            for (size_t r = 0; r < traffic::kLampRoles.size(); ++r)
+                if (contains(roles.*traffic::kLampRoles[r].second, lamp.name)) lamp.role = Role(kLow + r);
         if (lamp.role == kFixed) lamp.by_day = by_day.empty() || contains(by_day, lamp.name);
         lamps_.push_back(std::move(lamp));
     }
@@ -207,9 +207,9 @@ void Scenery::require_lamp(const std::string& name, const std::string& place) co
     throw Error(place + ": the scene has no lamp of that name; it has " + (names.empty() ? "none" : one_line(names, 1000)));
 }
 
-bool Scenery::shines(const SwitchedLamp& lamp, const std::vector<Actor>& actors, bool bright) const {
+bool Scenery::shines(const SwitchedLamp& lamp, const std::vector<traffic::Actor>& actors, bool bright) const {
     if (lamp.role == kFixed) return lamp.by_day || !bright;
-    const VehicleLamps& lit = actors[lamp.actor].lamps;
+    const traffic::VehicleLamps& lit = actors[lamp.actor].lamps;
     switch (lamp.role) {
         case kLow: return lit.low;
         case kHigh: return lit.high;
@@ -220,16 +220,16 @@ bool Scenery::shines(const SwitchedLamp& lamp, const std::vector<Actor>& actors,
     }
 }
 
-SceneFrame Scenery::frame(const std::vector<Actor>& actors, double seconds, const DriveSettings& settings) const {
+SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seconds, const DriveSettings& settings) const {
     SceneFrame made{.world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
     std::vector<glm::dmat4> poses;
-    for (const Actor& actor : actors) poses.push_back(pose_of(actor));
+    for (const traffic::Actor& actor : actors) poses.push_back(pose_of(actor));
     for (const Rider& r : riders_) made.world[r.node] = poses[r.actor] * r.offset;
 
     double outside = 0;
     if (settings.sun()) {
-        outside = kOvercast * daylight_illuminance(*settings.sun());
-        const glm::vec3 light = float(outside) * glm::vec3(colour_of_temperature(daylight_temperature(*settings.sun())));
+        outside = traffic::kOvercast * traffic::daylight_illuminance(*settings.sun());
+        const glm::vec3 light = float(outside) * glm::vec3(colour_of_temperature(traffic::daylight_temperature(*settings.sun())));
         made.ambient->illuminance += light;
         made.ambient->sky += light / std::numbers::pi_v<float>;
         made.tunnels = tunnels_;
@@ -243,10 +243,10 @@ SceneFrame Scenery::frame(const std::vector<Actor>& actors, double seconds, cons
     return made;
 }
 
-View Scenery::view(const SceneFrame& frame, const std::vector<Actor>& actors, const DriveSettings& settings, VkExtent2D extent) const {
+View Scenery::view(const SceneFrame& frame, const std::vector<traffic::Actor>& actors, const DriveSettings& settings, VkExtent2D extent) const {
     constexpr double kFov = 40 * std::numbers::pi / 180;
     const double asked = settings.vertical_fov() * std::numbers::pi / 180, fov = asked > 0 ? asked : kFov;
-    const Actor& me = actors.front();
+    const traffic::Actor& me = actors.front();
     const glm::dvec3 ahead(-std::sin(me.yaw), 0, -std::cos(me.yaw)), up(0, 1, 0);
     const auto look = [&](glm::dvec3 eye, glm::dvec3 at) { return View::symmetric(extent, float(fov), glm::mat4(glm::lookAt(eye, at, up))); };
     switch (settings.camera()) {

@@ -28,7 +28,7 @@ public:
     explicit Scenery(const std::filesystem::path& file, const std::filesystem::path& run = {}, const std::filesystem::path& scenario = {});
 
     const Scene& scene() const { return scene_; }
-    const std::shared_ptr<const WorldDescription>& world() const { return world_; }
+    const std::shared_ptr<const traffic::WorldDescription>& world() const { return world_; }
     const std::vector<std::string>& notes() const { return notes_; }
     /// The lamps there are by name, as "lamp:NAME" settings have them, sorted.
     std::vector<LampGroup> lamp_groups() const;
@@ -37,9 +37,9 @@ public:
     const DriveSettings& check(const DriveSettings&) const;
 
     /// Where everything stands and how it is lit, with the actors of a World of `world()` after so many seconds.
-    SceneFrame frame(const std::vector<Actor>&, double seconds, const DriveSettings&) const;
+    SceneFrame frame(const std::vector<traffic::Actor>&, double seconds, const DriveSettings&) const;
     /// What the camera of the settings sees of that frame.
-    View view(const SceneFrame&, const std::vector<Actor>&, const DriveSettings&, VkExtent2D) const;
+    View view(const SceneFrame&, const std::vector<traffic::Actor>&, const DriveSettings&, VkExtent2D) const;
 
 private:
     enum Role : uint8_t { kFixed, kLow, kHigh, kTail, kBrake, kLeft, kRight };  // in the order of kLampRoles
@@ -52,15 +52,15 @@ private:
         std::string name;
     };
     /// Takes its world; names stay. `eye`: a node that goes with the driver's car from where it stands, with all that is below it.
-    void adopt(WorldFile&, uint32_t eye = kNone);
+    void adopt(traffic::WorldFile&, uint32_t eye = kNone);
     /// Throws Error, which begins with `place`, where no lamp of the scene has that name.
     void require_lamp(const std::string& name, const std::string& place) const;
     void require_lamps(const std::vector<std::string>& names, const std::string& place) const;
-    void find_lamps(const LampRoles&, const std::vector<std::string>& by_day);
-    bool shines(const SwitchedLamp&, const std::vector<Actor>&, bool bright) const;
+    void find_lamps(const traffic::LampRoles&, const std::vector<std::string>& by_day);
+    bool shines(const SwitchedLamp&, const std::vector<traffic::Actor>&, bool bright) const;
 
     Scene scene_;
-    std::shared_ptr<const WorldDescription> world_;
+    std::shared_ptr<const traffic::WorldDescription> world_;
     std::vector<std::string> notes_;
     std::vector<glm::dmat4> rest_;     // of each node, in the world
     struct Rider {

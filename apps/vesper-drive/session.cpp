@@ -8,7 +8,7 @@ Session::Session(Device& device, DriveStart options, Scenery scenery)
     : options_(std::move(options)),
       scenery_(std::move(scenery)),
       settings_(scenery_.check(DriveSettings(options_.settings))),
-      world_(std::make_unique<World>(scenery_.world(), options_.seed)),
+      world_(std::make_unique<traffic::World>(scenery_.world(), options_.seed)),
       actors_(world_->actors()),
       device_(&device),
       renderer_(std::make_unique<Renderer>(device, scenery_.scene())),
@@ -22,18 +22,18 @@ DriveStart Session::start() const {
     return now;
 }
 
-void Session::step(const DriverInput& input) {
+void Session::step(const traffic::DriverInput& input) {
     input_ = input;
     const size_t met = world_->contacts().size();
     world_->step(input, options_.time_step);
     actors_ = world_->actors();
     for (size_t i = met; on_contact && i < world_->contacts().size(); ++i) on_contact(world_->contacts()[i]);
-    const VehicleState& me = world_->driver();
+    const traffic::VehicleState& me = world_->driver();
     recorder_->add({.kind = DriveEvent::Kind::Step, .input = input, .pose = glm::dvec4(me.position, me.yaw, me.speed), .name = {}, .value = {}});
 }
 
 void Session::restart() {
-    world_ = std::make_unique<World>(scenery_.world(), options_.seed);
+    world_ = std::make_unique<traffic::World>(scenery_.world(), options_.seed);
     actors_ = world_->actors();
     input_ = {};
     rendered_.reset();
@@ -79,10 +79,10 @@ Frame Session::render(const View& view, Outputs outputs) {
     return frame;
 }
 
-Wall Session::render(const Channels& channels, Outputs outputs) {
+ChannelMosaic Session::render(const Channels& channels, Outputs outputs) {
     if (!wall_) wall_ = std::make_unique<ChannelRenderer>(*device_);
     begin_frame();
-    Wall wall = wall_->render(*renderer_, channels, settings_.render(), view({1, 1}), moment(), float(eye_step_), outputs);
+    ChannelMosaic wall = wall_->render(*renderer_, channels, settings_.render(), view({1, 1}), moment(), float(eye_step_), outputs);
     end_frame(wall.shown.eye);
     return wall;
 }

@@ -44,17 +44,17 @@ public:
     const Scenery& scenery() const { return scenery_; }
 
     // The world.
-    void step(const DriverInput&);
+    void step(const traffic::DriverInput&);
     /// Called in step() for everything that the car meets.
-    std::function<void(const Contact&)> on_contact;
+    std::function<void(const traffic::Contact&)> on_contact;
     /// Back to the start, with the eye adapted anew. A recording goes on; what was not recorded is forgotten.
     void restart();
     /// The same, with the settings of the start.
     void rewind();
-    const World& world() const { return *world_; }
+    const traffic::World& world() const { return *world_; }
     /// What moves, as it stands now; the driver's car first.
-    const std::vector<Actor>& actors() const { return actors_; }
-    const DriverInput& input() const { return input_; }  ///< of the last step
+    const std::vector<traffic::Actor>& actors() const { return actors_; }
+    const traffic::DriverInput& input() const { return input_; }  ///< of the last step
 
     // Settings.
     const DriveSettings& settings() const { return settings_; }
@@ -71,7 +71,7 @@ public:
     /// The same of another view.
     Frame render(const View&, Outputs);
     /// All channels of this moment, seen by one eye. Not to be mixed with frames of one view: each way has an eye of its own.
-    Wall render(const Channels&, Outputs);
+    ChannelMosaic render(const Channels&, Outputs);
     /// Seconds that passed for the eye before the last frame.
     double eye_step() const { return eye_step_; }
     Renderer& renderer() { return *renderer_; }
@@ -94,9 +94,9 @@ private:
     DriveStart options_;
     Scenery scenery_;
     DriveSettings settings_;
-    std::unique_ptr<World> world_;
-    std::vector<Actor> actors_;
-    DriverInput input_;
+    std::unique_ptr<traffic::World> world_;
+    std::vector<traffic::Actor> actors_;
+    traffic::DriverInput input_;
     Device* device_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<ChannelRenderer> wall_;  // made when first asked for

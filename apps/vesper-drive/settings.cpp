@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <numbers>
 #include <set>
 
 #include "arguments.h"
+#include "base/angle.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "tone_arguments.h"
@@ -59,11 +59,11 @@ void require_known(const std::string& name) {
 }
 
 FreeCamera free_camera_of(const std::vector<double>& v) {
-    constexpr double kFar = 1e6, kDegree = std::numbers::pi / 180;  // m
+    constexpr double kFar = 1e6;  // m
     for (const double value : v)
         if (!(std::abs(value) <= kFar)) throw Error("setting free: X,Y,Z,YAW,PITCH are expected within 1e6 m and degrees");
     if (std::abs(v[4]) > 90) throw Error("setting free: PITCH is expected from -90 to 90 degrees");
-    return {{v[0], v[1], v[2]}, std::remainder(v[3], 360) * kDegree, v[4] * kDegree};
+    return {{v[0], v[1], v[2]}, std::remainder(v[3], 360) * kRadiansPerDegree, v[4] * kRadiansPerDegree};
 }
 
 }  // namespace

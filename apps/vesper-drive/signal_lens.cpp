@@ -69,7 +69,7 @@ std::optional<std::vector<Mode>> lenses_in(const std::string& state, const std::
     return shown;
 }
 
-std::vector<SignalLens> lenses_of(const Scene& scene, const RoadNetwork& network, const EsminiRun& run, std::vector<std::string>& notes) {
+std::vector<SignalLens> lenses_of(const Scene& scene, const roads::RoadNetwork& network, const roads::EsminiRun& run, std::vector<std::string>& notes) {
     std::map<std::string, uint32_t> lamps;  // by the names of their nodes
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].lamp != kNone) lamps.try_emplace(scene.nodes[i].name, i);
@@ -79,8 +79,8 @@ std::vector<SignalLens> lenses_of(const Scene& scene, const RoadNetwork& network
     std::vector<SignalLens> lenses;
     std::vector<bool> found(run.signals.size(), false);
     std::set<std::pair<std::string, std::string>> unknown;  // states, with their signals
-    for (const Road& road : network.roads)
-        for (const RoadSignal& signal : road.signals) {
+    for (const roads::Road& road : network.roads)
+        for (const roads::RoadSignal& signal : road.signals) {
             const std::string name = "signal_" + signal.id + "/";
             const bool on_foot = !lamps.contains(name + "yellow");
             std::vector<SignalLens> own;
@@ -95,7 +95,7 @@ std::vector<SignalLens> lenses_of(const Scene& scene, const RoadNetwork& network
             if (own.empty()) continue;
             const auto events = set.find(set.contains(signal.id) ? signal.id : signal.name);
             for (const size_t i : events == set.end() ? std::vector<size_t>() : events->second) {
-                const SignalEvent& event = run.signals[i];
+                const roads::SignalEvent& event = run.signals[i];
                 found[i] = true;
                 const auto shown = lenses_in(event.state, colours);
                 for (size_t k = 0; shown && k < own.size(); ++k) own[k].changes.push_back({event.time, (*shown)[k]});

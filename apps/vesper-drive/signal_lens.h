@@ -30,6 +30,6 @@ std::optional<std::vector<SignalLens::Mode>> lenses_in(const std::string& state,
 
 /// Of all lenses ("signal_ID/red" and so on: LitRoadOptions::every_lens) of a scene. Signals that the run does not set stay as they
 /// are without one: red for cars, green for people on foot; so they do in states that are not understood, of each of which there is one note.
-std::vector<SignalLens> lenses_of(const Scene&, const RoadNetwork&, const EsminiRun&, std::vector<std::string>& notes);
+std::vector<SignalLens> lenses_of(const Scene&, const roads::RoadNetwork&, const roads::EsminiRun&, std::vector<std::string>& notes);
 
 }  // namespace vesper

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 #include <thread>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include "arguments.h"
+#include "base/angle.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "render/passes/operators.h"
@@ -182,8 +182,7 @@ void WindowedDrive::move_camera(double seconds) {
     c.position.y += kSpeed * seconds * up;
     c.pitch = std::clamp(c.pitch, -1.5, 1.5);
     if (c.position == before.position && c.yaw == before.yaw && c.pitch == before.pitch) return;
-    constexpr double kDegrees = 180 / std::numbers::pi;
-    change("free", format("%.4f,%.4f,%.4f,%.4f,%.4f", c.position.x, c.position.y, c.position.z, c.yaw * kDegrees, c.pitch * kDegrees));
+    change("free", format("%.4f,%.4f,%.4f,%.4f,%.4f", c.position.x, c.position.y, c.position.z, c.yaw * kDegreesPerRadian, c.pitch * kDegreesPerRadian));
 }
 
 bool WindowedDrive::replay_to_next_frame() {
@@ -214,7 +213,7 @@ void WindowedDrive::advance(double seconds) {
 }
 
 void WindowedDrive::watch_contacts() {
-    session_->on_contact = [this](const Contact& contact) {
+    session_->on_contact = [this](const traffic::Contact& contact) {
         say(format("collision with %s at %.0f km/h", contact.node.c_str(), contact.speed * 3.6));
         if (log_) log_->add(contact);
     };
@@ -227,7 +226,7 @@ void WindowedDrive::render(bool moved) {
     const bool lacks = (outputs.scene && frame_.scene.empty()) || extent.width != rendered_.width || extent.height != rendered_.height;
     if (!moved && !stale_ && !lacks) return;
     view_ = session_->view(extent);
-    Wall wall;
+    ChannelMosaic wall;
     if (channels_) {
         wall = session_->render(*channels_, outputs);
         frame_ = looked_at(wall, *channels_);
@@ -267,7 +266,7 @@ void WindowedDrive::present() {
     const bool talks = Clock::now() < message_until_;
     const std::optional<glm::uvec2> pixel = screen_->pixel_under_mouse(frame_.extent, screen_settings_.scaling);
     const auto [view, view_pixel] = view_at(pixel);
-    const Moment now{.session = *session_, .screen = *screen_, .frame = frame_, .view = view, .hands = hands_, .pixel = pixel, .view_pixel = view_pixel,
+    const FrameState now{.session = *session_, .screen = *screen_, .frame = frame_, .view = view, .hands = hands_, .pixel = pixel, .view_pixel = view_pixel,
                      .shown_per_second = pictures_per_second_, .paused = paused_, .recording = recording_, .message = talks ? message_ : "", .alarm = alarm_};
     const std::vector<Change> changes = instruments_.draw(now);
     const bool colours = instruments_.shows_false_colour() && display.bits == 8;

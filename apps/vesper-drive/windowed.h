@@ -11,7 +11,7 @@
 #include "drive_file.h"
 #include "drive_log.h"
 #include "gpu/device.h"
-#include "hands.h"
+#include "input_devices.h"
 #include "instruments.h"
 #include "playback.h"
 #include "screen.h"
@@ -71,7 +71,7 @@ private:
     bool shown_ = false;  // a picture, since the device is there
     ScreenSettings screen_settings_;
     Instruments instruments_;
-    Hands hands_;
+    InputDevices hands_;
 
     std::optional<Playback> replay_;
 

@@ -17,16 +17,16 @@
 namespace vesper {
 namespace {
 
-const std::map<std::string, StreetLampOptions::Side> kSides{{"auto", StreetLampOptions::Side::Auto},
-                                                            {"right", StreetLampOptions::Side::Right},
-                                                            {"left", StreetLampOptions::Side::Left},
-                                                            {"both", StreetLampOptions::Side::Both},
-                                                            {"alternating", StreetLampOptions::Side::Alternating}};
+const std::map<std::string, roads::StreetLampOptions::Side> kSides{{"auto", roads::StreetLampOptions::Side::Auto},
+                                                            {"right", roads::StreetLampOptions::Side::Right},
+                                                            {"left", roads::StreetLampOptions::Side::Left},
+                                                            {"both", roads::StreetLampOptions::Side::Both},
+                                                            {"alternating", roads::StreetLampOptions::Side::Alternating}};
 
 struct ConvertArguments {
     std::string input, photometry, output;
     bool srgb = false;
-    StreetLampOptions lamps;
+    roads::StreetLampOptions lamps;
     std::string side = "auto", luminaire;
     std::vector<Option> for_databases, for_lamps;
 };
@@ -47,13 +47,13 @@ void run_roads(const ConvertArguments& arguments) {
     refuse(arguments.for_databases, " has no meaning for an OpenDRIVE file: it has no materials and no nodes");
     const std::filesystem::path input = arguments.input;
     const std::string output = arguments.output.empty() ? input.stem().string() + ".gltf" : arguments.output;
-    LitRoadOptions options;
+    roads::LitRoadOptions options;
     for (const Option& option : arguments.for_lamps)
         if (option.count() > 0) options.lamps = arguments.lamps, options.lamps->side = kSides.at(arguments.side);
     if (options.lamps) options.lamps->beside_own = arguments.for_lamps.front().count() > 0;  // --lamp-spacing
     if (!arguments.luminaire.empty()) options.lamps->luminaire = read_distribution(arguments.luminaire);
-    const RoadNetwork network = read_opendrive(input);
-    const LitRoads lit = in_file(arguments.input, [&] { return lit_roads(network, options); });
+    const roads::RoadNetwork network = roads::read_opendrive(input);
+    const roads::LitRoads lit = in_file(arguments.input, [&] { return lit_roads(network, options); });
     save_gltf(lit.scene, input.filename().string(), output);
     print(lit.notes, network.notes, output);
 }

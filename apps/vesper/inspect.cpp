@@ -72,7 +72,7 @@ void run(const InspectArguments& a) {
             found = inspect_picture(a);
             break;
     }
-    files.spare(read);
+    files.refuse_overwriting(read);
     std::fputs(found.text.c_str(), stdout);
     if (!a.json.empty())
         write_text(a.json, found.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");

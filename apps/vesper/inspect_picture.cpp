@@ -65,11 +65,11 @@ void draw(const InspectArguments& arguments, const ValuePicture& full, const std
     }
     for (const Probe& p : probes) {
         const glm::dvec2 at = corner + (glm::dvec2(p.x, p.y) + 0.5) * zoom;
-        canvas.circle(at, 6, Colour(0), 3.5);
-        canvas.circle(at, 6, Colour(1), 1.5);
+        canvas.circle(at, 6, CanvasColour(0), 3.5);
+        canvas.circle(at, 6, CanvasColour(1), 1.5);
         const bool left = p.x > 0.8 * full.width;
         canvas.text(at + glm::dvec2(left ? -11 : 11, 0), format("%.4g", full.values[size_t{p.y} * full.width + p.x]), 13,
-                    left ? Canvas::Align::Right : Canvas::Align::Left, Colour(1), true);
+                    left ? Canvas::Align::Right : Canvas::Align::Left, CanvasColour(1), true);
     }
     draw_colour_bar(canvas, {corner.x + width + 20, corner.y + 24}, bar, scale, unit);
     canvas.save(arguments.picture);

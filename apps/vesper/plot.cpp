@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "arguments.h"
+#include "base/angle.h"
 #include "false_colour.h"
 
 namespace vesper {
 namespace {
 
-const Colour kGrey(0.8), kInk(0.15);
-const Colour kCurves[] = {{0.84, 0.15, 0.16}, {0.12, 0.36, 0.71}, {0.17, 0.55, 0.2}};
-constexpr double kRadians = std::numbers::pi / 180;
+const CanvasColour kGrey(0.8), kInk(0.15);
+const CanvasColour kCurves[] = {{0.84, 0.15, 0.16}, {0.12, 0.36, 0.71}, {0.17, 0.55, 0.2}};
 
 struct NamedCut {
     std::string name;
@@ -21,7 +20,7 @@ struct NamedCut {
 };
 
 /// A rectangle of the canvas with linear axes.
-struct Frame {
+struct PlotFrame {
     glm::dvec2 corner, size;
     double low_x, high_x, low_y, high_y;
     glm::dvec2 at(double x, double y) const {
@@ -29,7 +28,7 @@ struct Frame {
     }
 };
 
-void draw_axes(Canvas& canvas, const Frame& frame, const std::string& x_name, const std::string& y_name, bool grid) {
+void draw_axes(Canvas& canvas, const PlotFrame& frame, const std::string& x_name, const std::string& y_name, bool grid) {
     const glm::dvec2 end = frame.corner + frame.size;
     for (const double x : linear_ticks(frame.low_x, frame.high_x, 8)) {
         const double at = frame.at(x, frame.low_y).x;
@@ -77,7 +76,7 @@ void draw_polar(Canvas& canvas, const Distribution& d, const BeamFigures& figure
     const std::vector<double> rings = linear_ticks(0, figures.largest * 1.08, 5);
     const double full = std::max(figures.largest * 1.05, rings.empty() ? 1 : rings.back());
     const auto place = [&](double gamma, double candela) {
-        return centre + radius * candela / full * glm::dvec2(std::sin(gamma * kRadians), std::cos(gamma * kRadians));
+        return centre + radius * candela / full * glm::dvec2(std::sin(gamma * kRadiansPerDegree), std::cos(gamma * kRadiansPerDegree));
     };
     const double end = up ? 180 : 90;
     for (const double ring : rings) {
@@ -97,7 +96,7 @@ void draw_polar(Canvas& canvas, const Distribution& d, const BeamFigures& figure
         canvas.line(curve, kCurves[i], 2.5, cuts[i].dashed);
     }
     for (const double ring : rings)
-        if (ring > 0) canvas.text(place(7, ring), tick_label(ring), 11, Canvas::Align::Centre, Colour(0.3), true);
+        if (ring > 0) canvas.text(place(7, ring), tick_label(ring), 11, Canvas::Align::Centre, CanvasColour(0.3), true);
     canvas.text(corner + glm::dvec2(size.x / 2, -14), "Intensity, cd, over \u03b3", 14, Canvas::Align::Centre);
     draw_legend(canvas, corner + glm::dvec2(10, size.y + 20), cuts);
 }
@@ -105,7 +104,7 @@ void draw_polar(Canvas& canvas, const Distribution& d, const BeamFigures& figure
 void draw_cuts(Canvas& canvas, const Distribution& d, const BeamFigures& figures, glm::dvec2 corner, glm::dvec2 size) {
     const std::vector<NamedCut> cuts{{format("along H at V %g\u00b0", figures.largest_v), horizontal_cut(d, figures.largest_v)},
                                      {format("along V at H %g\u00b0", figures.largest_h), vertical_cut(d, figures.largest_h)}};
-    const Frame frame{corner + glm::dvec2(70, 0), size - glm::dvec2(90, 20),
+    const PlotFrame frame{corner + glm::dvec2(70, 0), size - glm::dvec2(90, 20),
                       std::min(d.horizontal.front(), d.vertical.front()), std::max(d.horizontal.back(), d.vertical.back()),
                       0, std::max(1e-9, figures.largest * 1.05)};
     draw_axes(canvas, frame, "H or V, \u00b0", "Intensity, cd", true);
@@ -120,7 +119,7 @@ void draw_cuts(Canvas& canvas, const Distribution& d, const BeamFigures& figures
 }
 
 /// Intensities over both angles, pixel by pixel.
-ValuePicture sampled(const Distribution& d, const Frame& frame) {
+ValuePicture sampled(const Distribution& d, const PlotFrame& frame) {
     ValuePicture picture{static_cast<uint32_t>(frame.size.x), static_cast<uint32_t>(frame.size.y), {}};
     for (uint32_t y = 0; y < picture.height; ++y)
         for (uint32_t x = 0; x < picture.width; ++x) {
@@ -131,22 +130,22 @@ ValuePicture sampled(const Distribution& d, const Frame& frame) {
     return picture;
 }
 
-void draw_points(Canvas& canvas, const Distribution& d, const Frame& frame) {
+void draw_points(Canvas& canvas, const Distribution& d, const PlotFrame& frame) {
     for (const BeamPoint& point : passing_beam_points()) {
         const glm::dvec2 at = frame.at(point.h, point.v);
         if (point.h < frame.low_x || point.h > frame.high_x || point.v < frame.low_y || point.v > frame.high_y) continue;
         const double candela = intensity_at(d, point.h, point.v);
         const bool left = point.h < 0, below = point.h == 0;
         const bool holds = candela >= point.least && (point.most == 0 || candela <= point.most);
-        canvas.disc(at, 3.5, Colour(1));
-        canvas.disc(at, 2.5, holds ? Colour(0) : Colour(0.9, 0.1, 0.1));
+        canvas.disc(at, 3.5, CanvasColour(1));
+        canvas.disc(at, 2.5, holds ? CanvasColour(0) : CanvasColour(0.9, 0.1, 0.1));
         canvas.text(at + glm::dvec2(left ? -6 : below ? 0 : 6, below ? 10 : 0), point.name, 10,
-                    left ? Canvas::Align::Right : below ? Canvas::Align::Centre : Canvas::Align::Left, Colour(1), true);
+                    left ? Canvas::Align::Right : below ? Canvas::Align::Centre : Canvas::Align::Left, CanvasColour(1), true);
     }
 }
 
 /// What of a headlamp's grid is worth showing: where it holds more than 1.5 % of its greatest, and the points of UN R112.
-Frame headlamp_frame(const Distribution& d, const BeamFigures& figures, Frame frame) {
+PlotFrame headlamp_frame(const Distribution& d, const BeamFigures& figures, PlotFrame frame) {
     const glm::dvec2 first(d.horizontal.front(), d.vertical.front()), last(d.horizontal.back(), d.vertical.back());
     glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
     const auto add = [&](double h, double v) { low = glm::min(low, {h, v}), high = glm::max(high, {h, v}); };
@@ -163,7 +162,7 @@ Frame headlamp_frame(const Distribution& d, const BeamFigures& figures, Frame fr
 void draw_map(Canvas& canvas, const Distribution& d, const BeamFigures& figures, glm::dvec2 corner, glm::dvec2 size) {
     const bool type_c = d.goniometry == Goniometry::CGamma;
     // gamma grows downwards on the page, as the light goes up.
-    Frame frame{corner + glm::dvec2(70, 0), size - glm::dvec2(90 + kBarWidth, 20), 0, 360, 180, d.vertical.front()};
+    PlotFrame frame{corner + glm::dvec2(70, 0), size - glm::dvec2(90 + kBarWidth, 20), 0, 360, 180, d.vertical.front()};
     if (type_c)
         frame.low_y = shines_up(d, figures) ? d.vertical.back() : std::min(90.0, d.vertical.back());
     else
@@ -178,8 +177,8 @@ void draw_map(Canvas& canvas, const Distribution& d, const BeamFigures& figures,
     draw_contours(canvas, picture, levels, frame.corner);
     draw_axes(canvas, frame, type_c ? "C, \u00b0" : "H, \u00b0 (right positive)", type_c ? "\u03b3, \u00b0" : "V, \u00b0 (up positive)", false);
     const glm::dvec2 peak = frame.at(figures.largest_h, figures.largest_v);
-    canvas.line(peak - glm::dvec2(6, 0), peak + glm::dvec2(6, 0), Colour(0.9, 0.1, 0.1), 2);
-    canvas.line(peak - glm::dvec2(0, 6), peak + glm::dvec2(0, 6), Colour(0.9, 0.1, 0.1), 2);
+    canvas.line(peak - glm::dvec2(6, 0), peak + glm::dvec2(6, 0), CanvasColour(0.9, 0.1, 0.1), 2);
+    canvas.line(peak - glm::dvec2(0, 6), peak + glm::dvec2(0, 6), CanvasColour(0.9, 0.1, 0.1), 2);
     if (!type_c) draw_points(canvas, d, frame);
     draw_colour_bar(canvas, {frame.corner.x + frame.size.x + 20, frame.corner.y + 10}, frame.size.y - 10, scale, "cd");
     canvas.text({frame.corner.x + frame.size.x / 2, corner.y - 14},

@@ -137,7 +137,7 @@ void check_wanted(const RenderArguments& a) {
 }
 
 // A frame to render: its time, how long after the one before, and, in a replay, what the eye remembers.
-struct Moment {
+struct FrameTime {
     double seconds = 0;
     float step = 0;
     std::optional<shared::EyeState> eye;
@@ -160,8 +160,8 @@ void check_replay(const RenderArguments& arguments, const std::vector<LoggedFram
     }
 }
 
-std::vector<Moment> moments_of(const RenderArguments& arguments) {
-    std::vector<Moment> moments;
+std::vector<FrameTime> moments_of(const RenderArguments& arguments) {
+    std::vector<FrameTime> moments;
     if (arguments.replay_file.empty()) {
         for (unsigned i = 0; i < arguments.frames; ++i) moments.push_back({arguments.start + i * arguments.dt, i == 0 ? 0.0f : float(arguments.dt), {}});
         return moments;
@@ -190,11 +190,11 @@ void run(RenderArguments& arguments) {
     outputs.scene |= logs_glare || wants_target;
 
     const FilesRead read;
-    const std::vector<Moment> moments = moments_of(arguments);
+    const std::vector<FrameTime> moments = moments_of(arguments);
     arguments.frames = unsigned(moments.size());
     LoadedScene loaded = read_gltf(arguments.scene);
     loaded.scene.name = arguments.scene;
-    files.spare(read);
+    files.refuse_overwriting(read);
     check_wanted(arguments);  // a scene that cannot be read is said first
     for (const std::string& note : loaded.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     const Scene& scene = loaded.scene;
@@ -225,7 +225,7 @@ void run(RenderArguments& arguments) {
         GlareReport glare;
         if (outputs.scene && !ldr) glare = glare_of(arguments.glare, arguments.settings, frame, angles_of(view), frame.outside);
         // Of the names of many frames only the first was looked at before.
-        for (size_t o = 0; o < arguments.outputs.size() && index > 0; ++o) spare(read, "-o", file_of_frame(arguments.outputs[o], index, arguments.frames));
+        for (size_t o = 0; o < arguments.outputs.size() && index > 0; ++o) refuse_overwriting(read, "-o", file_of_frame(arguments.outputs[o], index, arguments.frames));
         write_outputs(arguments, device, view, frame, glare, index, seconds);
         if (log) log->append(log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display, glare));
         if (sources) sources->append(glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));

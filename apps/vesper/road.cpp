@@ -46,7 +46,7 @@ void run(const RoadArguments& arguments) {
     if (!arguments.device.empty() && arguments.pictures.empty()) throw Error("--device has a meaning only beside --render");
     const FilesRead read;
     const RoadFile file = read_road(arguments.layout, arguments.overrides);
-    files.spare(read);
+    files.refuse_overwriting(read);
     const RoadResult result = in_file(arguments.layout, [&] { return calculate_road(file.layout); });
     const LightingClass* wanted = find_lighting_class(arguments.wanted.empty() ? file.wanted_class : arguments.wanted);
     std::fputs(text_of(file.layout, result, wanted ? wanted : reached_class(result)).c_str(), stdout);

@@ -33,7 +33,7 @@ struct Panel {
 void outline_field(Canvas& canvas, const Panel& panel, const RoadLayout& road) {
     const glm::dvec2 corners[] = {panel.at({0, 0, 0}), panel.at({road.spacing, 0, 0}), panel.at({road.spacing, road.width, 0}),
                                   panel.at({0, road.width, 0}), panel.at({0, 0, 0})};
-    canvas.line(corners, Colour(1), 1.2, true);
+    canvas.line(corners, CanvasColour(1), 1.2, true);
 }
 
 void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, const RoadResult& result, size_t index,
@@ -47,8 +47,8 @@ void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, co
     const Panel panel{seen.view, corner, {kPanelWidth, kPanelHeight}};
     outline_field(canvas, panel, road);
     for (const FieldPoint& point : result.points) {
-        canvas.disc(panel.at({point.x, point.y, 0}), 2.5, Colour(1));
-        canvas.disc(panel.at({point.x, point.y, 0}), 1.5, Colour(0));
+        canvas.disc(panel.at({point.x, point.y, 0}), 2.5, CanvasColour(1));
+        canvas.disc(panel.at({point.x, point.y, 0}), 1.5, CanvasColour(0));
     }
     double free = corner.y + kPanelHeight + 20;
     for (const double x : result.field.x) {

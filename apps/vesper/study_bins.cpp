@@ -17,7 +17,7 @@ struct Fewest {
     std::string text() const { return bins ? std::to_string(bins) : "none"; }
 };
 
-const std::vector<std::string> kColumns{"picture", "operator", "votes", "bins", "curve_codes", "largest_codes", "percentile99_codes", "mean_codes"};
+const std::vector<std::string> kBinsColumns{"picture", "operator", "votes", "bins", "curve_codes", "largest_codes", "percentile99_codes", "mean_codes"};
 
 bool is_shown(uint32_t bins) { return bins == 16 || bins == 32 || bins == 64 || bins == 100; }
 
@@ -45,7 +45,7 @@ void study_one(Study& study, const StudyPicture& picture, Operator op, Results& 
         for (size_t i = 0; i < codes.size(); ++i) plot.lines.back().points.push_back({luminances[i], codes[i]});
     };
     add_curve("256, shared votes", finest_codes);
-    std::vector<StudyPage::Shown> shown{{stem + "-256-shared.png", "256 bins, shared votes: the finest"}};
+    std::vector<StudyPage::Figure> shown{{stem + "-256-shared.png", "256 bins, shared votes: the finest"}};
     Fewest curve[2], most[2], pixels[2];
     for (const bool split : {true, false}) {
         const std::string votes = split ? "shared" : "whole";
@@ -99,7 +99,7 @@ void study_bins(Study& study) {
         }
     }
     save_plot(study.file("bins.png"), plot);
-    write_text(study.file("bins.csv"), csv_of(kColumns, all.rows));
+    write_text(study.file("bins.csv"), csv_of(kBinsColumns, all.rows));
     const std::vector<std::string> columns{"picture", "operator", "curve, shared votes", "curve, whole votes", "99 % of pixels, shared votes", "99 % of pixels, whole votes", "every pixel, shared votes", "every pixel, whole votes"};
     const std::string answer = format("Fewest bins from which on every curve is within %g code of that of 256 bins with shared votes: %s with shared votes, %s with whole votes.",
                                       kLimit, all.shared_curve.text().c_str(), all.whole_curve.text().c_str());
@@ -112,7 +112,7 @@ void study_bins(Study& study) {
     study.page.table(columns, all.answers);
     study.page.plot("bins.png");
     study.page.heading("All figures");
-    study.page.table(kColumns, all.rows);
+    study.page.table(kBinsColumns, all.rows);
     for (const auto& row : all.answers)
         std::printf("%s, %s: within %g code from so many bins on with shared (whole) votes: curve %s (%s), 99 %% of pixels %s (%s), every pixel %s (%s)\n",
                     row[0].c_str(), row[1].c_str(), kLimit, row[2].c_str(), row[3].c_str(), row[4].c_str(), row[5].c_str(), row[6].c_str(), row[7].c_str());

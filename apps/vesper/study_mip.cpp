@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t kLevels = 8;
 
-const std::vector<std::string> kColumns{"picture", "operator", "level", "degrees", "adaptation", "curve_codes", "largest_codes", "percentile99_codes", "mean_codes"};
+const std::vector<std::string> kMipColumns{"picture", "operator", "level", "degrees", "adaptation", "curve_codes", "largest_codes", "percentile99_codes", "mean_codes"};
 
 /// Levels that the pyramid of a picture has, at most eight.
 uint32_t levels_of(const StudyPicture& picture) {
@@ -34,7 +34,7 @@ void study_mip(Study& study) {
             const std::vector<double> luminances = luminances_of(picture);
             LinePlot plot{.title = stem + ": curves of the levels", .x_name = "luminance of the scene, cd/m\u00b2", .y_name = "display code", .lines = {}, .log_x = true};
             summary.lines.push_back({.name = stem, .points = {}, .marks = true});
-            std::vector<StudyPage::Shown> shown;
+            std::vector<StudyPage::Figure> shown;
             ToneMapped finest;
             std::vector<double> finest_codes;
             for (uint32_t level = 1; level <= levels_of(picture); ++level) {
@@ -64,10 +64,10 @@ void study_mip(Study& study) {
             progress.step();
         }
     save_plot(study.file("mip.png"), summary);
-    write_text(study.file("mip.csv"), csv_of(kColumns, rows));
+    write_text(study.file("mip.csv"), csv_of(kMipColumns, rows));
     study.page.heading("Summary");
     study.page.plot("mip.png");
-    study.page.table(kColumns, rows);
+    study.page.table(kMipColumns, rows);
 }
 
 }  // namespace vesper

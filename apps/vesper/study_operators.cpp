@@ -11,7 +11,7 @@
 namespace vesper {
 namespace {
 
-const std::vector<std::string> kColumns{"picture", "operator", "range_scene", "range_shown", "contrast_scene", "contrast_shown", "vl_scene", "vl_shown", "visible_scene", "visible_shown", "lost", "gained"};
+const std::vector<std::string> kOperatorColumns{"picture", "operator", "range_scene", "range_shown", "contrast_scene", "contrast_shown", "vl_scene", "vl_shown", "visible_scene", "visible_shown", "lost", "gained"};
 
 /// Mean luminances, cd/m^2, of squares of about one degree, those without light left out.
 std::vector<double> degree_luminances(const StudyPicture& picture) {
@@ -60,7 +60,7 @@ void study_operators(Study& study) {
         LinePlot levels{.title = picture.name + format(": visibility level of a target of %g', contrast %g", target.size, contrast), .x_name = "luminance of the background in the scene, cd/m\u00b2",
                         .y_name = "visibility level", .lines = {{.name = "scene", .points = {}, .dashed = true}}, .log_x = true, .log_y = true, .rule = 1};
         for (const double l : luminances) levels.lines[0].points.push_back({l, visibility_level(l * (1 + contrast), l, target)});
-        std::vector<StudyPage::Shown> shown;
+        std::vector<StudyPage::Figure> shown;
         for (const Operator op : ops) {
             ToneChainSettings settings = study.settings;
             settings.tone_operator = op;
@@ -92,9 +92,9 @@ void study_operators(Study& study) {
         study.page.pictures(shown);
         study.page.plot(picture.name + "-visibility.png");
     }
-    write_text(study.file("operators.csv"), csv_of(kColumns, rows));
+    write_text(study.file("operators.csv"), csv_of(kOperatorColumns, rows));
     study.page.heading("All figures");
-    study.page.table(kColumns, rows);
+    study.page.table(kOperatorColumns, rows);
 }
 
 }  // namespace vesper

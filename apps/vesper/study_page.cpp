@@ -49,8 +49,8 @@ void StudyPage::table(const std::vector<std::string>& columns, const std::vector
     text_ += "</table>\n";
 }
 
-void StudyPage::pictures(const std::vector<Shown>& shown) {
-    for (const Shown& picture : shown)
+void StudyPage::pictures(const std::vector<Figure>& shown) {
+    for (const Figure& picture : shown)
         text_ += "<figure><a href=\"" + address(picture.file) + "\"><img alt=\"" + escaped(picture.caption) + "\" src=\"" + address(picture.file) + "\"></a><figcaption>" +
                  escaped(picture.caption) + "</figcaption></figure>\n";
 }

@@ -18,10 +18,10 @@ public:
     void table(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows);
     void plot(const std::string& file);
     /// Pictures side by side, each with what is to be said of it.
-    struct Shown {
+    struct Figure {
         std::string file, caption;
     };
-    void pictures(const std::vector<Shown>& shown);
+    void pictures(const std::vector<Figure>& shown);
     std::string html() const { return text_ + "</body></html>\n"; }
 
 private:

@@ -33,8 +33,8 @@ public:
     };
     /// Words in one code, smoothed by mixing codes.
     void write(const std::vector<Label>& labels, double size, uint32_t code) {
-        Canvas canvas(width(), height(), Colour(0));
-        for (const Label& label : labels) canvas.text(label.at, label.text, size, Canvas::Align::Centre, Colour(1));
+        Canvas canvas(width(), height(), CanvasColour(0));
+        for (const Label& label : labels) canvas.text(label.at, label.text, size, Canvas::Align::Centre, CanvasColour(1));
         const std::vector<uint8_t> coverage = canvas.rgba();
         for (size_t i = 0; i < pixels_.size(); ++i) {
             const double part = coverage[4 * i] / 255.0;

@@ -107,17 +107,17 @@ Plan plan_of(const TonemapArguments& arguments) {
     return plan;
 }
 
-struct Shown {
+struct TonemappedPicture {
     ToneMapped picture;
     PictureMeaning meaning;
     GlareReport glare;
 };
 
 /// `held`: see PictureRequest.
-Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings, const std::vector<OffscreenLamp>& lamps, ToneMapper& mapper,
+TonemappedPicture show(const TonemapArguments& arguments, const ToneChainSettings& settings, const std::vector<OffscreenLamp>& lamps, ToneMapper& mapper,
            const Job& job, bool wants_codes, double held) {
     const HdrImage image = read_hdr_image(job.input, {}, arguments.layer);
-    Shown shown;
+    TonemappedPicture shown;
     shown.meaning = meaning_of(image, {.scale = arguments.scale,
                                        .fov = arguments.fov,
                                        .angle_matters = settings.glare == Glare::Scatter || !arguments.glare.target.empty(),
@@ -138,7 +138,7 @@ Shown show(const TonemapArguments& arguments, const ToneChainSettings& settings,
     return shown;
 }
 
-void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& settings, const Device& device, const Job& job, const Shown& shown) {
+void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& settings, const Device& device, const Job& job, const TonemappedPicture& shown) {
     const ToneMapped& picture = shown.picture;
     const Header scale{{"vesper:sourceScale", digits(shown.meaning.scale)},
                        {"vesper:sourceScaleFrom", shown.meaning.scale_source},
@@ -190,7 +190,7 @@ private:
     std::string source_;  // of that unit
 };
 
-void report(const TonemapArguments& arguments, const Job& job, const Shown& shown) {
+void report(const TonemapArguments& arguments, const Job& job, const TonemappedPicture& shown) {
     const ToneMapped& p = shown.picture;
     if (p.histogram.non_finite > 0)
         std::fprintf(stderr, "note: %s: %u of %u pixels are not finite and shown black\n", one_line(job.input).c_str(), p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite);
@@ -225,7 +225,7 @@ void run(const TonemapArguments& arguments) {
     for (const Job& job : plan.jobs) {
         if (!plan.sequence) mapper.reset_adaptation();
         try {
-            const Shown shown = show(arguments, settings, lamps, mapper, job, !plan.film.empty(), held);
+            const TonemappedPicture shown = show(arguments, settings, lamps, mapper, job, !plan.film.empty(), held);
             const auto [width, height] = shown.picture.extent;
             if (!plan.film.empty() && !film) film = std::make_unique<Video>(plan.film, width, height, plan.fps, settings.display);
             write_outputs(arguments, settings, device, job, shown);

@@ -12,20 +12,20 @@ namespace vesper {
 namespace {
 
 /// Where a feature is in a structure.
-struct Home {
+struct FeatureField {
     VkStructureType type;
     size_t offset;
 };
 /// A feature by its name in Vulkan, and the structures it may be in: of a version, and of the extension that became part of that.
 struct Feature {
     const char* name;
-    std::array<Home, 2> homes;
+    std::array<FeatureField, 2> fields;
 };
 
-constexpr Home in_core(size_t offset) { return {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, offsetof(VkPhysicalDeviceFeatures2, features) + offset}; }
+constexpr FeatureField in_core(size_t offset) { return {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, offsetof(VkPhysicalDeviceFeatures2, features) + offset}; }
 
-constexpr Home kIndependentBlend = in_core(offsetof(VkPhysicalDeviceFeatures, independentBlend));
-constexpr Home kAnisotropy = in_core(offsetof(VkPhysicalDeviceFeatures, samplerAnisotropy));
+constexpr FeatureField kIndependentBlend = in_core(offsetof(VkPhysicalDeviceFeatures, independentBlend));
+constexpr FeatureField kAnisotropy = in_core(offsetof(VkPhysicalDeviceFeatures, samplerAnisotropy));
 constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
 
 constexpr Feature kFeatures[] = {
@@ -45,9 +45,9 @@ constexpr Feature kFeatures[] = {
 };
 
 /// Where a chain of structures has one of these, or null.
-VkBool32* find(void* chain, std::span<const Home> homes) {
+VkBool32* find(void* chain, std::span<const FeatureField> fields) {
     for (auto* at = static_cast<VkBaseOutStructure*>(chain); at; at = at->pNext)
-        for (const Home& home : homes)
+        for (const FeatureField& home : fields)
             if (at->sType == home.type) return reinterpret_cast<VkBool32*>(reinterpret_cast<std::byte*>(at) + home.offset);
     return nullptr;
 }
@@ -57,7 +57,7 @@ void list(std::string& names, const std::string& name) { names += (names.empty()
 std::string missing_features(void* chain) {
     std::string names;
     for (const Feature& feature : kFeatures)
-        if (const VkBool32* on = find(chain, feature.homes); !on || !*on) list(names, feature.name);
+        if (const VkBool32* on = find(chain, feature.fields); !on || !*on) list(names, feature.name);
     return names;
 }
 
@@ -118,9 +118,9 @@ std::string missing_of(const VkDeviceCreateInfo& info, uint32_t version) {
 void enable_features(VkPhysicalDevice device, VkPhysicalDeviceFeatures2& chain) {
     std::string homeless;
     for (const Feature& feature : kFeatures)
-        if (!find(&chain, feature.homes)) list(homeless, feature.name);
+        if (!find(&chain, feature.fields)) list(homeless, feature.name);
     if (!homeless.empty()) throw Error("the chain of features has no structure for " + homeless);
-    for (const Feature& feature : kFeatures) *find(&chain, feature.homes) = VK_TRUE;
+    for (const Feature& feature : kFeatures) *find(&chain, feature.fields) = VK_TRUE;
     VkPhysicalDeviceFeatures available;
     vkGetPhysicalDeviceFeatures(device, &available);
     chain.features.samplerAnisotropy |= available.samplerAnisotropy;

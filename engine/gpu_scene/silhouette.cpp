@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace vesper {
 namespace {
 
 using glm::dmat2, glm::dvec2, glm::dvec3;
-constexpr double kPi = std::numbers::pi;
 
 // Cuts a convex polygon with a half space (Sutherland and Hodgman 1974). `inside` is a distance, positive within.
 template <class Point, class Inside>

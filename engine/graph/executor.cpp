@@ -16,7 +16,7 @@ constexpr VkBufferUsageFlags kHostUsage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_
                                           VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
                                           VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
 
-uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
+uint64_t aligned(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
 
 bool is_texel(uint32_t usage) {
     return usage & (VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
@@ -266,15 +266,15 @@ void Executor::find_turning(const FrameGraph& graph) {
 void Executor::realize_uploads(const FrameGraph& graph) {
     uint64_t total = 0;
     for (const auto& info : graph.resources())
-        if (info.origin == FrameGraph::Origin::Upload) total = align_up(total, kSliceAlignment) + info.contents.size();
+        if (info.origin == FrameGraph::Origin::Upload) total = aligned(total, kSliceAlignment) + info.contents.size();
     HostBuffer& uploads = slot_->uploads;
     if (uploads.bytes() < total)
-        uploads = HostBuffer(device_, align_up(total * 3 / 2, kSliceAlignment), kHostUsage, HostBuffer::Direction::ToDevice);
+        uploads = HostBuffer(device_, aligned(total * 3 / 2, kSliceAlignment), kHostUsage, HostBuffer::Direction::ToDevice);
     uint64_t offset = 0;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
         if (info.origin != FrameGraph::Origin::Upload) continue;
-        offset = align_up(offset, kSliceAlignment);
+        offset = aligned(offset, kSliceAlignment);
         std::memcpy(uploads.data() + offset, info.contents.data(), info.contents.size());
         Realized& r = resources_[i];
         r.buffer = uploads.buffer(), r.offset = offset, r.bytes = info.contents.size();
@@ -308,7 +308,7 @@ void Executor::realize_foreign_images(const FrameGraph& graph) {
 void Executor::realize_readbacks(const FrameGraph& graph) {
     uint64_t total = 0;
     for (const auto& info : graph.resources())
-        if (info.origin == FrameGraph::Origin::Readback) total = align_up(total, kSliceAlignment) + info.shape.bytes;
+        if (info.origin == FrameGraph::Origin::Readback) total = aligned(total, kSliceAlignment) + info.shape.bytes;
     HostBuffer& readbacks = slot_->readbacks;
     if (readbacks.bytes() < total) readbacks = HostBuffer(device_, total, kHostUsage, HostBuffer::Direction::FromDevice);
     slot_->places.clear();
@@ -316,7 +316,7 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
         if (info.origin != FrameGraph::Origin::Readback) continue;
-        offset = align_up(offset, kSliceAlignment);
+        offset = aligned(offset, kSliceAlignment);
         Realized& r = resources_[i];
         r.buffer = readbacks.buffer(), r.offset = offset, r.bytes = info.shape.bytes;
         slot_->places[i] = {r.offset, r.bytes};

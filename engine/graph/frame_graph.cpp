@@ -40,10 +40,10 @@ uint64_t texel_bytes(VkFormat format) {
     return found == std::end(kTexelBytes) ? 0 : found->bytes;
 }
 
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
+std::string in_quotes(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 [[noreturn]] void fail(const PassInfo& pass, const std::string& reason) {
-    throw Error("pass " + quoted(pass.name) + " " + reason);
+    throw Error("pass " + in_quotes(pass.name) + " " + reason);
 }
 
 bool is_target(Access access) { return access == Access::ColorTarget || access == Access::DepthTarget; }
@@ -85,20 +85,20 @@ std::string access_name(PassKind kind, Access access) {
 /// What a use may not do to a resource of this origin and shape.
 void check_use(const PassInfo& pass, const Use& use, const ResourceInfo& r) {
     if (!allowed(pass.kind, use.access))
-        fail(pass, "cannot use " + quoted(r.name) + " as " + access_name(pass.kind, use.access));
+        fail(pass, "cannot use " + in_quotes(r.name) + " as " + access_name(pass.kind, use.access));
     if (writes(use.access) && r.origin == Origin::HistoryPrevious)
-        fail(pass, "writes " + quoted(r.name) + ", which the last frame left; write its current");
-    if (writes(use.access) && r.origin == Origin::Upload) fail(pass, "writes the upload " + quoted(r.name));
+        fail(pass, "writes " + in_quotes(r.name) + ", which the last frame left; write its current");
+    if (writes(use.access) && r.origin == Origin::Upload) fail(pass, "writes the upload " + in_quotes(r.name));
     if (writes(use.access) && r.origin == Origin::External)
-        fail(pass, "writes " + quoted(r.name) + ", which belongs to somebody else");
+        fail(pass, "writes " + in_quotes(r.name) + ", which belongs to somebody else");
     if (use.access == Access::Vertices && r.shape.is_image())
-        fail(pass, "reads vertices from the image " + quoted(r.name));
+        fail(pass, "reads vertices from the image " + in_quotes(r.name));
     if (!is_target(use.access)) return;
-    if (!r.shape.is_image()) fail(pass, "has the buffer " + quoted(r.name) + " as a target");
+    if (!r.shape.is_image()) fail(pass, "has the buffer " + in_quotes(r.name) + " as a target");
     if (r.origin != Origin::Transient)
-        fail(pass, "has the history " + quoted(r.name) + " as a target; draw to a transient");
+        fail(pass, "has the history " + in_quotes(r.name) + " as a target; draw to a transient");
     if ((use.access == Access::DepthTarget) != is_depth(r.shape.format))
-        fail(pass, "has " + quoted(r.name) + " as a target its format does not fit");
+        fail(pass, "has " + in_quotes(r.name) + " as a target its format does not fit");
 }
 
 /// Why this descriptor cannot be filled by this use; empty if it can.
@@ -145,7 +145,7 @@ void check_kernel(const PassInfo& pass, const std::vector<ResourceInfo>& resourc
         const ResourceInfo& r = resources[pass.uses[i].resource.index];
         const std::string wanted = mismatch(kernel.bindings[i], pass.uses[i].access, r.shape);
         if (!wanted.empty())
-            fail(pass, "gives " + quoted(r.name) + " as " + access_name(pass.kind, pass.uses[i].access) + " of " +
+            fail(pass, "gives " + in_quotes(r.name) + " as " + access_name(pass.kind, pass.uses[i].access) + " of " +
                            (r.shape.is_image() ? "an image" : "a buffer") + " to binding " + std::to_string(i) +
                            " of " + kernel.name + ": it is " + wanted);
     }
@@ -163,9 +163,9 @@ void check_targets(const PassInfo& pass, const std::vector<ResourceInfo>& resour
         const ResourceInfo& r = resources[use.resource.index];
         if (!first) first = &r;
         if (r.shape.extent.width != first->shape.extent.width || r.shape.extent.height != first->shape.extent.height)
-            fail(pass, "has targets " + quoted(first->name) + " and " + quoted(r.name) + " of different extents");
+            fail(pass, "has targets " + in_quotes(first->name) + " and " + in_quotes(r.name) + " of different extents");
         if (use.access == Access::DepthTarget && ++depths > 1)
-            fail(pass, "has a second depth target, " + quoted(r.name));
+            fail(pass, "has a second depth target, " + in_quotes(r.name));
     }
     if (!first) fail(pass, "has no target");
 }
@@ -189,12 +189,12 @@ uint64_t packed_bytes(const Shape& shape) {
 Resource FrameGraph::add(std::string_view name, const Shape& shape, Origin origin) {
     if (name.empty()) throw Error("a resource has no name");
     for (const ResourceInfo& r : resources_)
-        if (r.name == name) throw Error("resource " + quoted(name) + " is declared twice");
+        if (r.name == name) throw Error("resource " + in_quotes(name) + " is declared twice");
     const bool image = shape.extent.width != 0 || shape.extent.height != 0;
     if (image ? shape.extent.width == 0 || shape.extent.height == 0 : shape.bytes == 0)
-        throw Error("resource " + quoted(name) + " has no size");
-    if (image && shape.bytes != 0) throw Error("resource " + quoted(name) + " is both image and buffer");
-    if (image && shape.format == VK_FORMAT_UNDEFINED) throw Error("image " + quoted(name) + " has no format");
+        throw Error("resource " + in_quotes(name) + " has no size");
+    if (image && shape.bytes != 0) throw Error("resource " + in_quotes(name) + " is both image and buffer");
+    if (image && shape.format == VK_FORMAT_UNDEFINED) throw Error("image " + in_quotes(name) + " has no format");
     ResourceInfo& r = resources_.emplace_back();
     r.name = name;
     r.shape = shape;
@@ -254,13 +254,13 @@ void FrameGraph::add_pass(PassInfo pass) {
         check_use(pass, use, r);
         for (size_t j = 0; j < i; ++j)
             if (pass.uses[j].resource == use.resource && (writes(use.access) || writes(pass.uses[j].access)))
-                fail(pass, "uses " + quoted(r.name) + " twice and writes it");
+                fail(pass, "uses " + in_quotes(r.name) + " twice and writes it");
         if (!is_read_first(use.access) || is_filled(r.origin)) continue;
         const bool written = std::ranges::any_of(passes_, [&](const PassInfo& earlier) {
             return std::ranges::any_of(earlier.uses,
                                        [&](const Use& u) { return u.resource == use.resource && writes(u.access); });
         });
-        if (!written) fail(pass, "reads " + quoted(r.name) + " before any pass has written it");
+        if (!written) fail(pass, "reads " + in_quotes(r.name) + " before any pass has written it");
     }
     if (pass.kind == PassKind::Dispatch) check_kernel(pass, resources_);
     if (pass.kind == PassKind::Raster) check_targets(pass, resources_);
@@ -278,9 +278,9 @@ void FrameGraph::dispatch_indirect(std::string_view name, const KernelInterface&
     PassInfo pass{std::string(name), PassKind::Dispatch, uses, &kernel, {push.begin(), push.end()}, {}, arguments.offset, {}};
     if (arguments.buffer.index >= resources_.size()) fail(pass, "has no valid resource as arguments");
     const ResourceInfo& r = resources_[arguments.buffer.index];
-    if (r.shape.is_image()) fail(pass, "reads arguments from the image " + quoted(r.name));
+    if (r.shape.is_image()) fail(pass, "reads arguments from the image " + in_quotes(r.name));
     if (arguments.offset % 4 != 0 || arguments.offset + sizeof(VkDispatchIndirectCommand) > r.shape.bytes)
-        fail(pass, "reads arguments at byte " + std::to_string(arguments.offset) + " of " + quoted(r.name) + ", which has " + std::to_string(r.shape.bytes));
+        fail(pass, "reads arguments at byte " + std::to_string(arguments.offset) + " of " + in_quotes(r.name) + ", which has " + std::to_string(r.shape.bytes));
     pass.uses.push_back({arguments.buffer, Access::Arguments});
     add_pass(std::move(pass));
 }
@@ -293,8 +293,8 @@ void FrameGraph::clear(std::string_view name, Resource buffer) {
     PassInfo pass{std::string(name), PassKind::Transfer, {{buffer, Access::CopyTarget}}, nullptr, {}, {}, 0, {}};
     if (buffer.index >= resources_.size()) fail(pass, "has no valid resource to clear");
     const ResourceInfo& r = resources_[buffer.index];
-    if (r.shape.is_image()) fail(pass, "clears the image " + quoted(r.name) + "; only buffers can be");
-    if (r.shape.bytes % 4 != 0) fail(pass, "clears " + quoted(r.name) + ", whose size is not a multiple of 4 bytes");
+    if (r.shape.is_image()) fail(pass, "clears the image " + in_quotes(r.name) + "; only buffers can be");
+    if (r.shape.bytes % 4 != 0) fail(pass, "clears " + in_quotes(r.name) + ", whose size is not a multiple of 4 bytes");
     pass.record = [buffer, bytes = r.shape.bytes](const Recording& frame) {
         vkCmdFillBuffer(frame.commands(), frame.buffer(buffer), frame.offset(buffer), bytes, 0);
     };
@@ -315,11 +315,11 @@ void FrameGraph::copy(std::string_view name, Resource from, Resource to) {
     const ResourceInfo &source = resources_[from.index], &target = resources_[to.index];
     const VkExtent2D area = source.shape.extent;
     if (source.shape.is_image() && target.shape.is_image() && (area.width != target.shape.extent.width || area.height != target.shape.extent.height))
-        fail(pass, "copies the image " + quoted(source.name) + " to the image " + quoted(target.name) + " of another extent");
+        fail(pass, "copies the image " + in_quotes(source.name) + " to the image " + in_quotes(target.name) + " of another extent");
     const uint64_t have = packed_bytes(source.shape), room = packed_bytes(target.shape);
     if (have != 0 && room != 0 && have != room)
-        fail(pass, "copies " + std::to_string(have) + " bytes of " + quoted(source.name) + " to " +
-                       quoted(target.name) + ", which has " + std::to_string(room));
+        fail(pass, "copies " + std::to_string(have) + " bytes of " + in_quotes(source.name) + " to " +
+                       in_quotes(target.name) + ", which has " + std::to_string(room));
     if (source.shape.is_image() && target.shape.is_image()) {
         pass.record = [from, to, area](const Recording& frame) {
             const VkImageSubresourceLayers layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};

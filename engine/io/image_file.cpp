@@ -37,13 +37,13 @@ struct PngJob {
     std::jmp_buf escape;
 };
 
-[[noreturn]] void png_fail(png_structp png, png_const_charp message) {
+[[noreturn]] void png_write_fail(png_structp png, png_const_charp message) {
     PngJob& job = *static_cast<PngJob*>(png_get_error_ptr(png));
     std::snprintf(job.reason, sizeof job.reason, "%s", message);
     std::longjmp(job.escape, 1);
 }
 
-void png_ignore(png_structp, png_const_charp) {}
+void png_write_ignore(png_structp, png_const_charp) {}
 
 void png_collect(png_structp png, png_bytep bytes, size_t count) {
     PngJob& job = *static_cast<PngJob*>(png_get_io_ptr(png));
@@ -89,7 +89,7 @@ void fill_10bit(PngJob& job, uint32_t width, const void* pixels, uint32_t y) {
 }
 
 bool encode_png(PngJob& job, uint32_t width, uint32_t height, const void* pixels, bool wide, PngColour colour) {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, png_fail, png_ignore);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, png_write_fail, png_write_ignore);
     png_infop header = png ? png_create_info_struct(png) : nullptr;
     if (!header || setjmp(job.escape)) {
         png_destroy_write_struct(&png, &header);

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 
 glm::dvec3 direction_of(Goniometry goniometry, double h, double v) {
-    const double a = h * kRadians, b = v * kRadians;
+    const double a = h * kRadiansPerDegree, b = v * kRadiansPerDegree;
     switch (goniometry) {
         case Goniometry::CGamma:
             return {std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), -std::cos(b)};

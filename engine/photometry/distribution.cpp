@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kRadians = kPi / 180;
 constexpr double kRounding = 1e-9;  // deg: a direction computed for the last angle may end up beyond it
 
 /// Where an angle lies between two of a list: weight of the upper one. Not found outside the list.
@@ -43,7 +42,7 @@ double integral_from_pole(const std::vector<double>& degrees, double pole, Value
     double sum = 0;
     for (size_t i = 1; i < degrees.size(); ++i)
         sum +=
-            line_times_sine((degrees[i - 1] - pole) * kRadians, (degrees[i] - pole) * kRadians, value(i - 1), value(i));
+            line_times_sine((degrees[i - 1] - pole) * kRadiansPerDegree, (degrees[i] - pole) * kRadiansPerDegree, value(i - 1), value(i));
     return sum;
 }
 
@@ -51,7 +50,7 @@ template <class Value>
 double integral(const std::vector<double>& degrees, Value&& value) {
     double sum = 0;
     for (size_t i = 1; i < degrees.size(); ++i)
-        sum += (degrees[i] - degrees[i - 1]) * kRadians * (value(i - 1) + value(i)) / 2;
+        sum += (degrees[i] - degrees[i - 1]) * kRadiansPerDegree * (value(i - 1) + value(i)) / 2;
     return sum;
 }
 
@@ -65,17 +64,17 @@ double intensity(const Distribution& d, glm::dvec3 direction) {
     double horizontal = 0, vertical = 0;
     switch (d.goniometry) {
         case Goniometry::CGamma:
-            vertical = std::atan2(std::hypot(right, up), forward) / kRadians;
-            if (d.horizontal.size() > 1) horizontal = std::atan2(up, right) / kRadians;
+            vertical = std::atan2(std::hypot(right, up), forward) / kRadiansPerDegree;
+            if (d.horizontal.size() > 1) horizontal = std::atan2(up, right) / kRadiansPerDegree;
             if (horizontal < 0) horizontal += 360;
             break;
         case Goniometry::TypeB:
-            horizontal = std::atan2(right, std::hypot(up, forward)) / kRadians;
-            vertical = std::atan2(up, forward) / kRadians;
+            horizontal = std::atan2(right, std::hypot(up, forward)) / kRadiansPerDegree;
+            vertical = std::atan2(up, forward) / kRadiansPerDegree;
             break;
         case Goniometry::TypeA:
-            horizontal = std::atan2(right, forward) / kRadians;
-            vertical = std::atan2(up, std::hypot(right, forward)) / kRadians;
+            horizontal = std::atan2(right, forward) / kRadiansPerDegree;
+            vertical = std::atan2(up, std::hypot(right, forward)) / kRadiansPerDegree;
             break;
     }
     const Between h = locate(d.horizontal, horizontal), v = locate(d.vertical, vertical);

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/luminance.h"
 #include "io/hdr_image.h"
@@ -13,7 +13,6 @@
 namespace vesper {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 glm::dvec3 pixel(const Environment& e, uint32_t x, uint32_t y) {
     const float* c = &e.rgb[(static_cast<size_t>(y) * e.width + x) * 3];

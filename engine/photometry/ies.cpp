@@ -85,7 +85,7 @@ private:
     size_t at_ = 0;
 };
 
-struct Header {
+struct IesHeader {
     int year = 1986;   ///< of LM-63; files without version line are of 1986
     std::string tilt;  ///< what follows "TILT="
 
@@ -130,8 +130,8 @@ void read_keyword(Distribution& made, std::string_view line) {
         made.metadata.emplace_back(std::move(key), std::move(text));
 }
 
-Header read_header(LineReader& lines, Distribution& made) {
-    Header header;
+IesHeader read_header(LineReader& lines, Distribution& made) {
+    IesHeader header;
     std::string label;
     bool first = true;
     for (size_t i = 0; i < kMaxHeaderLines; ++i) {
@@ -215,7 +215,7 @@ void check_electrical_line(const LineReader& lines, const Numbers& numbers, size
         lines.fail_at(numbers.line() + 1, "the electrical line is missing (ballast factor, ballast-lamp factor, input watts)");
 }
 
-void read_numbers(Distribution& made, LineReader lines, const Header& header, bool decimal_comma,
+void read_numbers(Distribution& made, LineReader lines, const IesHeader& header, bool decimal_comma,
                   const std::optional<std::filesystem::path>& folder) {
     Numbers numbers(lines, decimal_comma);
     double factor = 1;
@@ -276,7 +276,7 @@ Distribution parse_ies(std::span<const uint8_t> text, const std::string& name,
                        const std::optional<std::filesystem::path>& folder) {
     LineReader lines(text, name);
     Distribution made;
-    const Header header = read_header(lines, made);
+    const IesHeader header = read_header(lines, made);
     // Commas separate numbers, but some programs print them for decimal points. Where no point appears they are tried
     // as such: a file that they separate then has too few numbers.
     const std::string_view rest = lines.rest();

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "base/error.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// Intensity of a new luminaire towards a point, cd.
 double intensity_towards(const RoadLayout& road, const RoadLuminaire& lamp, glm::dvec3 point) {
@@ -95,7 +94,7 @@ double reflected_towards(const RoadLayout& road, const RoadLuminaire& lamp, glm:
     const double h = away.z;
     if (away.x < -5 * h || away.x > 12 * h || std::abs(away.y) > 5 * h) return 0;
     const double sight = std::atan2(point.y - observer.y, point.x - observer.x);
-    const double beta = (std::atan2(away.y, away.x) - sight) * kDegrees;
+    const double beta = (std::atan2(away.y, away.x) - sight) * kDegreesPerRadian;
     return reduced_luminance_coefficient(road.surface, std::hypot(away.x, away.y) / h, beta);
 }
 
@@ -117,15 +116,15 @@ double road_glare(double theta, double age) {
 }
 
 double veiling_luminance(const RoadLayout& road, std::span<const RoadLuminaire> lamps, glm::dvec3 eye) {
-    static const double kRoof = std::tan(20 / kDegrees);
-    static const glm::dvec3 kSight(std::cos(1 / kDegrees), 0, -std::sin(1 / kDegrees));
+    static const double kRoof = std::tan(20 / kDegreesPerRadian);
+    static const glm::dvec3 kSight(std::cos(1 / kDegreesPerRadian), 0, -std::sin(1 / kDegreesPerRadian));
     double sum = 0;
     for (const RoadLuminaire& lamp : lamps) {
         const glm::dvec3 away = lamp.position - eye;
         const double distance = glm::length(away);
         if (away.x <= 0 || away.x > kGlareRange || away.z > kRoof * away.x) continue;
         const double cosine = std::min(glm::dot(away, kSight) / distance, 1.0);
-        const double glare = road_glare(std::acos(cosine) * kDegrees, road.age);
+        const double glare = road_glare(std::acos(cosine) * kDegreesPerRadian, road.age);
         if (glare > 0) sum += intensity_towards(road, lamp, eye) * cosine / (distance * distance) * glare;
     }
     return sum;

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr uint32_t kLobeSamples = 512;
 
 /// The i-th of `count` points of Hammersley's sequence.

@@ -7,13 +7,13 @@
 #include "roads/road_lamps.h"
 #include "scene/colour.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr float kView = 0.6435f;        // rad, 36.87 degrees, as the Rivoli driver's
 constexpr double kFastest = 130 / 3.6;  // m/s, of allowed_speed
 constexpr double kSideways = 2;         // m/s^2 in bends
-constexpr double kBraking = 1.5;        // m/s^2
+constexpr double kDriverBraking = 1.5;        // m/s^2
 constexpr double kKeyEvery = 0.1;       // s
 constexpr double kLongestDrive = 120;   // s
 // Headlamps of a car, from the middle of its front axle on the road, m.
@@ -64,10 +64,10 @@ std::vector<WayPoint> drive_along(const LaneGraph& graph, const std::vector<uint
     }
     for (size_t i = points.size(); i-- > 1;)
         points[i - 1].speed =
-            std::min(points[i - 1].speed, std::sqrt(points[i].speed * points[i].speed + 2 * kBraking));
+            std::min(points[i - 1].speed, std::sqrt(points[i].speed * points[i].speed + 2 * kDriverBraking));
     for (size_t i = 1; i < points.size(); ++i)
         points[i].speed =
-            std::min(points[i].speed, std::sqrt(points[i - 1].speed * points[i - 1].speed + 2 * kBraking));
+            std::min(points[i].speed, std::sqrt(points[i - 1].speed * points[i - 1].speed + 2 * kDriverBraking));
     return points;
 }
 
@@ -126,10 +126,10 @@ void add_headlamps(RoadBuild& build, uint32_t car) {
     scene.distributions.push_back(standard_lamp("low-beam"));
     scene.distributions.back().name = "low beam";
     for (const char* side : {"left", "right"}) {
-        Node lamp{.name = std::string("car_ego/headlamp_") + side, .parent = car};
-        lamp.translation = glm::vec3((side[0] == 'l' ? -1 : 1) * kLampSide, kLampHeight, -kLampAhead);
-        lamp.lamp = static_cast<uint32_t>(scene.lamps.size());
-        scene.nodes.push_back(lamp);
+        Node node{.name = std::string("car_ego/headlamp_") + side, .parent = car};
+        node.translation = glm::vec3((side[0] == 'l' ? -1 : 1) * kLampSide, kLampHeight, -kLampAhead);
+        node.lamp = static_cast<uint32_t>(scene.lamps.size());
+        scene.nodes.push_back(node);
     }
     scene.lamps.push_back(lamp);
 }
@@ -171,4 +171,4 @@ void build_cameras(RoadBuild& build) {
     look(scene, "overview", middle + glm::dvec3(0, size, size * 1.2), middle);
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -4,12 +4,12 @@
 
 #include "roads/lit_road_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr double kCell = 3;        // m
 constexpr double kHorizon = 6000;  // m
-constexpr double kFlat = 0.02;     // m that a larger face may lie off the nodes it covers
+constexpr double kFlatFace = 0.02;     // m that a larger face may lie off the nodes it covers
 constexpr uint32_t kLargest = 32;  // cells along a face
 
 struct GroundBuilder {
@@ -29,7 +29,7 @@ struct GroundBuilder {
                 // The two triangles over the diagonal from (0, 0) to (1, 1).
                 const double z =
                     x > y ? z00 + (z10 - z00) * x + (z11 - z10) * y : z00 + (z01 - z00) * y + (z11 - z01) * x;
-                if (std::abs(z - g.node(c, r).z) > kFlat) return false;
+                if (std::abs(z - g.node(c, r).z) > kFlatFace) return false;
             }
         return true;
     }
@@ -39,7 +39,7 @@ struct GroundBuilder {
                        r1 = std::min(r0 + size, build.ground.rows() - 1);
         if (c0 >= c1 || r0 >= r1) return;
         if (size == 1 || is_flat(c0, r0, c1, r1))
-            return mesh.quad(Stuff::Grass, corner(c0, r0), corner(c1, r0), corner(c1, r1), corner(c0, r1));
+            return mesh.quad(RoadMaterial::Grass, corner(c0, r0), corner(c1, r0), corner(c1, r1), corner(c0, r1));
         const uint32_t half = size / 2;
         face(c0, r0, half), face(c0 + half, r0, half), face(c0, r0 + half, half), face(c0 + half, r0 + half, half);
     }
@@ -55,7 +55,7 @@ struct GroundBuilder {
             return RoadMesh::Corner{glm::dvec3(middle + (glm::dvec2(p) - middle) * scale, p.z)};
         };
         const auto edge = [&](uint32_t c0, uint32_t r0, uint32_t c1, uint32_t r1) {
-            mesh.quad(Stuff::Grass, far(c0, r0), far(c1, r1), corner(c1, r1), corner(c0, r0));
+            mesh.quad(RoadMaterial::Grass, far(c0, r0), far(c1, r1), corner(c1, r1), corner(c0, r0));
         };
         const uint32_t right = g.columns() - 1, top = g.rows() - 1;
         for (uint32_t c = 0; c < right; c += kLargest)
@@ -108,4 +108,4 @@ void build_ground(RoadBuild& build) {
     builder.mesh.place(build.scene, build.materials, "ground");
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

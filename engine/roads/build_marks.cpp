@@ -4,28 +4,28 @@
 
 #include "roads/lit_road_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr double kInside = 0.25;     // m that paint must lie inside another road's lane to be left out
+constexpr double kInsideLane = 0.25;     // m that paint must lie inside another road's lane to be left out
 constexpr double kLongestPiece = 2;  // m, in junctions, where each piece is asked for
 constexpr size_t kMaxDashes = 400'000;
 
-Stuff stuff_of(MarkColour colour) {
+RoadMaterial stuff_of(MarkColour colour) {
     switch (colour) {
         case MarkColour::Yellow:
         case MarkColour::Orange:
-            return Stuff::MarkYellow;
+            return RoadMaterial::MarkYellow;
         case MarkColour::Red:
-            return Stuff::MarkRed;
+            return RoadMaterial::MarkRed;
         case MarkColour::Blue:
-            return Stuff::MarkBlue;
+            return RoadMaterial::MarkBlue;
         case MarkColour::Green:
-            return Stuff::MarkGreen;
+            return RoadMaterial::MarkGreen;
         case MarkColour::Black:
-            return Stuff::MarkBlack;
+            return RoadMaterial::MarkBlack;
         default:
-            return Stuff::MarkWhite;
+            return RoadMaterial::MarkWhite;
     }
 }
 
@@ -51,7 +51,7 @@ struct MarkBuilder {
 
     void piece(size_t lane, const MarkLine& line, double from, double to) {
         const RoadPoint a = border(lane, from), b = border(lane, to);
-        if (is_driven_over(build, cut.road, (a.position + b.position) / 2.0, kInside)) return;
+        if (is_driven_over(build, cut.road, (a.position + b.position) / 2.0, kInsideLane)) return;
         const double right = line.t_offset - line.width / 2, left = line.t_offset + line.width / 2;
         // Over the lift of lanes in junctions as well.
         const double lift = kMarkHeight + (road.junction != kNoRoad ? 0.003 : 0);
@@ -117,4 +117,4 @@ void build_marks(RoadBuild& build, const std::vector<CutSection>& cuts) {
                               " pieces of paint: the rest is left out");
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

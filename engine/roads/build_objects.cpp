@@ -6,11 +6,11 @@
 #include "roads/object_kind.h"
 #include "roads/road_lamps.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr size_t kMaxCopies = 200'000;
-constexpr double kFlat = 0.02;  // m; what is lower lies on the road
+constexpr double kFlatObject = 0.02;  // m; what is lower lies on the road
 
 /// An object, or one copy of it, with its sizes.
 struct Placed {
@@ -36,16 +36,16 @@ struct ObjectBuilder {
     void tree(const BodyFrame& frame, const Placed& at, bool bush) {
         const double height = at.height > 0 ? at.height : bush ? 1.5 : 6;
         const double crown = at.radius > 0 ? at.radius : at.width > 0 ? at.width / 2 : height * (bush ? 0.5 : 0.3);
-        if (bush) return add_ball(mesh, Stuff::Leaves, frame.moved(0, 0, height / 2), crown, height / 2);
-        add_cylinder(mesh, Stuff::Bark, frame, std::max(0.08, height * 0.02), height * 0.5);
-        add_ball(mesh, Stuff::Leaves, frame.moved(0, 0, height * 0.65), crown, height * 0.35);
+        if (bush) return add_ball(mesh, RoadMaterial::Leaves, frame.moved(0, 0, height / 2), crown, height / 2);
+        add_cylinder(mesh, RoadMaterial::Bark, frame, std::max(0.08, height * 0.02), height * 0.5);
+        add_ball(mesh, RoadMaterial::Leaves, frame.moved(0, 0, height * 0.65), crown, height * 0.35);
     }
 
     void guide_post(const BodyFrame& frame, const Placed& at) {
         const double height = at.height > 0 ? at.height : 1.05;
-        add_box(mesh, Stuff::Post, frame, 0.1, 0.12, height);
-        add_box(mesh, Stuff::PostBand, frame.moved(0, 0, height - 0.35), 0.104, 0.124, 0.2);
-        add_box(mesh, Stuff::PostReflector, frame.moved(0, 0, height - 0.34), 0.108, 0.05, 0.18);
+        add_box(mesh, RoadMaterial::Post, frame, 0.1, 0.12, height);
+        add_box(mesh, RoadMaterial::PostBand, frame.moved(0, 0, height - 0.35), 0.104, 0.124, 0.2);
+        add_box(mesh, RoadMaterial::PostReflector, frame.moved(0, 0, height - 0.34), 0.108, 0.05, 0.18);
     }
 
     void body(const RoadObject& object, const Placed& at) {
@@ -55,11 +55,11 @@ struct ObjectBuilder {
         if (kind == ObjectKind::GuidePost) return guide_post(frame, at);
         if (kind == ObjectKind::Tree || kind == ObjectKind::Bush) return tree(frame, at, kind == ObjectKind::Bush);
         const bool pole = kind == ObjectKind::Pole, building = kind == ObjectKind::Building;
-        const Stuff stuff = pole || kind == ObjectKind::Railing ? Stuff::PoleSteel
-                            : building                          ? Stuff::Wall
-                                                                : Stuff::Concrete;
+        const RoadMaterial stuff = pole || kind == ObjectKind::Railing ? RoadMaterial::PoleSteel
+                            : building                          ? RoadMaterial::Wall
+                                                                : RoadMaterial::Concrete;
         const double height = at.height > 0 ? at.height : pole ? 3 : building ? 8 : 0;
-        if (at.radius > 0) return height > kFlat ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
+        if (at.radius > 0) return height > kFlatObject ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
         const double width = at.width > 0 ? at.width
                              : pole       ? 0.1
                                           : 0,
@@ -67,7 +67,7 @@ struct ObjectBuilder {
                               : pole        ? 0.1
                                             : 0;
         if (width <= 0 || length <= 0) return;
-        if (height > kFlat && !is_flat(kind)) return add_box(mesh, stuff, frame, length, width, height);
+        if (height > kFlatObject && !is_flat(kind)) return add_box(mesh, stuff, frame, length, width, height);
         flat_rectangle(object, at);
     }
 
@@ -111,7 +111,7 @@ struct ObjectBuilder {
                 if (marking.side == kSides[i]) painted(places[i], places[(i + 1) % 4], marking);
         if (!object.markings.empty()) return;
         const auto corner = [&](size_t i) { return on_surface(places[i].x, places[i].y, 0); };
-        mesh.quad(kind == ObjectKind::RoadMark ? Stuff::MarkWhite : Stuff::Shoulder, corner(0), corner(1), corner(2), corner(3));
+        mesh.quad(kind == ObjectKind::RoadMark ? RoadMaterial::MarkWhite : RoadMaterial::Shoulder, corner(0), corner(1), corner(2), corner(3));
     }
 
     glm::dvec2 corner_place(const RoadObject& object, const Placed& at, const ObjectCorner& corner) const {
@@ -138,9 +138,9 @@ struct ObjectBuilder {
                 const RoadPoint up = surface_point(road, first.x, first.y);
                 const glm::dvec3 c = on_surface(first.x, first.y, 0.001), d = on_surface(last.x, last.y, 0.001);
                 const glm::dvec3 side = glm::normalize(glm::cross(up.up, d - c)) * (marking.width / 2);
-                const Stuff stuff = marking.colour == MarkColour::Yellow ? Stuff::MarkYellow
-                                    : marking.colour == MarkColour::Blue ? Stuff::MarkBlue
-                                                                         : Stuff::MarkWhite;
+                const RoadMaterial stuff = marking.colour == MarkColour::Yellow ? RoadMaterial::MarkYellow
+                                    : marking.colour == MarkColour::Blue ? RoadMaterial::MarkBlue
+                                                                         : RoadMaterial::MarkWhite;
                 mesh.quad(stuff, RoadMesh::Corner{c - side, up.up}, {d - side, up.up}, {d + side, up.up},
                           {c + side, up.up});
             }
@@ -190,10 +190,10 @@ struct ObjectBuilder {
             highest = std::max(highest, height);
         }
         if (!object.markings.empty()) markings(object, at, outline);
-        if (highest > kFlat) {
-            const Stuff stuff = kind == ObjectKind::Building                               ? Stuff::Wall
-                                : kind == ObjectKind::Tree || kind == ObjectKind::Bush ? Stuff::Leaves
-                                                                                           : Stuff::Concrete;
+        if (highest > kFlatObject) {
+            const RoadMaterial stuff = kind == ObjectKind::Building                               ? RoadMaterial::Wall
+                                : kind == ObjectKind::Tree || kind == ObjectKind::Bush ? RoadMaterial::Leaves
+                                                                                           : RoadMaterial::Concrete;
             if (outline.closed && bottoms.size() > 2) return add_prism(mesh, stuff, bottoms, tops);
             // Open: walls without thickness, seen from either side.
             for (size_t i = 1; i < bottoms.size() && !outline.closed; ++i)
@@ -207,9 +207,9 @@ struct ObjectBuilder {
         if (!outline.closed) return;  // a line on the ground without paint
         std::vector<glm::dvec3> corners;
         for (const glm::dvec2& p : places) corners.push_back(on_surface(p.x, p.y, 0));
-        mesh.any_polygon(kind == ObjectKind::RoadMark ? Stuff::MarkWhite
-                         : kind == ObjectKind::Island ? Stuff::Concrete
-                                                      : Stuff::Shoulder,
+        mesh.any_polygon(kind == ObjectKind::RoadMark ? RoadMaterial::MarkWhite
+                         : kind == ObjectKind::Island ? RoadMaterial::Concrete
+                                                      : RoadMaterial::Shoulder,
                          corners, surface_point(road, at.s, at.t).up);
     }
 
@@ -236,9 +236,9 @@ struct ObjectBuilder {
 
     /// A body without end along the road: a rail, a wall, a fence.
     void continuous(const RoadObject& object, const ObjectRepeat& repeat) {
-        const Stuff stuff = kind == ObjectKind::Railing || kind == ObjectKind::Barrier ? Stuff::Steel
-                            : kind == ObjectKind::Tree || kind == ObjectKind::Bush     ? Stuff::Leaves
-                                                                                       : Stuff::Concrete;
+        const RoadMaterial stuff = kind == ObjectKind::Railing || kind == ObjectKind::Barrier ? RoadMaterial::Steel
+                            : kind == ObjectKind::Tree || kind == ObjectKind::Bush     ? RoadMaterial::Leaves
+                                                                                       : RoadMaterial::Concrete;
         const double end = std::min(repeat.s + repeat.length, road.length);
         if (!(end > repeat.s)) return;
         const auto steps = static_cast<int>(std::clamp(std::ceil((end - repeat.s) / 4), 1.0, 100'000.0));
@@ -311,4 +311,4 @@ void build_objects(RoadBuild& build) {
                               (pieces > kMaxCopies ? ", more are left out" : ""));
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

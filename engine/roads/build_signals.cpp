@@ -1,16 +1,15 @@
 // Signs and traffic lights. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "base/luminance.h"
 #include "roads/road_lamps.h"
 #include "roads/sign_faces.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr size_t kMaxSignals = 20'000;
 constexpr double kPole = 0.6;  // m; a pole among the objects within this stands for the signal's
 
@@ -54,7 +53,7 @@ struct SignalBuilder {
         const double ground = std::min(build.ground.height(glm::dvec2(frame.origin)), frame.origin.z) - 0.2;
         BodyFrame foot = frame_at(road, s.s, s.t, 0);
         foot.origin = {frame.origin.x - frame.x.x * 0.06, frame.origin.y - frame.x.y * 0.06, ground};
-        add_cylinder(mesh, Stuff::PoleSteel, foot, height > 1.5 ? 0.06 : 0.035, frame.origin.z + height - ground);
+        add_cylinder(mesh, RoadMaterial::PoleSteel, foot, height > 1.5 ? 0.06 : 0.035, frame.origin.z + height - ground);
     }
 
     void sign(const RoadSignal& s) {
@@ -75,9 +74,9 @@ struct SignalBuilder {
         const BodyFrame frame = frame_of(s);
         const double depth = 0.16, pitch = height / lenses,
                      lens = pitch > 0.22 ? kLens : std::min(kSmallLens, pitch * 0.8);
-        add_box(mesh, Stuff::Housing, frame.moved(-depth / 2, 0, 0), depth, width, height);
+        add_box(mesh, RoadMaterial::Housing, frame.moved(-depth / 2, 0, 0), depth, width, height);
         // A box has no bottom, and this one is seen from below.
-        mesh.quad(Stuff::Housing, frame.at(0, -width / 2, 0), frame.at(-depth, -width / 2, 0),
+        mesh.quad(RoadMaterial::Housing, frame.at(0, -width / 2, 0), frame.at(-depth, -width / 2, 0),
                   frame.at(-depth, width / 2, 0), frame.at(0, width / 2, 0));
         pole(s, frame.moved(-depth, 0, 0), height);
         const std::string name = "signal_" + s.id;
@@ -111,7 +110,7 @@ struct SignalBuilder {
             return p.position + p.up * (kMarkHeight + 0.003);
         };
         const double right = std::min(from, to), left = std::max(from, to);
-        mesh.quad(Stuff::MarkWhite, corner(-0.25, right), corner(0.25, right), corner(0.25, left), corner(-0.25, left));
+        mesh.quad(RoadMaterial::MarkWhite, corner(-0.25, right), corner(0.25, right), corner(0.25, left), corner(-0.25, left));
     }
 };
 
@@ -142,4 +141,4 @@ void build_signals(RoadBuild& build) {
                               " traffic lights");
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -8,7 +8,7 @@
 #include "roads/road_lamps.h"
 #include "scene/colour.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr size_t kMaxStreetLamps = 20'000;
@@ -140,9 +140,9 @@ void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, in
     char name[40];
     std::snprintf(name, sizeof name, "street_lamp_%03zu", number);
     RoadMesh mesh(build.network);
-    add_cylinder(mesh, Stuff::PoleSteel, frame.moved(0, 0, -0.3), 0.09, height + 0.4, 0.05);
-    add_box(mesh, Stuff::PoleSteel, frame.moved(0, overhang / 2, height + 0.06), 0.07, std::abs(overhang), 0.07);
-    add_box(mesh, Stuff::Luminaire, frame.moved(0, overhang, height + 0.02), kHead, kHeadWidth, 0.1);
+    add_cylinder(mesh, RoadMaterial::PoleSteel, frame.moved(0, 0, -0.3), 0.09, height + 0.4, 0.05);
+    add_box(mesh, RoadMaterial::PoleSteel, frame.moved(0, overhang / 2, height + 0.06), 0.07, std::abs(overhang), 0.07);
+    add_box(mesh, RoadMaterial::Luminaire, frame.moved(0, overhang, height + 0.02), kHead, kHeadWidth, 0.1);
     mesh.place(build.scene, build.materials, name);
     // The luminaire's frame: -Z down, C0 (+X) along the road, C90 (+Y) towards it.
     const double side = towards;
@@ -171,4 +171,4 @@ void build_street_lamps(RoadBuild& build) {
                           std::to_string(std::lround(options.spacing)) + " m");
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

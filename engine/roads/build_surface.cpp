@@ -5,23 +5,23 @@
 #include "base/error.h"
 #include "roads/lit_road_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr double kLongest = 20;  // m between stations
+constexpr double kLongestStation = 20;  // m between stations
 constexpr double kPiece = 60;    // m of road in one mesh, short enough to be culled
 constexpr size_t kMaxEdges = 4'000'000;
 constexpr double kStep = 0.02;       // m; higher edges get a face
 constexpr double kKerbWidth = 0.15;  // m of kerb stone
 constexpr double kLift = 0.003;      // m that driven lanes of junctions lie over what else is there
 constexpr double kGrassDrop = 0.03;  // m
-constexpr double kInside = 0.1;      // m
+constexpr double kInsideSurface = 0.1;      // m
 constexpr double kBridge = 2.5;      // m over the ground from which a road is a bridge
 constexpr double kDeck = 1;          // m
 
 /// Borders are hard, but the outermost one, where it is wide, is what files have for the verge.
-Stuff stuff_of(LaneType type, bool verge) {
-    if (verge) return Stuff::Grass;
+RoadMaterial stuff_of(LaneType type, bool verge) {
+    if (verge) return RoadMaterial::Grass;
     switch (type) {
         case LaneType::Driving:
         case LaneType::Entry:
@@ -30,21 +30,21 @@ Stuff stuff_of(LaneType type, bool verge) {
         case LaneType::Bidirectional:
         case LaneType::Parking:
         case LaneType::Restricted:
-            return Stuff::Asphalt;
+            return RoadMaterial::Asphalt;
         case LaneType::Stop:
         case LaneType::Shoulder:
         case LaneType::Border:
-            return Stuff::Shoulder;
+            return RoadMaterial::Shoulder;
         case LaneType::Biking:
-            return Stuff::Bikeway;
+            return RoadMaterial::Bikeway;
         case LaneType::Sidewalk:
-            return Stuff::Pavement;
+            return RoadMaterial::Pavement;
         case LaneType::Curb:
-            return Stuff::Kerb;
+            return RoadMaterial::Kerb;
         case LaneType::Rail:
-            return Stuff::Gravel;
+            return RoadMaterial::Gravel;
         default:
-            return Stuff::Grass;
+            return RoadMaterial::Grass;
     }
 }
 
@@ -60,7 +60,7 @@ RoadPoint between(const RoadPoint& a, const RoadPoint& b, double f) {
 }
 
 /// A strip between two lines; `left` is where it has its left edge.
-void strip(RoadMesh& mesh, Stuff stuff, const RoadPoint& right0, const RoadPoint& right1, const RoadPoint& left0,
+void strip(RoadMesh& mesh, RoadMaterial stuff, const RoadPoint& right0, const RoadPoint& right1, const RoadPoint& left0,
            const RoadPoint& left1, double lift) {
     mesh.quad(stuff, corner(right0, lift), corner(right1, lift), corner(left1, lift), corner(left0, lift));
 }
@@ -90,13 +90,13 @@ struct SectionBuilder {
         if (width < 1e-3) return false;
         if (!driven && road.junction != kNoRoad) {
             const glm::dvec3 middle = (a.inner.position + a.outer.position + b.inner.position + b.outer.position) / 4.0;
-            if (is_driven_over(build, cut.road, middle, kInside)) return false;
+            if (is_driven_over(build, cut.road, middle, kInsideSurface)) return false;
         }
-        const Stuff stuff = stuff_of(lane.type, is_verge(section, lane, cut.stations[i]));
-        if (stuff == Stuff::Grass && hangs(a, b)) return false;
+        const RoadMaterial stuff = stuff_of(lane.type, is_verge(section, lane, cut.stations[i]));
+        if (stuff == RoadMaterial::Grass && hangs(a, b)) return false;
         // Grass lies a little lower, so that where roads meet none of it shows through the lanes of another.
-        const double lift = stuff == Stuff::Grass ? -kGrassDrop : driven && road.junction != kNoRoad ? kLift : 0;
-        const auto part = [&](Stuff of, double from, double to, double lift_by) {
+        const double lift = stuff == RoadMaterial::Grass ? -kGrassDrop : driven && road.junction != kNoRoad ? kLift : 0;
+        const auto part = [&](RoadMaterial of, double from, double to, double lift_by) {
             const RoadPoint i0 = between(a.inner, a.outer, from), i1 = between(b.inner, b.outer, from);
             const RoadPoint o0 = between(a.inner, a.outer, to), o1 = between(b.inner, b.outer, to);
             if (is_left)
@@ -110,7 +110,7 @@ struct SectionBuilder {
         const double rise = std::max(glm::dot(a.inner.position - n0.outer.position, a.inner.up),
                                      glm::dot(b.inner.position - n1.outer.position, b.inner.up));
         const double stone = rise > kStep && lane.type != LaneType::Curb ? std::min(1.0, 2 * kKerbWidth / width) : 0;
-        if (stone > 0) part(Stuff::Kerb, 0, stone, 0);
+        if (stone > 0) part(RoadMaterial::Kerb, 0, stone, 0);
         if (stone < 1) part(stuff, stone, 1, lift);
         step_face(n0.outer, n1.outer, a.inner, b.inner, is_left);
         return true;
@@ -124,9 +124,9 @@ struct SectionBuilder {
         const RoadPoint &low0 = up ? n0 : e0, &low1 = up ? n1 : e1, &high0 = up ? e0 : n0, &high1 = up ? e1 : n1;
         // It looks to where it is low: towards the centre where it rises outwards.
         if (is_left == up)
-            mesh.quad(Stuff::Kerb, low0.position, low1.position, high1.position, high0.position);
+            mesh.quad(RoadMaterial::Kerb, low0.position, low1.position, high1.position, high0.position);
         else
-            mesh.quad(Stuff::Kerb, low1.position, low0.position, high0.position, high1.position);
+            mesh.quad(RoadMaterial::Kerb, low1.position, low0.position, high0.position, high1.position);
     }
 
     /// From an edge down into the ground; the deck of a bridge ends before.
@@ -142,14 +142,14 @@ struct SectionBuilder {
                         &r0 = cut.rows[i][last].outer, &r1 = cut.rows[i + 1][last].outer;
         const auto stuff = [&](size_t l) {
             return section.lanes[l].type == LaneType::Sidewalk || section.lanes[l].type == LaneType::Curb
-                       ? Stuff::Kerb
-                       : Stuff::Grass;
+                       ? RoadMaterial::Kerb
+                       : RoadMaterial::Grass;
         };
         const bool bridge =
             hangs(cut.rows[i][first], cut.rows[i + 1][first]) || hangs(cut.rows[i][last], cut.rows[i + 1][last]);
-        mesh.quad(bridge ? Stuff::Concrete : stuff(first), foot(l1), foot(l0), l0.position, l1.position);
-        mesh.quad(bridge ? Stuff::Concrete : stuff(last), foot(r0), foot(r1), r1.position, r0.position);
-        if (bridge) mesh.quad(Stuff::Concrete, foot(l0), foot(l1), foot(r1), foot(r0));
+        mesh.quad(bridge ? RoadMaterial::Concrete : stuff(first), foot(l1), foot(l0), l0.position, l1.position);
+        mesh.quad(bridge ? RoadMaterial::Concrete : stuff(last), foot(r0), foot(r1), r1.position, r0.position);
+        if (bridge) mesh.quad(RoadMaterial::Concrete, foot(l0), foot(l1), foot(r1), foot(r0));
     }
 
     void pieces(size_t i) {
@@ -166,9 +166,9 @@ struct SectionBuilder {
             const RoadPoint &right = section.lanes[l].id > 0 ? edges.inner : edges.outer,
                             &left = section.lanes[l].id > 0 ? edges.outer : edges.inner;
             if (at_start)
-                mesh.quad(Stuff::Grass, foot(left), foot(right), right.position, left.position);
+                mesh.quad(RoadMaterial::Grass, foot(left), foot(right), right.position, left.position);
             else
-                mesh.quad(Stuff::Grass, foot(right), foot(left), left.position, right.position);
+                mesh.quad(RoadMaterial::Grass, foot(right), foot(left), left.position, right.position);
         }
     }
 };
@@ -182,7 +182,7 @@ std::vector<CutSection> cut_roads(const RoadNetwork& network, double chord) {
         const Road& road = network.roads[r];
         for (uint32_t s = 0; s < road.sections.size(); ++s) {
             const LaneSection& section = road.sections[s];
-            CutSection cut{r, s, road_stations(road, section, chord, kLongest), {}};
+            CutSection cut{r, s, road_stations(road, section, chord, kLongestStation), {}};
             edges += cut.stations.size() * section.lanes.size();
             if (edges > kMaxEdges)
                 throw Error("the roads are too finely divided to be built: more than " + std::to_string(kMaxEdges) +
@@ -254,4 +254,4 @@ void build_surfaces(RoadBuild& build, const std::vector<CutSection>& cuts) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -8,7 +8,7 @@
 #include "roads/esmini_run.h"
 #include "roads/xml.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 void read_table(const std::filesystem::path& file, EsminiRun& run);
 
@@ -52,4 +52,4 @@ double number_in(const XmlElement& element, const char* attribute, const Paramet
 /// Goes through the storyboard at the run's steps and enters what it sets.
 void play_storyboard(ScenarioFile& scenario, const RoadNetwork* roads, EsminiRun& run);
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -10,10 +10,10 @@
 #include "io/atomic_file.h"
 #include "roads/esmini_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr double kBraking = 0.7;  // m/s^2, UN Regulation 13-H: brake lamps of regenerative braking may come on from 0.7
+constexpr double kBrakeLampDeceleration = 0.7;  // m/s^2, UN Regulation 13-H: brake lamps of regenerative braking may come on from 0.7
 constexpr double kStanding = 0.05;  // m/s
 constexpr double kSpan = 0.25;      // s over which a change of speed is looked at
 
@@ -104,7 +104,7 @@ void derive_lamps(RunEntity& entity) {
         moved = moved || speed > 1;
         const double span = std::min(pose.time + kSpan, entity.poses.back().time) -
                             std::max(pose.time - kSpan, entity.poses.front().time);
-        return (span > 0 && (before - after) / span > kBraking && after < speed + 1e-9) || (moved && speed < kStanding);
+        return (span > 0 && (before - after) / span > kBrakeLampDeceleration && after < speed + 1e-9) || (moved && speed < kStanding);
     });
 }
 
@@ -139,4 +139,4 @@ EsminiRun read_esmini_run(const std::filesystem::path& table, const std::optiona
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

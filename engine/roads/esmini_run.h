@@ -14,7 +14,7 @@
 
 #include "roads/road_network.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 enum class RunLamp : uint8_t {
     LowBeam,
@@ -109,4 +109,4 @@ LampState lamp_at(const RunEntity& entity, RunLamp lamp, double time);
 /// The state of a traffic light, empty where none was set yet.
 std::string signal_at(const EsminiRun& run, const std::string& signal, double time);
 
-}  // namespace vesper
+}  // namespace vesper::roads

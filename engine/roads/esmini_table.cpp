@@ -2,20 +2,19 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/lower.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
 #include "roads/esmini_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr uint64_t kMaxBytes = 1ull << 30;
+constexpr uint64_t kMaxEsminiBytes = 1ull << 30;
 constexpr size_t kMaxRows = 20'000'000, kMaxEntities = 10'000, kMaxColumns = 100'000;
-constexpr double kTurn = 2 * std::numbers::pi;
 
 /// What is read, and what dat2csv calls it.
 enum class Field : uint8_t { Time, Id, Name, X, Y, Z, H, P, R, Speed, WheelAngle, WheelRotation, BoxX, BoxY, BoxZ, BoxLength, BoxWidth, BoxHeight, Count };
@@ -70,7 +69,7 @@ std::optional<Columns> logged_header_of(const std::vector<std::string_view>& fie
         last = i;
         for (const auto& [logged, known] : kLogged)
             if (name.substr(3) == logged) columns.index.try_emplace(known, i);
-        if (fields[i].find("[deg]") != fields[i].npos && name.substr(3) == "Wheel_Angle") columns.angle = kTurn / 360;
+        if (fields[i].find("[deg]") != fields[i].npos && name.substr(3) == "Wheel_Angle") columns.angle = kTwoPi / 360;
     }
     const auto first = columns.index.find("name");
     if (first == columns.index.end() || !columns.index.contains("time")) return std::nullopt;
@@ -169,7 +168,7 @@ void find_speeds(RunEntity& entity) {
     }
 }
 
-double between(double a, double b, double f) { return a + std::remainder(b - a, kTurn) * f; }
+double between(double a, double b, double f) { return a + std::remainder(b - a, kTwoPi) * f; }
 
 }  // namespace
 
@@ -182,7 +181,7 @@ const char* name_of(RunLamp lamp) {
 }
 
 void read_table(const std::filesystem::path& file, EsminiRun& run) {
-    const std::vector<uint8_t> bytes = read_file(file, kMaxBytes);
+    const std::vector<uint8_t> bytes = read_file(file, kMaxEsminiBytes);
     LineReader lines(bytes, one_line(file.string()));
     std::optional<Columns> columns;
     TableReader reader{lines, run};
@@ -232,9 +231,9 @@ RunPose pose_at(const RunEntity& entity, double time) {
     pose.speed = glm::mix(a.speed, b.speed, f);
     pose.wheel_angle = glm::mix(a.wheel_angle, b.wheel_angle, f);
     // A fast wheel turns by more than half a turn a step: the direction is that of the speed.
-    double turn = std::fmod(b.wheel_rotation - a.wheel_rotation, kTurn);
-    if (turn < 0 && pose.speed > 0) turn += kTurn;
-    if (turn > 0 && pose.speed < 0) turn -= kTurn;
+    double turn = std::fmod(b.wheel_rotation - a.wheel_rotation, kTwoPi);
+    if (turn < 0 && pose.speed > 0) turn += kTwoPi;
+    if (turn > 0 && pose.speed < 0) turn -= kTwoPi;
     pose.wheel_rotation = a.wheel_rotation + turn * f;
     return pose;
 }
@@ -271,4 +270,4 @@ std::string signal_at(const EsminiRun& run, const std::string& signal, double ti
     return state;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr double kMaxNodes = 600'000;
@@ -87,4 +87,4 @@ glm::dvec3 Ground::normal(uint32_t column, uint32_t row) const {
     return glm::normalize(glm::cross(x, y));
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::roads {
 
 /// Heights over the plane of the file's frame, bilinear between the nodes of a grid.
 class Ground {
@@ -39,4 +39,4 @@ private:
     std::vector<double> heights_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -8,17 +8,17 @@
 #include "roads/lane_build.h"
 #include "roads/road_surface.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr double kChord = 0.005;    // m
-constexpr double kLongest = 5;      // m
+constexpr double kLongestPose = 5;      // m
 constexpr double kNarrowest = 0.1;  // m; a lane that never is wider is none
-constexpr double kJoint = 3;        // m; links further than this lead nowhere
+constexpr double kLinkGap = 3;        // m; links further than this lead nowhere
 constexpr double kMeet = 0.3;       // m, and within 20 degrees
 constexpr double kSameStation = 0.05;  // m
 constexpr size_t kMostFollowers = 64;    // of one lane; crossings have five
-constexpr size_t kMostLooks = 50'000'000;  // at lanes that may follow though nothing says so
+constexpr size_t kMaxLinkTests = 50'000'000;  // at lanes that may follow though nothing says so
 constexpr size_t kMaxPoses = 20'000'000;
 
 bool is_wanted(LaneType type) {
@@ -40,7 +40,7 @@ struct Builder {
     }
     void link(uint32_t from, uint32_t to) {
         if (from == kNoLane || to == kNoLane) return;
-        if (glm::distance(lanes[from].poses.back().position, lanes[to].poses.front().position) > kJoint) return;
+        if (glm::distance(lanes[from].poses.back().position, lanes[to].poses.front().position) > kLinkGap) return;
         auto& after = lanes[from].successors;
         if (after.size() >= kMostFollowers || std::find(after.begin(), after.end(), to) != after.end()) return;
         after.push_back(to);
@@ -154,7 +154,7 @@ void add_section(Builder& builder, uint32_t road_index, uint32_t section_index) 
     if (std::none_of(section.lanes.begin(), section.lanes.end(),
                      [](const RoadLane& lane) { return is_wanted(lane.type); }))
         return;
-    const std::vector<double> stations = road_stations(road, section, kChord, kLongest);
+    const std::vector<double> stations = road_stations(road, section, kChord, kLongestPose);
     for (const RoadLane& lane : section.lanes) {
         if (lane.id == 0 || !is_wanted(lane.type)) continue;
         const bool forwards = (lane.id < 0) == road.right_hand;
@@ -276,7 +276,7 @@ void link_where_they_meet(std::vector<Lane>& lanes) {
         if (!lanes[from].successors.empty()) continue;
         const LanePose& end = lanes[from].poses.back();
         const std::vector<uint32_t> near = starts.near({end.position.x, end.position.z}, kMeet);
-        if ((looks += near.size()) > kMostLooks) return;
+        if ((looks += near.size()) > kMaxLinkTests) return;
         for (const uint32_t to : near) {
             if (lanes[from].successors.size() >= kMostFollowers) break;
             if (lanes[to].road == lanes[from].road && !adjoin(lanes[from], lanes[to])) continue;
@@ -331,4 +331,4 @@ std::vector<Kerb> build_kerbs(const RoadNetwork& network) {
     return kerbs;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

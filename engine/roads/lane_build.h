@@ -3,7 +3,7 @@
 
 #include "roads/lanes.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// All lanes with their poses and neighbours, and their links as the file states them.
 std::vector<Lane> build_lanes(const RoadNetwork& network);
@@ -11,4 +11,4 @@ std::vector<Lane> build_lanes(const RoadNetwork& network);
 void link_where_they_meet(std::vector<Lane>& lanes);
 std::vector<Kerb> build_kerbs(const RoadNetwork& network);
 
-}  // namespace vesper
+}  // namespace vesper::roads

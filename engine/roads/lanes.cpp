@@ -7,12 +7,12 @@
 
 #include "roads/lane_build.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr double kTown = 50 / 3.6, kFree = 130 / 3.6;  // m/s
 
-constexpr size_t kMostLooks = 1'000'000;  // ahead on one way: beyond that the longest of the next lanes is taken
+constexpr size_t kMaxWaySteps = 1'000'000;  // ahead on one way: beyond that the longest of the next lanes is taken
 
 glm::dvec2 from_above(glm::dvec3 p) { return {p.x, p.z}; }
 
@@ -140,7 +140,7 @@ std::vector<uint32_t> LaneGraph::long_route(uint32_t from) const {
     size_t looks = 0;
     const auto outlook = [&](const auto& self, uint32_t lane, int depth) -> double {
         double best = 0;
-        if (++looks < kMostLooks && depth > 0)
+        if (++looks < kMaxWaySteps && depth > 0)
             for (const uint32_t next : lanes_[lane].successors)
                 if (!entered[next]) best = std::max(best, self(self, next, depth - 1));
         return lanes_[lane].length + best;
@@ -197,4 +197,4 @@ std::vector<uint32_t> LaneGraph::kerbs_near(glm::dvec3 point, double reach) cons
     return found;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

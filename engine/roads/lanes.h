@@ -16,7 +16,7 @@
 #include "roads/road_network.h"
 #include "roads/segment_grid.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 constexpr uint32_t kNoLane = ~0u;
 
@@ -117,4 +117,4 @@ private:
     std::vector<std::pair<uint32_t, uint32_t>> lane_segments_;  ///< lane and pose of each entry of lane_grid_
 };
 
-}  // namespace vesper
+}  // namespace vesper::roads

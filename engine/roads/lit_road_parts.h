@@ -6,7 +6,7 @@
 #include "roads/road_mesh.h"
 #include "roads/road_surface.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 constexpr double kMarkHeight =
     0.006;  ///< m of paint over the road: reversed depth tells it from the road at any distance
@@ -56,4 +56,4 @@ void build_signals(RoadBuild&);
 void build_street_lamps(RoadBuild&);
 void build_cameras(RoadBuild&);
 
-}  // namespace vesper
+}  // namespace vesper::roads

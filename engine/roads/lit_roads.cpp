@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "roads/lit_road_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr double kMaxDrawn = 300'000;  // m of road
@@ -60,4 +60,4 @@ LitRoads lit_roads(const RoadNetwork& network, const LitRoadOptions& options) {
     return {std::move(build.scene), std::move(build.notes)};
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -8,7 +8,7 @@
 #include "roads/lanes.h"
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// Street lamps along roads that the file has none for.
 struct StreetLampOptions {
@@ -44,4 +44,4 @@ struct LitRoads {
 /// "signal_*/red", ".../yellow", ".../green" Throws Error where it would be too large.
 LitRoads lit_roads(const RoadNetwork& network, const LitRoadOptions& options = {});
 
-}  // namespace vesper
+}  // namespace vesper::roads

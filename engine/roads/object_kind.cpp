@@ -9,10 +9,10 @@
 
 #include "base/lower.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr size_t kLongest = 200;  // letters that are looked at
+constexpr size_t kLongestName = 200;  // letters that are looked at
 
 // The first that is found counts: "rail-pole" is a pole.
 constexpr std::pair<std::string_view, ObjectKind> kWords[] = {
@@ -84,7 +84,7 @@ size_t place_of(std::string_view word) {
 }
 
 ObjectKind kind_of(std::string_view text) {
-    const std::string words = words_of(text.substr(0, kLongest));
+    const std::string words = words_of(text.substr(0, kLongestName));
     size_t best = std::size(kWords), before = 0;
     for (size_t at = 0; at < words.size();) {
         const size_t end = words.find(' ', at);
@@ -113,4 +113,4 @@ bool is_flat(ObjectKind kind) {
            kind == ObjectKind::Patch;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

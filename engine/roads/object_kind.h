@@ -3,7 +3,7 @@
 
 #include "roads/road_network.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 enum class ObjectKind : uint8_t {
     Other,
@@ -29,4 +29,4 @@ ObjectKind kind_of(const RoadObject& object);
 /// Whether it lies on the road, whatever height above it the file reserves.
 bool is_flat(ObjectKind kind);
 
-}  // namespace vesper
+}  // namespace vesper::roads

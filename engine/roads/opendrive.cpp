@@ -9,10 +9,10 @@
 #include "io/atomic_file.h"
 #include "roads/opendrive_reader.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr size_t kMaxNotes = 100;
+constexpr size_t kMaxRoadNotes = 100;
 constexpr double kNear = 4096;  // m: floats are exact to 0.25 mm there
 
 void read_header(OpenDriveReader& reader, const XmlElement& root) {
@@ -127,9 +127,9 @@ void OpenDriveReader::count(const XmlElement& element) {
 }
 
 void OpenDriveReader::note(const XmlElement& element, const std::string& what) {
-    if (network.notes.size() < kMaxNotes)
+    if (network.notes.size() < kMaxRoadNotes)
         network.notes.push_back(element.place() + ": " + one_line(what));
-    else if (network.notes.size() == kMaxNotes)
+    else if (network.notes.size() == kMaxRoadNotes)
         network.notes.push_back(element.place() + ": and more of the kind");
 }
 
@@ -150,4 +150,4 @@ RoadNetwork read_opendrive(const std::filesystem::path& path, const RoadLimits& 
     return parse_opendrive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(), limits);
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -7,7 +7,7 @@
 #include "base/limits.h"
 #include "roads/road_network.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// Upper bounds on what a file may ask for. Those on memory follow VESPER_LIMITS (base/limits.h).
 struct RoadLimits {
@@ -27,4 +27,4 @@ RoadNetwork read_opendrive(const std::filesystem::path& file, const RoadLimits& 
 /// The same from memory; `name` is what messages call it.
 RoadNetwork parse_opendrive(std::string_view text, const std::string& name, const RoadLimits& limits = {});
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -4,12 +4,12 @@
 
 #include "roads/opendrive_reader.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr int kMaxLaneId = 128;    // either side; motorways have ten
 constexpr double kMaxWidth = 1e4;  // m
-constexpr double kShortest = 0.001;  // m, of a lane section
+constexpr double kShortestSection = 0.001;  // m, of a lane section
 
 // What a broken line is painted like where the file does not say: 3 m and 6 m of gap, as on country roads.
 constexpr double kDash = 3, kGap = 6;
@@ -52,14 +52,6 @@ LaneType lane_type_of(OpenDriveReader& reader, const XmlElement& element) {
     return LaneType::Other;
 }
 
-MarkColour colour_of(const std::string& name) {
-    static const std::map<std::string, MarkColour> kColours{
-        {"yellow", MarkColour::Yellow}, {"red", MarkColour::Red},       {"blue", MarkColour::Blue},
-        {"green", MarkColour::Green},   {"orange", MarkColour::Orange}, {"black", MarkColour::Black}};
-    const auto found = kColours.find(name);
-    return found == kColours.end() ? MarkColour::White : found->second;
-}
-
 void read_patterns(const XmlElement& element, RoadMark& mark, const MarkLine& like) {
     for (const char* holder : {"type", "explicit"})
         for (const XmlElement& each : element.children_of(holder, "line")) {
@@ -70,7 +62,7 @@ void read_patterns(const XmlElement& element, RoadMark& mark, const MarkLine& li
             line.s_offset = each.number_or("sOffset", 0);
             line.length = each.number_or("length", 0, 0);
             line.space = each.number_or("space", 0, 0);
-            if (each.attribute("color")) line.colour = colour_of(each.text("color"));
+            if (each.attribute("color")) line.colour = mark_colour(each.text("color"));
             if (holder[0] == 'e') line.once = line.length;
             if (line.space <= 0) line.length = 0;  // solid, however it is cut into pieces
             mark.lines.push_back(line);
@@ -110,7 +102,7 @@ RoadMark mark_of(OpenDriveReader& reader, const XmlElement& element, double from
     mark.botts_dots = mark.type == "botts dots";
     if (mark.type == "none" || mark.type == "grass") return mark;
     MarkLine like;
-    like.colour = colour_of(element.text_or("color", "standard"));
+    like.colour = mark_colour(element.text_or("color", "standard"));
     like.width = element.number_or("width", 0, -100, 100);  // some write -1 where they know none
     if (like.width <= 0) like.width = element.text_or("weight", "") == "bold" ? kBoldWidth : kWidth;
     read_patterns(element, mark, like);
@@ -234,18 +226,26 @@ void drop_short_sections(Road& road) {
     for (size_t i = 0; i < road.sections.size(); ++i) {
         LaneSection& section = road.sections[i];
         const bool last = i + 1 == road.sections.size();
-        if (section.end - section.s >= kShortest || (last && kept.empty())) {
+        if (section.end - section.s >= kShortestSection || (last && kept.empty())) {
             kept.push_back(std::move(section));
             continue;
         }
         if (!kept.empty()) link_past(kept.back().lanes, section, &RoadLane::successors), kept.back().end = section.end;
         if (!last) link_past(road.sections[i + 1].lanes, section, &RoadLane::predecessors);
     }
-    if (kept.size() == 1 && kept[0].end - kept[0].s < kShortest) kept[0].s = 0;
+    if (kept.size() == 1 && kept[0].end - kept[0].s < kShortestSection) kept[0].s = 0;
     road.sections = std::move(kept);
 }
 
 }  // namespace
+
+MarkColour mark_colour(const std::string& name) {
+    static const std::map<std::string, MarkColour> kColours{
+        {"yellow", MarkColour::Yellow}, {"red", MarkColour::Red},       {"blue", MarkColour::Blue},
+        {"green", MarkColour::Green},   {"orange", MarkColour::Orange}, {"black", MarkColour::Black}};
+    const auto found = kColours.find(name);
+    return found == kColours.end() ? MarkColour::White : found->second;
+}
 
 SpeedLimit limit_of(OpenDriveReader& reader, const XmlElement& element, double s) {
     const std::string value = element.text_or("max", "undefined");
@@ -276,7 +276,7 @@ void read_lanes(OpenDriveReader& reader, const XmlElement& element, Road& road) 
             reader.note(each, "begins behind the end of road '" + road.id + "': left out");
             continue;
         }
-        if (!road.sections.empty() && section.s - road.sections.back().s < kShortest)
+        if (!road.sections.empty() && section.s - road.sections.back().s < kShortestSection)
             reader.note(each, "begins where the lane section before it does: that one is left out");
         if (!road.sections.empty()) keep_other_side(each, road.sections.back(), section);
         road.sections.push_back(std::move(section));
@@ -291,4 +291,4 @@ void read_lanes(OpenDriveReader& reader, const XmlElement& element, Road& road) 
     drop_short_sections(road);
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -5,10 +5,10 @@
 #include "roads/opendrive_reader.h"
 #include "roads/road_surface.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr double kJoint = 0.1;  // m
+constexpr double kRoadGap = 0.1;  // m
 
 RoadEnd end_of(const std::string& contact) { return contact == "end" ? RoadEnd::End : RoadEnd::Start; }
 
@@ -46,7 +46,7 @@ void check_joint(OpenDriveReader& reader, const XmlElement& element, const Road&
     const double gap = std::min(glm::distance(end_point(road, end), end_point(other, link.contact)),
                                 glm::distance(centre(road, end), centre(other, link.contact)));
     // In junctions roads branch off lanes of the side.
-    if (gap > kJoint && road.junction == kNoRoad && other.junction == kNoRoad)
+    if (gap > kRoadGap && road.junction == kNoRoad && other.junction == kNoRoad)
         reader.note(element, "road '" + road.id + "' and road '" + other.id + "' are linked but " +
                                  std::to_string(gap) + " m apart");
 }
@@ -142,4 +142,4 @@ void check_network(OpenDriveReader& reader, const XmlFile& file) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

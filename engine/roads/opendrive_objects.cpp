@@ -6,20 +6,12 @@
 #include "io/atomic_file.h"
 #include "roads/opendrive_reader.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr double kMaxSize = 1e4;  // m, of one object
 constexpr double kBeyond = 0.01;  // m beyond the ends of a road: rounding
 constexpr size_t kMaxCorners = 1000;
-
-MarkColour colour_of(const std::string& name) {
-    return name == "yellow"  ? MarkColour::Yellow
-           : name == "red"   ? MarkColour::Red
-           : name == "blue"  ? MarkColour::Blue
-           : name == "green" ? MarkColour::Green
-                             : MarkColour::White;
-}
 
 char orientation_of(const XmlElement& element) {
     const std::string text = element.text_or("orientation", "none");
@@ -65,7 +57,7 @@ void read_markings(OpenDriveReader& reader, const XmlElement& element, RoadObjec
         marking.space_length = each.number_or("spaceLength", 0, 0, kMaxSize);
         marking.start_offset = each.number_or("startOffset", 0, -kMaxSize, kMaxSize),
         marking.stop_offset = each.number_or("stopOffset", 0, -kMaxSize, kMaxSize);
-        marking.colour = colour_of(each.text_or("color", "white"));
+        marking.colour = mark_colour(each.text_or("color", "white"));
         marking.side = each.text_or("side", "");
         for (const XmlElement& corner : each.children("cornerReference"))
             marking.corners.push_back(corner.integer("id", -1'000'000'000, 1'000'000'000));
@@ -193,4 +185,4 @@ void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

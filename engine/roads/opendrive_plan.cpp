@@ -5,13 +5,13 @@
 
 #include "roads/opendrive_reader.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr double kJoint = 0.01;  // m; files are written with more digits than this
+constexpr double kPlanGap = 0.01;  // m; files are written with more digits than this
 constexpr double kKink = 0.02;  // rad, as much as is not seen
 constexpr double kTorn = 1000;   // m; no road
-constexpr double kShortest = 0.001;  // m: roads that join others in one point are as long as this
+constexpr double kShortestRoad = 0.001;  // m: roads that join others in one point are as long as this
 
 std::array<double, 4> coefficients(const XmlElement& element, const char* of) {
     const std::string name(of);
@@ -73,22 +73,22 @@ void check_joints(OpenDriveReader& reader, const XmlElement& element, Road& road
         if (!(gap <= kTorn))
             element.fail("road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
                          " m at s = " + std::to_string(g.s));
-        if (gap > kJoint)
+        if (gap > kPlanGap)
             reader.note(element, "road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
                                      " m at s = " + std::to_string(g.s));
         if (const double turn = std::remainder(begin.heading - end.heading, 2 * std::numbers::pi); std::abs(turn) > kKink)
             reader.note(element, "road '" + road.id + "': the reference line has a kink of " +
                                      std::to_string(turn * 180 / std::numbers::pi) + " degrees at s = " + std::to_string(g.s));
         const double end_s = before.s + before.length;
-        if (std::abs(g.s - end_s) > kJoint)
+        if (std::abs(g.s - end_s) > kPlanGap)
             reader.note(element, "road '" + road.id + "': a geometry ends at s = " + std::to_string(end_s) + ", the next begins at " +
                                      std::to_string(g.s));
     }
     const double end = road.plan.back().s + road.plan.back().length;
-    if (std::abs(end - road.length) > kJoint)
+    if (std::abs(end - road.length) > kPlanGap)
         reader.note(element, "road '" + road.id + "': its geometry is " + std::to_string(end) + " m long, not " +
                                  std::to_string(road.length));
-    if (end < road.length - kJoint || road.length < kShortest) road.length = end;  // what has no geometry is no road
+    if (end < road.length - kPlanGap || road.length < kShortestRoad) road.length = end;  // what has no geometry is no road
 }
 
 /// Exporters write connecting roads without length where roads meet in a point. As a road of next to none, it still says which
@@ -98,7 +98,7 @@ void read_point(OpenDriveReader& reader, const XmlElement& element, Road& road) 
     reader.note(element, "road '" + road.id + "' has no length: taken for a millimetre");
     PlanGeometry g;
     g.x = element.number("x"), g.y = element.number("y"), g.heading = element.number_or("hdg", 0);
-    g.length = road.length = kShortest;
+    g.length = road.length = kShortestRoad;
     road.plan.push_back(std::move(g));
 }
 
@@ -188,7 +188,7 @@ void read_plan(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     if (geometries.empty()) view->fail("road '" + road.id + "' has no geometry");
     double longest = 0;
     for (const XmlElement& each : geometries) longest = std::max(longest, each.number("length", 0));
-    if (longest < kShortest) return read_point(reader, geometries.front(), road);
+    if (longest < kShortestRoad) return read_point(reader, geometries.front(), road);
     for (const XmlElement& each : geometries) {
         reader.count(each);
         PlanGeometry g = geometry_of(reader, each);
@@ -218,4 +218,4 @@ void read_profiles(OpenDriveReader& reader, const XmlElement& element, Road& roa
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -8,7 +8,7 @@
 #include "roads/opendrive.h"
 #include "roads/xml.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 struct OpenDriveReader {
     RoadNetwork& network;
@@ -25,6 +25,8 @@ struct OpenDriveReader {
     void note_once(const XmlElement& element, const std::string& what);
 };
 
+/// e_roadMarkColor of OpenDRIVE; others are white.
+MarkColour mark_colour(const std::string& name);
 void read_plan(OpenDriveReader&, const XmlElement& element, Road& road);
 void read_profiles(OpenDriveReader&, const XmlElement& element, Road& road);
 void read_lanes(OpenDriveReader&, const XmlElement& element, Road& road);
@@ -40,4 +42,4 @@ Profile profile_of(OpenDriveReader&, const XmlElement& element, std::string_view
 /// What a speed element states from s on.
 SpeedLimit limit_of(OpenDriveReader&, const XmlElement& element, double s);
 
-}  // namespace vesper
+}  // namespace vesper::roads

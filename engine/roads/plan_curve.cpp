@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 // Gauss-Legendre, 8 points on [-1, 1]: exact for polynomials of degree 15.
@@ -32,7 +32,7 @@ struct Vector {
 
 double cubic(const std::array<double, 4>& c, double p) { return c[0] + p * (c[1] + p * (c[2] + p * c[3])); }
 double slope(const std::array<double, 4>& c, double p) { return c[1] + p * (2 * c[2] + p * 3 * c[3]); }
-double bend(const std::array<double, 4>& c, double p) { return 2 * c[2] + 6 * p * c[3]; }
+double second_derivative(const std::array<double, 4>& c, double p) { return 2 * c[2] + 6 * p * c[3]; }
 
 double speed(const PlanGeometry& g, double p) { return std::hypot(slope(g.u, p), slope(g.v, p)); }
 
@@ -76,7 +76,7 @@ PlanPoint polynomial_point(const PlanGeometry& g, double distance) {
     const double scale = g.kind == PlanGeometry::Kind::ParamPoly3 && g.length > 0 ? g.lengths.back() / g.length : 1;
     const double p = parameter_at(g, distance * scale);
     const double du = slope(g.u, p), dv = slope(g.v, p), v = std::hypot(du, dv);
-    const double curvature = v > 1e-9 ? (du * bend(g.v, p) - dv * bend(g.u, p)) / (v * v * v) : 0;
+    const double curvature = v > 1e-9 ? (du * second_derivative(g.v, p) - dv * second_derivative(g.u, p)) / (v * v * v) : 0;
     return placed(g, cubic(g.u, p), cubic(g.v, p), std::atan2(dv, du), curvature);
 }
 
@@ -132,4 +132,4 @@ PlanPoint plan_point(const PlanGeometry& geometry, double distance) {
     return point;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vesper {
+namespace vesper::roads {
 
 /// One geometry of a reference line. All lengths m, headings rad counter-clockwise from +x, curvatures 1/m (positive:
 /// to the left).
@@ -36,4 +36,4 @@ double measure(PlanGeometry& geometry);
 /// p_end lies at `length`.
 PlanPoint plan_point(const PlanGeometry& geometry, double distance);
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -3,7 +3,7 @@
 
 #include "roads/lit_road_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// A lamp whose pole stands on the frame's origin, its arm towards +y (`towards` 1) or -y (-1), its light `height` m
 /// up.
@@ -13,4 +13,4 @@ void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, in
 Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y,
              glm::dvec3 z);
 
-}  // namespace vesper
+}  // namespace vesper::roads

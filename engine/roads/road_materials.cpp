@@ -4,7 +4,7 @@
 #include "base/luminance.h"
 #include "roads/road_mesh.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr float kSignWhite = 0.8f;  // diffuse reflectance of a white sheet
@@ -19,69 +19,69 @@ Material of(const char* name, glm::vec3 colour, float roughness = 1) {
     return material;
 }
 
-Material material_of(Stuff stuff) {
+Material material_of(RoadMaterial stuff) {
     constexpr float kRoad = 0.17f;  // pi Qd of R3, for renderers without tables
     switch (stuff) {
-        case Stuff::Asphalt:
+        case RoadMaterial::Asphalt:
             return of("asphalt", glm::vec3(kRoad));
-        case Stuff::Shoulder:
+        case RoadMaterial::Shoulder:
             return of("asphalt shoulder", glm::vec3(kRoad));
-        case Stuff::Bikeway:
+        case RoadMaterial::Bikeway:
             return of("bikeway", {0.16f, 0.07f, 0.05f});
-        case Stuff::Pavement:
+        case RoadMaterial::Pavement:
             return of("pavement", {0.27f, 0.25f, 0.23f});
-        case Stuff::Kerb:
+        case RoadMaterial::Kerb:
             return of("kerb", {0.32f, 0.31f, 0.3f});
-        case Stuff::Grass:
+        case RoadMaterial::Grass:
             return of("grass", {0.06f, 0.1f, 0.03f});
-        case Stuff::Gravel:
+        case RoadMaterial::Gravel:
             return of("gravel", {0.2f, 0.18f, 0.15f});
-        case Stuff::Concrete:
+        case RoadMaterial::Concrete:
             return of("concrete", {0.3f, 0.29f, 0.27f});
-        case Stuff::MarkWhite:
+        case RoadMaterial::MarkWhite:
             return of("marking white", glm::vec3(0.55f));
-        case Stuff::MarkYellow:
+        case RoadMaterial::MarkYellow:
             return of("marking yellow", {0.5f, 0.33f, 0.04f});
-        case Stuff::MarkRed:
+        case RoadMaterial::MarkRed:
             return of("marking red", {0.3f, 0.03f, 0.02f});
-        case Stuff::MarkBlue:
+        case RoadMaterial::MarkBlue:
             return of("marking blue", {0.03f, 0.08f, 0.3f});
-        case Stuff::MarkGreen:
+        case RoadMaterial::MarkGreen:
             return of("marking green", {0.03f, 0.2f, 0.07f});
-        case Stuff::MarkBlack:
+        case RoadMaterial::MarkBlack:
             return of("marking black", glm::vec3(0.04f));
-        case Stuff::Steel:
+        case RoadMaterial::Steel:
             return of("galvanised steel", {0.4f, 0.41f, 0.42f}, 0.6f);
-        case Stuff::PoleSteel:
+        case RoadMaterial::PoleSteel:
             return of("pole", {0.35f, 0.36f, 0.37f}, 0.7f);
-        case Stuff::Post:
+        case RoadMaterial::Post:
             return of("guide post", glm::vec3(0.6f), 0.8f);
-        case Stuff::PostBand:
+        case RoadMaterial::PostBand:
             return of("guide post band", glm::vec3(0.03f));
-        case Stuff::PostReflector:
+        case RoadMaterial::PostReflector:
             return of("guide post reflector", glm::vec3(0.9f));
-        case Stuff::Bark:
+        case RoadMaterial::Bark:
             return of("bark", {0.11f, 0.08f, 0.06f});
-        case Stuff::Leaves:
+        case RoadMaterial::Leaves:
             return of("leaves", {0.05f, 0.09f, 0.03f});
-        case Stuff::Wall:
+        case RoadMaterial::Wall:
             return of("wall", {0.4f, 0.37f, 0.32f});
-        case Stuff::SignWhite:
+        case RoadMaterial::SignWhite:
             return of("sign white", glm::vec3(kSignWhite));
         // Prints let that share of the light through that EN 12899-1, table 1, has for each colour over white.
-        case Stuff::SignRed:
+        case RoadMaterial::SignRed:
             return of("sign red", {0.45f, 0.02f, 0.02f});
-        case Stuff::SignYellow:
+        case RoadMaterial::SignYellow:
             return of("sign yellow", {0.8f, 0.5f, 0.02f});
-        case Stuff::SignBlue:
+        case RoadMaterial::SignBlue:
             return of("sign blue", {0.01f, 0.05f, 0.3f});
-        case Stuff::SignGreen:
+        case RoadMaterial::SignGreen:
             return of("sign green", {0.01f, 0.15f, 0.06f});
-        case Stuff::SignBlack:
+        case RoadMaterial::SignBlack:
             return of("sign black", glm::vec3(0.03f));
-        case Stuff::SignBack:
+        case RoadMaterial::SignBack:
             return of("sign back", glm::vec3(0.3f), 0.7f);
-        case Stuff::Housing:
+        case RoadMaterial::Housing:
             return of("signal housing", glm::vec3(0.03f));
         default:
             return of("luminaire", glm::vec3(0.25f), 0.7f);
@@ -89,7 +89,7 @@ Material material_of(Stuff stuff) {
 }
 
 /// Markings of class R3 of EN 1436 (150 mcd/(m^2 lx)), yellow ones R1 (80); signs and posts of RA2 (EN 12899-1).
-void make_retroreflective(Scene& scene, Material& material, Stuff stuff) {
+void make_retroreflective(Scene& scene, Material& material, RoadMaterial stuff) {
     const auto use = [&](Retroreflector made) {
         for (uint32_t i = 0; i < scene.retroreflectors.size(); ++i)
             if (scene.retroreflectors[i] == made) return material.retroreflector = i;
@@ -98,18 +98,18 @@ void make_retroreflective(Scene& scene, Material& material, Stuff stuff) {
     };
     // Coefficients are multiplied by the base colour; of prints by that over white.
     const double own = luminance(glm::dvec3(material.base_colour));
-    if (stuff == Stuff::MarkWhite || stuff == Stuff::MarkYellow) use(retroreflective_marking((stuff == Stuff::MarkWhite ? 150 : 80) / own));
-    if (stuff >= Stuff::SignWhite && stuff <= Stuff::SignGreen) use(rescaled(retroreflective_class("RA2"), 1 / double(kSignWhite)));
-    if (stuff == Stuff::PostReflector) use(rescaled(retroreflective_class("RA2"), 1 / own));
+    if (stuff == RoadMaterial::MarkWhite || stuff == RoadMaterial::MarkYellow) use(retroreflective_marking((stuff == RoadMaterial::MarkWhite ? 150 : 80) / own));
+    if (stuff >= RoadMaterial::SignWhite && stuff <= RoadMaterial::SignGreen) use(rescaled(retroreflective_class("RA2"), 1 / double(kSignWhite)));
+    if (stuff == RoadMaterial::PostReflector) use(rescaled(retroreflective_class("RA2"), 1 / own));
 }
 
 }  // namespace
 
-uint32_t RoadMaterials::index_of(Stuff stuff) {
+uint32_t RoadMaterials::index_of(RoadMaterial stuff) {
     uint32_t& known = index_[static_cast<size_t>(stuff)];
     if (known != kNone) return known;
     Material material = material_of(stuff);
-    if (stuff == Stuff::Asphalt || stuff == Stuff::Shoulder) {
+    if (stuff == RoadMaterial::Asphalt || stuff == RoadMaterial::Shoulder) {
         if (scene_.reflection_tables.empty()) scene_.reflection_tables.push_back(find_reflection_table("R3"));
         material.reflection_table = 0;
     }
@@ -118,4 +118,4 @@ uint32_t RoadMaterials::index_of(Stuff stuff) {
     return known = static_cast<uint32_t>(scene_.materials.size() - 1);
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr size_t kMaxVertices = 60'000'000;  // of one mesh; a bound on memory, far above what renders
-constexpr double kPi = std::numbers::pi;
 
 double signed_area(const std::vector<glm::dvec2>& points) {
     double sum = 0;
@@ -28,7 +27,7 @@ bool is_left_turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
 
 }  // namespace
 
-void RoadMesh::triangle(Stuff stuff, const Corner& a, const Corner& b, const Corner& c) {
+void RoadMesh::triangle(RoadMaterial stuff, const Corner& a, const Corner& b, const Corner& c) {
     if (glm::length(glm::cross(b.position - a.position, c.position - a.position)) < 1e-9) return;
     Primitive& primitive = primitives_[stuff];
     if (primitive.vertices.size() > kMaxVertices)
@@ -43,18 +42,18 @@ void RoadMesh::triangle(Stuff stuff, const Corner& a, const Corner& b, const Cor
     }
 }
 
-void RoadMesh::quad(Stuff stuff, const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+void RoadMesh::quad(RoadMaterial stuff, const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
     triangle(stuff, a, b, c);
     triangle(stuff, a, c, d);
 }
 
-void RoadMesh::quad(Stuff stuff, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d) {
+void RoadMesh::quad(RoadMaterial stuff, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d) {
     const glm::dvec3 normal = glm::cross(c - a, d - b);
     if (glm::length(normal) < 1e-9) return;
     quad(stuff, {a, normal}, {b, normal}, {c, normal}, {d, normal});
 }
 
-void RoadMesh::polygon(Stuff stuff, std::span<const glm::dvec3> corners) {
+void RoadMesh::polygon(RoadMaterial stuff, std::span<const glm::dvec3> corners) {
     if (corners.size() < 3) return;
     glm::dvec3 normal(0);
     for (size_t i = 1; i + 1 < corners.size(); ++i)
@@ -64,7 +63,7 @@ void RoadMesh::polygon(Stuff stuff, std::span<const glm::dvec3> corners) {
         triangle(stuff, {corners[0], normal}, {corners[i], normal}, {corners[i + 1], normal});
 }
 
-void RoadMesh::any_polygon(Stuff stuff, std::vector<glm::dvec3> corners, glm::dvec3 normal) {
+void RoadMesh::any_polygon(RoadMaterial stuff, std::vector<glm::dvec3> corners, glm::dvec3 normal) {
     // Ears are cut off one by one; outlines have few corners.
     const glm::dvec3 z = glm::normalize(normal),
                      helper = std::abs(z.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
@@ -121,7 +120,7 @@ BodyFrame BodyFrame::turned(double heading, double pitch, double roll) const {
     return made;
 }
 
-void add_box(RoadMesh& mesh, Stuff stuff, const BodyFrame& f, double length, double width, double height) {
+void add_box(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& f, double length, double width, double height) {
     const double u = length / 2, v = width / 2;
     const std::array<glm::dvec3, 4> bottoms{f.at(-u, -v, 0), f.at(u, -v, 0), f.at(u, v, 0), f.at(-u, v, 0)};
     const std::array<glm::dvec3, 4> tops{f.at(-u, -v, height), f.at(u, -v, height), f.at(u, v, height),
@@ -129,7 +128,7 @@ void add_box(RoadMesh& mesh, Stuff stuff, const BodyFrame& f, double length, dou
     add_prism(mesh, stuff, bottoms, tops);
 }
 
-void add_cylinder(RoadMesh& mesh, Stuff stuff, const BodyFrame& f, double radius, double height, double top_radius) {
+void add_cylinder(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& f, double radius, double height, double top_radius) {
     const int sides = radius < 0.3 ? 8 : 16;
     const double upper = top_radius < 0 ? radius : top_radius;
     const auto around = [&](int i, double r, double z) {
@@ -146,7 +145,7 @@ void add_cylinder(RoadMesh& mesh, Stuff stuff, const BodyFrame& f, double radius
     mesh.polygon(stuff, top);
 }
 
-void add_ball(RoadMesh& mesh, Stuff stuff, const BodyFrame& f, double radius, double half_height) {
+void add_ball(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& f, double radius, double half_height) {
     constexpr int kSides = 12, kRings = 6;
     const auto around = [&](int ring, int i) {
         const double polar = kPi * ring / kRings, angle = 2 * kPi * i / kSides;
@@ -160,7 +159,7 @@ void add_ball(RoadMesh& mesh, Stuff stuff, const BodyFrame& f, double radius, do
             mesh.quad(stuff, around(ring, i), around(ring, i + 1), around(ring + 1, i + 1), around(ring + 1, i));
 }
 
-void add_prism(RoadMesh& mesh, Stuff stuff, std::span<const glm::dvec3> bottoms, std::span<const glm::dvec3> tops) {
+void add_prism(RoadMesh& mesh, RoadMaterial stuff, std::span<const glm::dvec3> bottoms, std::span<const glm::dvec3> tops) {
     glm::dvec3 area(0);
     for (size_t i = 1; i + 1 < tops.size(); ++i) area += glm::cross(tops[i] - tops[0], tops[i + 1] - tops[0]);
     const bool clockwise = area.z < 0;
@@ -174,4 +173,4 @@ void add_prism(RoadMesh& mesh, Stuff stuff, std::span<const glm::dvec3> bottoms,
     if (glm::length(area) > 1e-9) mesh.any_polygon(stuff, {tops.begin(), tops.end()}, clockwise ? -area : area);
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -12,10 +12,10 @@
 #include "roads/road_network.h"
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// What things are made of; road_materials.cpp says how that reflects.
-enum class Stuff : uint8_t {
+enum class RoadMaterial : uint8_t {
     Asphalt,
     Shoulder,
     Bikeway,
@@ -53,8 +53,8 @@ enum class Stuff : uint8_t {
 /// The material of a kind of stuff; adds it (and what it refers to) to the scene when it is new there.
 class RoadMaterials {
 public:
-    explicit RoadMaterials(Scene& scene) : scene_(scene), index_(static_cast<size_t>(Stuff::Count), kNone) {}
-    uint32_t index_of(Stuff stuff);
+    explicit RoadMaterials(Scene& scene) : scene_(scene), index_(static_cast<size_t>(RoadMaterial::Count), kNone) {}
+    uint32_t index_of(RoadMaterial stuff);
 
 private:
     Scene& scene_;
@@ -70,14 +70,14 @@ public:
         glm::dvec3 position{0}, normal{0, 0, 1};
     };
     /// Counter-clockwise seen from the front. Those without area are left out.
-    void triangle(Stuff stuff, const Corner& a, const Corner& b, const Corner& c);
-    void quad(Stuff stuff, const Corner& a, const Corner& b, const Corner& c, const Corner& d);
+    void triangle(RoadMaterial stuff, const Corner& a, const Corner& b, const Corner& c);
+    void quad(RoadMaterial stuff, const Corner& a, const Corner& b, const Corner& c, const Corner& d);
     /// The same, flat.
-    void quad(Stuff stuff, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d);
+    void quad(RoadMaterial stuff, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d);
     /// A flat, convex polygon.
-    void polygon(Stuff stuff, std::span<const glm::dvec3> corners);
+    void polygon(RoadMaterial stuff, std::span<const glm::dvec3> corners);
     /// A simple polygon in a plane with this normal, not necessarily convex; counter-clockwise.
-    void any_polygon(Stuff stuff, std::vector<glm::dvec3> corners, glm::dvec3 normal);
+    void any_polygon(RoadMaterial stuff, std::vector<glm::dvec3> corners, glm::dvec3 normal);
 
     bool empty() const { return primitives_.empty(); }
     /// Adds the triangles to a scene as one mesh on one node, and empties itself.
@@ -85,7 +85,7 @@ public:
 
 private:
     const RoadNetwork& network_;
-    std::map<Stuff, Primitive> primitives_;
+    std::map<RoadMaterial, Primitive> primitives_;
 };
 
 /// A frame to put bodies in: origin and three unit axes.
@@ -98,12 +98,12 @@ struct BodyFrame {
 };
 
 /// Bodies that stand on the frame's origin: without a bottom face.
-void add_box(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double length, double width, double height);
-void add_cylinder(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double radius, double height,
+void add_box(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& frame, double length, double width, double height);
+void add_cylinder(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& frame, double radius, double height,
                   double top_radius = -1);
 /// A ball around the origin, squeezed along z.
-void add_ball(RoadMesh& mesh, Stuff stuff, const BodyFrame& frame, double radius, double half_height);
+void add_ball(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& frame, double radius, double half_height);
 /// Walls over a closed outline and a roof on it; bottoms and tops counter-clockwise, corner by corner.
-void add_prism(RoadMesh& mesh, Stuff stuff, std::span<const glm::dvec3> bottoms, std::span<const glm::dvec3> tops);
+void add_prism(RoadMesh& mesh, RoadMaterial stuff, std::span<const glm::dvec3> bottoms, std::span<const glm::dvec3> tops);
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace vesper {
+namespace vesper::roads {
 
 const Cubic* Profile::part_at(double s) const {
     const auto after =
@@ -86,4 +86,4 @@ size_t Road::section_at(double s) const {
     return after == sections.begin() ? 0 : static_cast<size_t>(after - sections.begin()) - 1;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

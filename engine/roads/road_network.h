@@ -13,7 +13,7 @@
 
 #include "roads/plan_curve.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 constexpr uint32_t kNoRoad = ~0u;  ///< "no such element" wherever an index is kept
 
@@ -233,4 +233,4 @@ struct RoadNetwork {
     static glm::dvec3 direction_to_world(glm::dvec3 d) { return {d.x, d.z, -d.y}; }
 };
 
-}  // namespace vesper
+}  // namespace vesper::roads

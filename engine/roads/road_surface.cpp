@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 const PlanGeometry& geometry_at(const Road& road, double s) {
@@ -206,4 +206,4 @@ std::vector<double> road_stations(const Road& road, const LaneSection& section, 
     return stations;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -3,7 +3,7 @@
 
 #include "roads/road_network.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// A point of a road in the file's frame.
 struct RoadPoint {
@@ -40,4 +40,4 @@ RoadPoint lane_point(const Road& road, const LaneSection& section, int id, doubl
 /// `longest` m.
 std::vector<double> road_stations(const Road& road, const LaneSection& section, double chord, double longest);
 
-}  // namespace vesper
+}  // namespace vesper::roads

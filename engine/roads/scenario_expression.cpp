@@ -7,7 +7,7 @@
 #include "photometry/table.h"
 #include "roads/esmini_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)); }
@@ -161,4 +161,4 @@ std::optional<double> expression_value(std::string_view text, const Parameters& 
     return value;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -8,14 +8,14 @@
 #include "photometry/table.h"
 #include "roads/esmini_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr uint64_t kMaxBytes = 64ull << 20;
+constexpr uint64_t kMaxScenarioBytes = 64ull << 20;
 constexpr size_t kMaxCatalogs = 500;
 
 std::unique_ptr<XmlFile> read_xml(const std::filesystem::path& path) {
-    const std::vector<uint8_t> bytes = read_file(path, kMaxBytes);
+    const std::vector<uint8_t> bytes = read_file(path, kMaxScenarioBytes);
     return std::make_unique<XmlFile>(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
                                      path.string());
 }
@@ -112,4 +112,4 @@ std::optional<ScenarioFile::Entry> ScenarioFile::find(const XmlElement& referenc
     return Entry{found->second, std::move(parameters)};
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

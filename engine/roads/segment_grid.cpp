@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr double kReach = 1e5;  // m; cells further out than this are not looked up one by one
@@ -43,4 +43,4 @@ std::vector<uint32_t> SegmentGrid::near(glm::dvec2 point, double reach) const {
     return found;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::roads {
 
 /// A grid of square cells over the plane; segments are numbered as they are added. What comes back does not depend on
 /// hashes: it is sorted.
@@ -29,4 +29,4 @@ private:
     std::unordered_map<int64_t, std::vector<uint32_t>> cells_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::roads

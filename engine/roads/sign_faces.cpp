@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "base/lower.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLayer = 0.002;  // m between prints
 constexpr double kThick = 0.02;   // m of a panel
 constexpr double kBefore = 0.05;  // m from the signal's place to the back of a panel
@@ -20,7 +19,7 @@ enum class Shape : uint8_t { Round, Triangle, Inverted, Octagon, Diamond, Rectan
 
 struct Face {
     Shape shape = Shape::Rectangle;
-    Stuff rim = Stuff::SignWhite, field = Stuff::SignWhite;
+    RoadMaterial rim = RoadMaterial::SignWhite, field = RoadMaterial::SignWhite;
     int number = -1;       ///< a speed, km/h
     bool bar = false;      ///< no entry
     bool stripes = false;  ///< red and white
@@ -73,14 +72,14 @@ struct Panel {
         return points;
     }
 
-    void print(Stuff stuff, const std::vector<glm::dvec2>& points, int layer) const {
+    void print(RoadMaterial stuff, const std::vector<glm::dvec2>& points, int layer) const {
         std::vector<glm::dvec3> corners;
         for (const glm::dvec2& p : points) corners.push_back(at(p.x, p.y, layer));
         mesh.polygon(stuff, corners);
     }
 
     /// A bar between two points, `thick` of the height.
-    void bar(Stuff stuff, glm::dvec2 from, glm::dvec2 to, double thick, int layer) const {
+    void bar(RoadMaterial stuff, glm::dvec2 from, glm::dvec2 to, double thick, int layer) const {
         const glm::dvec2 size(width, height), along = glm::normalize((to - from) * size),
                                               side = glm::dvec2(-along.y, along.x) * thick * height / size;
         print(stuff, {from - side, to - side, to + side, from + side}, layer);
@@ -91,13 +90,13 @@ struct Panel {
         for (const glm::dvec2& p : points)
             corners.push_back(frame.at(-kThick, p.x * width / 2, height / 2 + p.y * height / 2));
         std::reverse(corners.begin(), corners.end());
-        mesh.polygon(Stuff::SignBack, corners);
+        mesh.polygon(RoadMaterial::SignBack, corners);
         for (size_t i = 0; i < points.size(); ++i) {
             const glm::dvec2 a = points[i], b = points[(i + 1) % points.size()];
             const auto behind = [&](glm::dvec2 p) {
                 return frame.at(-kThick, p.x * width / 2, height / 2 + p.y * height / 2);
             };
-            mesh.quad(Stuff::SignBack, at(b.x, b.y, 0), at(a.x, a.y, 0), behind(a), behind(b));
+            mesh.quad(RoadMaterial::SignBack, at(b.x, b.y, 0), at(a.x, a.y, 0), behind(a), behind(b));
         }
     }
 
@@ -121,14 +120,14 @@ struct Panel {
                 if (kStrokes[static_cast<size_t>(digits[i] - '0')] >> stroke & 1) {
                     glm::dvec2 a = lines[stroke].first, b = lines[stroke].second;
                     if (a.x == b.x) a.y -= 0.045, b.y += 0.045;
-                    bar(Stuff::SignBlack, a, b, 0.06, 2);
+                    bar(RoadMaterial::SignBlack, a, b, 0.06, 2);
                 }
         }
     }
 };
 
 Face speed_limit(double value) {
-    return {Shape::Round, Stuff::SignRed, Stuff::SignWhite, std::clamp(static_cast<int>(std::lround(value)), 0, 999)};
+    return {Shape::Round, RoadMaterial::SignRed, RoadMaterial::SignWhite, std::clamp(static_cast<int>(std::lround(value)), 0, 999)};
 }
 
 /// "60" of "60-1"; 0 without digits.
@@ -142,19 +141,19 @@ int leading_number(const std::string& text) {
 Face german(int number, const RoadSignal& s) {
     switch (number) {
         case 205:
-            return {Shape::Inverted, Stuff::SignRed, Stuff::SignWhite};
+            return {Shape::Inverted, RoadMaterial::SignRed, RoadMaterial::SignWhite};
         case 206:
-            return {Shape::Octagon, Stuff::SignWhite, Stuff::SignRed};
+            return {Shape::Octagon, RoadMaterial::SignWhite, RoadMaterial::SignRed};
         case 274:
             return speed_limit(s.value > 0 ? s.value : leading_number(s.subtype));
         case 267:
-            return {.shape = Shape::Round, .rim = Stuff::SignWhite, .field = Stuff::SignRed, .bar = true};
+            return {.shape = Shape::Round, .rim = RoadMaterial::SignWhite, .field = RoadMaterial::SignRed, .bar = true};
         case 278:
         case 280:
         case 282:
-            return {.shape = Shape::Round, .rim = Stuff::SignBlack, .field = Stuff::SignWhite, .crossed_out = true};
+            return {.shape = Shape::Round, .rim = RoadMaterial::SignBlack, .field = RoadMaterial::SignWhite, .crossed_out = true};
         case 306:
-            return {Shape::Diamond, Stuff::SignWhite, Stuff::SignYellow};
+            return {Shape::Diamond, RoadMaterial::SignWhite, RoadMaterial::SignYellow};
         case 605:
         case 600:
         case 626:
@@ -162,13 +161,13 @@ Face german(int number, const RoadSignal& s) {
         default:
             break;
     }
-    if (number >= 101 && number < 165) return {Shape::Triangle, Stuff::SignRed, Stuff::SignWhite};
-    if (number >= 209 && number < 240) return {Shape::Round, Stuff::SignWhite, Stuff::SignBlue};
-    if (number >= 250 && number < 290) return {Shape::Round, Stuff::SignRed, Stuff::SignWhite};
+    if (number >= 101 && number < 165) return {Shape::Triangle, RoadMaterial::SignRed, RoadMaterial::SignWhite};
+    if (number >= 209 && number < 240) return {Shape::Round, RoadMaterial::SignWhite, RoadMaterial::SignBlue};
+    if (number >= 250 && number < 290) return {Shape::Round, RoadMaterial::SignRed, RoadMaterial::SignWhite};
     if (number == 310 || number == 311 || (number >= 415 && number < 420) || number == 436 || number == 438 ||
         number == 439)
-        return {Shape::Rectangle, Stuff::SignBlack, Stuff::SignYellow};
-    if (number >= 314 && number < 460) return {Shape::Rectangle, Stuff::SignWhite, Stuff::SignBlue};
+        return {Shape::Rectangle, RoadMaterial::SignBlack, RoadMaterial::SignYellow};
+    if (number >= 314 && number < 460) return {Shape::Rectangle, RoadMaterial::SignWhite, RoadMaterial::SignBlue};
     return {};
 }
 
@@ -179,15 +178,15 @@ Face face_of(const RoadSignal& s) {
     if (country == "se" && type == "c") {
         if (s.subtype == "31")
             return speed_limit(s.value < 13 ? 10 * s.value : s.value);  // esmini's catalogue counts in tens
-        return {Shape::Round, Stuff::SignRed, Stuff::SignYellow};
+        return {Shape::Round, RoadMaterial::SignRed, RoadMaterial::SignYellow};
     }
-    if (country == "se" && type == "a") return {Shape::Triangle, Stuff::SignRed, Stuff::SignYellow};
+    if (country == "se" && type == "a") return {Shape::Triangle, RoadMaterial::SignRed, RoadMaterial::SignYellow};
     const bool speed = name.find("speed") != name.npos || name.find("limit") != name.npos || type == "274" ||
                        (s.unit == "km/h" && s.value > 0) || s.unit == "mph";
     if (speed && s.value > 0) return speed_limit(s.value);
-    if (name.find("stop") != name.npos) return {Shape::Octagon, Stuff::SignWhite, Stuff::SignRed};
+    if (name.find("stop") != name.npos) return {Shape::Octagon, RoadMaterial::SignWhite, RoadMaterial::SignRed};
     if (name.find("yield") != name.npos || name.find("give") != name.npos)
-        return {Shape::Inverted, Stuff::SignRed, Stuff::SignWhite};
+        return {Shape::Inverted, RoadMaterial::SignRed, RoadMaterial::SignWhite};
     return {};
 }
 
@@ -201,16 +200,16 @@ void add_sign(RoadMesh& mesh, const BodyFrame& frame, const RoadSignal& signal, 
     panel.back(outline);
     panel.print(face.rim, outline, 0);
     const double rim = face.rim == face.field                                           ? 1
-                       : face.shape == Shape::Rectangle || face.rim == Stuff::SignWhite ? 0.93
+                       : face.shape == Shape::Rectangle || face.rim == RoadMaterial::SignWhite ? 0.93
                        : face.shape == Shape::Round                                     ? 0.8
                                                                                         : 0.68;
     if (rim < 1) panel.print(face.field, panel.outline(face.shape, rim), 1);
     if (face.number >= 0) panel.number(face.number);
-    if (face.bar) panel.bar(Stuff::SignWhite, {-0.7, 0}, {0.7, 0}, 0.1, 2);
-    if (face.crossed_out) panel.bar(Stuff::SignBlack, {-0.5, -0.5}, {0.5, 0.5}, 0.06, 2);
+    if (face.bar) panel.bar(RoadMaterial::SignWhite, {-0.7, 0}, {0.7, 0}, 0.1, 2);
+    if (face.crossed_out) panel.bar(RoadMaterial::SignBlack, {-0.5, -0.5}, {0.5, 0.5}, 0.06, 2);
     if (face.stripes)
         for (int i = 0; i < 4; ++i)
-            panel.print(Stuff::SignRed,
+            panel.print(RoadMaterial::SignRed,
                         {{-1, -0.9 + 0.5 * i - 0.1},
                          {1, -0.9 + 0.5 * i + 0.15},
                          {1, -0.65 + 0.5 * i + 0.15},
@@ -237,4 +236,4 @@ bool is_for_pedestrians(const RoadSignal& s) {
     return leading_number(s.type) == 1'000'002 || leading_number(s.type) == 1'000'003;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

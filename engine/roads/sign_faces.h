@@ -3,7 +3,7 @@
 
 #include "roads/road_mesh.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// A sign's panel, its back 5 cm before the plane x = 0 of the frame, looking along +x (who reads it has +y to the
 /// right), its bottom edge at z = 0. Speed limits show their number, known signs their shape and colours, others a
@@ -16,4 +16,4 @@ bool is_painted(const RoadSignal& signal);
 bool is_traffic_light(const RoadSignal& signal);
 bool is_for_pedestrians(const RoadSignal& signal);
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -5,7 +5,7 @@
 
 #include "roads/storyboard_actions.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr size_t kMaxSteps = 2'000'000;
@@ -314,4 +314,4 @@ void play_storyboard(ScenarioFile& scenario, const RoadNetwork* roads, EsminiRun
     run.notes.insert(run.notes.end(), player.story.notes.begin(), player.story.notes.end());
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -7,7 +7,7 @@
 
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 /// Actions that neither lamps, lights nor motion follow from, done at once.
@@ -179,4 +179,4 @@ std::vector<StoryAction> actions_of(const XmlElement& holder, const Parameters& 
     return std::move(reader.made);
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -4,7 +4,7 @@
 
 #include "roads/storyboard_conditions.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// Whether something begun is done at a step; none where it is done at once.
 using Progress = std::function<bool(int step)>;
@@ -25,4 +25,4 @@ std::vector<StoryAction> actions_of(const XmlElement& holder, const Parameters& 
 /// long it takes.
 StoryAction motion_of(const XmlElement& action, const Parameters& scope, StoryTime& story);
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -8,7 +8,7 @@
 #include "photometry/table.h"
 #include "roads/storyboard_places.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 enum class Rule : uint8_t { Less, LessOrEqual, Equal, NotEqual, GreaterOrEqual, Greater };
@@ -277,4 +277,4 @@ Trigger trigger_of(const std::optional<XmlElement>& trigger, const Parameters& s
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

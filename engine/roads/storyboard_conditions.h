@@ -3,7 +3,7 @@
 
 #include "roads/storyboard_elements.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 class LaneGraph;
 
@@ -81,4 +81,4 @@ struct Trigger {
 /// A trigger that is not there always holds.
 Trigger trigger_of(const std::optional<XmlElement>& trigger, const Parameters& scope, StoryTime& story, bool without = true);
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -1,7 +1,7 @@
 // Elements of a storyboard by name. SPDX-License-Identifier: MIT
 #include "roads/storyboard_elements.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 static constexpr int kMostNames = 16;  // of a reference; a story has six below one another
 namespace {
@@ -35,4 +35,4 @@ std::pair<size_t, size_t> StoryElements::find(ElementKind kind, std::string_view
     return found == by_end_.end() ? std::pair{kNone, size_t{0}} : std::pair{found->second.first, found->second.count};
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -5,7 +5,7 @@
 
 #include "roads/esmini_parts.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 enum class ElementKind : uint8_t { Story, Act, ManeuverGroup, Maneuver, Event, Action, Count };
 
@@ -50,4 +50,4 @@ private:
     size_t entered_ = 0;                                                ///< of the entries, into by_end_
 };
 
-}  // namespace vesper
+}  // namespace vesper::roads

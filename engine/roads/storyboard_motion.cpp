@@ -9,7 +9,7 @@
 #include "roads/storyboard_actions.h"
 #include "roads/storyboard_places.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr double kStands = 1e-6;           // m/s
@@ -285,4 +285,4 @@ StoryAction motion_of(const XmlElement& action, const Parameters& scope, StoryTi
     return {};
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -6,7 +6,7 @@
 
 #include "roads/road_surface.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 /// m between two boxes along a direction, 0 where they overlap; negative where `to` lies against it.
@@ -108,4 +108,4 @@ std::optional<glm::dvec3> position_of(const XmlElement& element, const Parameter
     return point.position + point.left * number_in(*place, "offset", scope, 0);
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -4,7 +4,7 @@
 
 #include "roads/storyboard_conditions.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// What something takes up seen from above: of entities their box, of positions a point.
 struct StoryBox {
@@ -33,4 +33,4 @@ Measure measure_of(const XmlElement& element, const Parameters& scope, StoryTime
 /// A world, lane or road position in the file's frame, of the child Position or the element itself.
 std::optional<glm::dvec3> position_of(const XmlElement& holder, const Parameters& scope, const StoryTime& story);
 
-}  // namespace vesper
+}  // namespace vesper::roads

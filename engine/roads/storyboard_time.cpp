@@ -3,13 +3,13 @@
 
 #include "roads/storyboard_conditions.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 constexpr size_t kMaxChanges = 2'000'000;
 constexpr double kMaxWork = 5e8;  // elements and questions, times steps
 constexpr size_t kMaxQuestions = 10'000'000, kMaxMembers = 1'000'000;
-constexpr size_t kMaxNotes = 50;
+constexpr size_t kMaxStoryNotes = 50;
 
 /// What ByType of a selection calls it.
 std::string_view type_of(RunEntity::Kind kind) {
@@ -83,7 +83,7 @@ void StoryTime::keep() {
 }
 
 void StoryTime::note(const std::string& what) {
-    if (notes.size() < kMaxNotes && std::find(notes.begin(), notes.end(), what) == notes.end()) notes.push_back(what);
+    if (notes.size() < kMaxStoryNotes && std::find(notes.begin(), notes.end(), what) == notes.end()) notes.push_back(what);
 }
 
 void each_once(std::vector<RunEntity*>& entities) {
@@ -133,4 +133,4 @@ void Trigger::forget() {
         for (TimedCondition& each : group) each.changes.clear(), each.next = 0, each.said.reset(), each.settled = false, each.asked = false;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -9,7 +9,7 @@
 #include "io/atomic_file.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
 std::string_view local_part(std::string_view name) {
@@ -167,4 +167,4 @@ std::string XmlElement::place() const {
 
 void XmlElement::fail(const std::string& reason) const { throw Error(place() + ": " + reason); }
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -9,7 +9,7 @@
 
 #include <pugixml.hpp>
 
-namespace vesper {
+namespace vesper::roads {
 
 constexpr double kMaxNumber = 1e9;  ///< of any attribute, either sign, unless said otherwise
 
@@ -70,4 +70,4 @@ private:
     std::vector<uint32_t> line_starts_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -6,12 +6,12 @@
 #include "base/lower.h"
 #include "scene/convert_rules.h"
 #include "scene/reflectance.h"
+#include "scene/scene_warnings.h"
 
 namespace vesper {
 namespace {
 
 constexpr double kHighestReflectance = 0.9;                  // fresh snow; plaster has 0.8
-constexpr double kFaintestLamp = 0.1, kBrightestLamp = 1e6;  // cd: a glow-worm, an aircraft's landing light
 
 }  // namespace
 

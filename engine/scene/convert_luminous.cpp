@@ -7,7 +7,6 @@ namespace vesper {
 namespace {
 
 using nlohmann::json;
-constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
 /// The textureInfo whose coordinates the picture takes: emission's, or else the base colour's.
 std::optional<JsonValue> placed_as(const JsonValue& material) {

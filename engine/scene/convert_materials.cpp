@@ -14,7 +14,6 @@ namespace {
 
 using nlohmann::json;
 constexpr const char* kStrength = "KHR_materials_emissive_strength";
-constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
 /// For each rule the materials it applies to: a material belongs to the first rule that matches it.
 template <class Rule>

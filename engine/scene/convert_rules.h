@@ -32,6 +32,8 @@ struct Conversion {
     std::vector<std::vector<uint32_t>> lamp_nodes{};  ///< nodes of the file that each lamp rule matches
 };
 
+inline constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
 /// The object member of that name, made when missing. Throws Error when it is something else.
 nlohmann::json& object_member(const GltfDocument& document, nlohmann::json& holder, const std::string& key);
 /// Puts an extension on the list of those used.

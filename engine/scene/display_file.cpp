@@ -12,7 +12,7 @@
 namespace vesper {
 namespace {
 
-constexpr uint64_t kMaxBytes = 1u << 20;
+constexpr uint64_t kMaxProfileBytes = 1u << 20;
 
 Eotf read_eotf(const JsonValue& value) {
     for (const auto& [name, eotf] : kEotfNames)
@@ -68,7 +68,7 @@ void read_table(Display& display, const JsonValue& value) {
 }  // namespace
 
 Display read_display(const std::filesystem::path& file) {
-    const JsonFile json = parse_json(read_file(file, kMaxBytes), file.string());
+    const JsonFile json = parse_json(read_file(file, kMaxProfileBytes), file.string());
     const JsonValue root(json);
     root.allow_only({"$schema", "version", "name", "peak_cd_m2", "black_cd_m2", "eotf", "gamma", "table", "bits", "primaries", "ambient_lx", "reflection"});
     const JsonValue version = root.at("version");

@@ -13,9 +13,9 @@ namespace {
 constexpr uint32_t kMostSets = 4;  // of four joints each: exporters write one or two
 
 /// The node tree of the file, as skins go up and down in it.
-class Tree {
+class JointTree {
 public:
-    Tree(GltfReader& reader, const std::vector<uint32_t>& parents) : reader_(reader), parents_(parents), depth_(parents.size(), kNone) {}
+    JointTree(GltfReader& reader, const std::vector<uint32_t>& parents) : reader_(reader), parents_(parents), depth_(parents.size(), kNone) {}
 
     uint32_t parent(uint32_t node) const { return parents_[node]; }
 
@@ -79,7 +79,7 @@ std::vector<glm::dmat4> inverse_bind(GltfReader& reader, const JsonValue& skin, 
 }
 
 /// The frame is that of the deepest node above all joints: what moves it, by name or by keys, moves the mesh; what moves joints does not.
-Skin read_skin(GltfReader& reader, const JsonValue& source, Tree& tree) {
+Skin read_skin(GltfReader& reader, const JsonValue& source, JointTree& tree) {
     const size_t nodes = reader.node_of.size();
     std::vector<uint32_t> joints;
     for (const JsonValue& joint : source.elements_of("joints")) joints.push_back(joint.index(nodes, "nodes"));
@@ -113,7 +113,7 @@ void read_skinned(GltfReader& reader, const std::vector<uint32_t>& parents) {
     const auto nodes = reader.document.list("nodes");
     for (const uint32_t node : reader.skinned)
         holders[nodes[node].at("skin").index(reader.document.list("skins").size(), "skins")].push_back(node);
-    Tree tree(reader, parents);
+    JointTree tree(reader, parents);
     for (const auto& [index, held] : holders) {
         const Skin skin = read_skin(reader, reader.document.list("skins")[index], tree);
         for (const uint32_t holder : held) {

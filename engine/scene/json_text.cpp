@@ -17,9 +17,9 @@ using nlohmann::json;
 constexpr size_t kMostDepth = 200, kMostKeys = 1'000'000;  // of an object
 
 /// Follows a parser from value to value, of which it keeps the keys of those objects that it is in.
-class Bounds {
+class JsonBounds {
 public:
-    Bounds(std::string file, uint64_t most_values) : file_(std::move(file)), most_values_(most_values) {}
+    JsonBounds(std::string file, uint64_t most_values) : file_(std::move(file)), most_values_(most_values) {}
 
     bool key(std::string& name) {
         Level& object = levels_.back();
@@ -107,7 +107,7 @@ void check_json_text(std::span<const uint8_t> text, const std::string& file, uin
     const auto nul = std::find(text.begin(), text.end(), uint8_t{0});
     if (std::any_of(nul, text.end(), [](uint8_t byte) { return byte != 0; }))
         throw Error(file + ": byte " + std::to_string(nul - text.begin() + 1) + ": not valid JSON: a NUL");
-    Bounds bounds(file, most_values);
+    JsonBounds bounds(file, most_values);
     json::sax_parse(text.begin(), text.end(), &bounds);
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/angle.h"
 
 namespace vesper {
 
@@ -38,7 +39,6 @@ double luminous_intensity(const Lamp& lamp, std::span<const Distribution> distri
 }
 
 double luminous_flux(const Lamp& lamp) {
-    constexpr double kPi = std::numbers::pi;
     const double intensity = lamp.intensity;
     switch (lamp.kind) {
         case Lamp::Kind::Point:

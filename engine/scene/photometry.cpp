@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
 #include "io/atomic_file.h"
 #include "scene/colour.h"
 #include "scene/json_value.h"
@@ -15,8 +16,7 @@
 namespace vesper {
 namespace {
 
-constexpr uint64_t kMaxBytes = 64u << 20;
-constexpr double kRadians = std::numbers::pi / 180;
+constexpr uint64_t kMaxPhotometryBytes = 64u << 20;
 
 glm::dvec3 read_vector(const JsonValue& value) {
     const auto v = value.numbers<3>();
@@ -68,9 +68,9 @@ void read_lobe(Lamp& lamp, const JsonValue& rule) {
         const double outer = rule.at("outer_cone_deg").number(0.5, 90);
         const double inner = rule.number_or("inner_cone_deg", 0, 0, 90);
         if (inner > outer) rule.at("inner_cone_deg").fail("must not be more than outer_cone_deg");
-        lamp.outer_cone = static_cast<float>(outer * kRadians);
+        lamp.outer_cone = static_cast<float>(outer * kRadiansPerDegree);
         // KHR_lights_punctual wants the inner angle to be less.
-        lamp.inner_cone = static_cast<float>(std::min(inner, outer * 0.9999) * kRadians);
+        lamp.inner_cone = static_cast<float>(std::min(inner, outer * 0.9999) * kRadiansPerDegree);
     } else if (type.text() == "cosine_power") {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
                          "opening", "aim", "exponent"});
@@ -201,7 +201,7 @@ bool matches(const char* pattern, const char* text, char barrier) {
 }  // namespace
 
 Photometry read_photometry(const std::filesystem::path& file) {
-    const JsonFile json = parse_json(read_file(file, kMaxBytes), file.string());
+    const JsonFile json = parse_json(read_file(file, kMaxPhotometryBytes), file.string());
     const JsonValue root(json);
     root.allow_only({"$schema", "version", "textures", "ambient", "sky", "directional", "lights", "lamps", "emitters", "surfaces"});
     const JsonValue version = root.at("version");

@@ -10,7 +10,7 @@
 namespace vesper {
 namespace {
 
-constexpr uint64_t kMaxBytes = 256u << 20;
+constexpr uint64_t kMaxPictureBytes = 256u << 20;
 constexpr HdrLimits kLimits{16384, uint64_t{1} << 26};
 constexpr double kBrightest = 1e10;  // cd/m^2, as luminance_cd_m2
 
@@ -21,7 +21,7 @@ uint32_t picture_of(const JsonValue& file, const std::filesystem::path& folder, 
     EmitterPicture read;
     try {
         const std::filesystem::path path = resolve_uri(folder, file.text());
-        read.bytes = read_file(path, kMaxBytes);
+        read.bytes = read_file(path, kMaxPictureBytes);
         HdrImage image = decode_hdr_image(read.bytes, path.string(), kLimits);
         read.white_luminance = image.white_luminance;
         try {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/lower.h"
 #include "photometry/eulumdat.h"
@@ -12,7 +12,6 @@
 namespace vesper {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 
 /// The index of the distribution a rule wants, read when it is the first to want it.
 uint32_t measured_lamp(const JsonValue& source, const std::filesystem::path& folder, Photometry& made) {
@@ -82,7 +81,7 @@ glm::dquat pose_of(const JsonValue& source, Goniometry goniometry) {
             c ? glm::dmat3(axis, glm::cross(z, axis), z) : glm::dmat3(glm::cross(axis, z), axis, z);
         pose = glm::normalize(glm::quat_cast(frame));
     }
-    const auto angle = [&](const char* key) { return source.number_or(key, 0, -360, 360) * kRadians; };
+    const auto angle = [&](const char* key) { return source.number_or(key, 0, -360, 360) * kRadiansPerDegree; };
     pose *= glm::angleAxis(-angle("yaw_deg"), glm::dvec3(0, 1, 0));
     pose *= glm::angleAxis(angle("pitch_deg"), glm::dvec3(1, 0, 0));
     pose *= glm::angleAxis(angle("rotation_deg"), glm::dvec3(0, 0, 1));

@@ -2,15 +2,14 @@
 #include "scene/photometry_parts.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "io/hdr_image.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 
 std::vector<double> numbers_of(const JsonValue& list) {
     std::vector<double> numbers;
@@ -62,7 +61,7 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
     } catch (const Error& error) {
         source.fail(error.what());
     }
-    sky.environment.rotation = source.number_or("rotation_deg", 0, -360, 360) * kRadians;
+    sky.environment.rotation = source.number_or("rotation_deg", 0, -360, 360) * kRadiansPerDegree;
     return sky;
 }
 
@@ -83,7 +82,7 @@ DirectionalRule read_directional(const JsonValue& source) {
     } else {
         const double azimuth = source.at("azimuth_deg").number(-360, 360),
                      elevation = source.at("elevation_deg").number(-90, 90);
-        rule.direction = -direction_of(azimuth * kRadians, elevation * kRadians);
+        rule.direction = -direction_of(azimuth * kRadiansPerDegree, elevation * kRadiansPerDegree);
     }
     return rule;
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMaxQ0 = 10;  // 1/sr
 
-std::vector<double> numbers_of(const JsonValue& list) {
+std::vector<double> numbers_from_zero(const JsonValue& list) {
     std::vector<double> numbers;
     for (const JsonValue& element : list.elements()) numbers.push_back(element.number(0));
     return numbers;
@@ -42,9 +42,9 @@ ReflectionTable read_whole_table(const JsonValue& source) {
     ReflectionTable table{.name = source.text_or("name", "")};
     table.stated_q0 = source.number_or("q0", 0, 0, 100);
     table.wet = source.boolean_or("wet", false);
-    table.tan_gamma = numbers_of(source.at("tan_gamma"));
-    table.beta = numbers_of(source.at("beta_deg"));
-    table.r = numbers_of(source.at("r"));
+    table.tan_gamma = numbers_from_zero(source.at("tan_gamma"));
+    table.beta = numbers_from_zero(source.at("beta_deg"));
+    table.r = numbers_from_zero(source.at("r"));
     check_reflection_table(table, source.place());
     return table;
 }

@@ -11,7 +11,7 @@
 namespace vesper {
 namespace {
 
-constexpr uint64_t kMaxBytes = 1u << 20;
+constexpr uint64_t kMaxRoadFileBytes = 1u << 20;
 
 constexpr std::array<std::pair<const char*, Arrangement>, 6> kArrangements{{{"right", Arrangement::Right},
                                                                             {"left", Arrangement::Left},
@@ -101,7 +101,7 @@ ReflectionTable read_surface(const JsonValue& source, const std::filesystem::pat
 }  // namespace
 
 RoadFile read_road(const std::filesystem::path& file, const RoadOverrides& overrides) {
-    const JsonFile json = parse_json(read_file(file, kMaxBytes), file.string());
+    const JsonFile json = parse_json(read_file(file, kMaxRoadFileBytes), file.string());
     const JsonValue root(json);
     root.allow_only({"$schema", "version", "name", "carriageway", "surface", "luminaires", "observer_age", "class"});
     const JsonValue version = root.at("version");

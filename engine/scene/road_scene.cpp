@@ -37,10 +37,10 @@ void add_luminaires(Scene& scene, const RoadLayout& road, const std::vector<Road
     if (road.colour_temperature > 0) lamp.colour = glm::vec3(colour_of_temperature(road.colour_temperature));
     lamp.distribution = 0;
     scene.lamps.push_back(lamp);
-    for (const RoadLuminaire& lamp : lamps) {
+    for (const RoadLuminaire& luminaire : lamps) {
         Node node{.name = "luminaire " + std::to_string(scene.nodes.size() + 1)};
-        node.translation = glm::vec3(road_to_world(lamp.position));
-        node.rotation = glm::quat(glm::normalize(glm::quat_cast(kToWorld * lamp.axes)));
+        node.translation = glm::vec3(road_to_world(luminaire.position));
+        node.rotation = glm::quat(glm::normalize(glm::quat_cast(kToWorld * luminaire.axes)));
         node.lamp = 0;
         scene.nodes.push_back(node);
     }

@@ -10,7 +10,6 @@ namespace vesper {
 namespace {
 
 // Bounds are wide: what lies outside is a mistake of units, of scale, or of a decimal point, not a matter of taste.
-constexpr double kFaintestLamp = 0.1, kBrightestLamp = 1e6;  // cd: a glow-worm, an aircraft's landing light
 constexpr double kPole = 3;                                  // m: a lamp as high as this is there to light the ground
 constexpr double kFaintPole = 0.5, kBrightPole = 1000;       // lx under it: a lit path has 5 to 50
 constexpr double kLowLamp = 0.1;                             // m: lower than any lamp of a car

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::traffic {
 
 VehicleControls steer_along(const Course& lane, const VehicleState& s, const VehicleParameters& p, const AutopilotSettings& a, double gap, double closing) {
     const glm::dvec2 rear = s.position - p.rear_axle * s.forward();
@@ -26,4 +26,4 @@ VehicleControls steer_along(const Course& lane, const VehicleState& s, const Veh
     return c;
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -5,7 +5,7 @@
 #include "traffic/course.h"
 #include "traffic/vehicle.h"
 
-namespace vesper {
+namespace vesper::traffic {
 
 struct AutopilotSettings {
     CarFollowing following;
@@ -17,4 +17,4 @@ struct AutopilotSettings {
 /// the lane ahead (pure pursuit, Coulter 1992) and follows as car_following.h says.
 VehicleControls steer_along(const Course&, const VehicleState&, const VehicleParameters&, const AutopilotSettings&, double gap, double closing);
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -5,7 +5,7 @@
 
 #include "traffic/contact.h"
 
-namespace vesper {
+namespace vesper::traffic {
 namespace {
 
 using glm::dvec2;
@@ -50,4 +50,4 @@ bool collide(VehicleState& s, const VehicleState& before, const VehicleParameter
     return hit;
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

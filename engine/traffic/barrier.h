@@ -8,7 +8,7 @@
 
 #include "traffic/vehicle.h"
 
-namespace vesper {
+namespace vesper::traffic {
 
 struct Barrier {
     std::vector<glm::dvec2> line;  ///< in plan, X and Z of the scene, m
@@ -20,4 +20,4 @@ struct Barrier {
 /// barriers kLevels away from that are on another road.
 bool collide(VehicleState&, const VehicleState& before, const VehicleParameters&, const std::vector<Barrier>&, double height = 0);
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::traffic {
 
 /// The Intelligent Driver Model (Treiber, Hennecke and Helbing 2000, Eqs. 3 and 4); the defaults are those for city traffic of
 /// Treiber and Kesting, Traffic Flow Dynamics (2013), table 11.2.
@@ -26,4 +26,4 @@ inline double idm_acceleration(const CarFollowing& p, double speed, double gap, 
     return std::max(a, -p.hardest);
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

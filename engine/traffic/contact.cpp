@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::traffic {
 namespace {
 
 using glm::dvec2;
@@ -83,4 +83,4 @@ dvec2 strike(VehicleState& s, const VehicleParameters& p, dvec2 arm, dvec2 norma
     return -given;
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

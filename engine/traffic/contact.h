@@ -8,7 +8,7 @@
 
 #include "traffic/vehicle.h"
 
-namespace vesper {
+namespace vesper::traffic {
 
 /// Things so far above one another do not meet, as on a bridge and below it, m.
 constexpr double kLevels = 2.5;
@@ -51,4 +51,4 @@ glm::dvec2 strike(VehicleState&, const VehicleParameters&, glm::dvec2 arm, glm::
 /// Of the car at `arm`, m/s.
 glm::dvec2 velocity_at(const VehicleState&, glm::dvec2 arm);
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::traffic {
 
 namespace {
 
@@ -100,10 +100,10 @@ Course::Beside Course::beside(glm::dvec2 point) const {
     return best;
 }
 
-double follow_lane(const Course& lane, CarFollowing following, double s, double wish, double speed, double gap, double closing) {
-    following.speed = lane.speed_at(s) * wish;
-    const double next = lane.speed_at(s + std::max(speed, 0.0) * kOutlook) * wish, free = idm_acceleration(following, speed, gap, closing);
+double follow_lane(const Course& lane, CarFollowing following, double s, double speed_factor, double speed, double gap, double closing) {
+    following.speed = lane.speed_at(s) * speed_factor;
+    const double next = lane.speed_at(s + std::max(speed, 0.0) * kOutlook) * speed_factor, free = idm_acceleration(following, speed, gap, closing);
     return next < following.speed ? std::min(free, std::max((next - speed) / kOutlook, -following.hardest)) : free;
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -8,7 +8,7 @@
 
 #include "traffic/car_following.h"
 
-namespace vesper {
+namespace vesper::traffic {
 
 /// The middle of a lane in the direction of traffic.
 class Course {
@@ -60,9 +60,9 @@ private:
     double wrapped(double s) const;
 };
 
-/// m/s^2 of a car at `s` of a lane that wants `wish` times the speed to have there: idm_acceleration, and where that speed falls
+/// m/s^2 of a car at `s` of a lane that wants `speed_factor` times the speed to have there: idm_acceleration, and where that speed falls
 /// ahead, no more than keeps to it. (Of a wanted speed that falls the model alone falls short: it brakes with kEase where it is a
 /// quarter too fast.)
-double follow_lane(const Course& lane, CarFollowing following, double s, double wish, double speed, double gap, double closing);
+double follow_lane(const Course& lane, CarFollowing following, double s, double speed_factor, double speed, double gap, double closing);
 
-}  // namespace vesper
+}  // namespace vesper::traffic

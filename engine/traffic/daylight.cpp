@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::traffic {
 namespace {
 
 // log10 of lx as a cubic of the elevation over 90 degrees, from each elevation up.
@@ -31,4 +31,4 @@ double daylight_illuminance(double sun_elevation) {
 
 double daylight_temperature(double sun_elevation) { return 6500 + 5500 * std::clamp(-sun_elevation / 6, 0.0, 1.0); }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::traffic {
 
 /// Illuminance on level ground under a clear sky, lx, of sun and twilight, for an elevation of the sun in degrees, -90 .. 90 (Janiczek and
 /// DeYoung, US Naval Observatory Circular 171, 1987). Below -18 degrees the night sky has what is left then, 6.5e-4 lx.
@@ -16,4 +16,4 @@ constexpr double kOvercast = 1.0 / 3;
 /// twilight (Lee and Hernandez-Andres 2003).
 double daylight_temperature(double sun_elevation);
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace vesper {
+namespace vesper::traffic {
 
 enum class Beam : uint8_t { Off, Low, High };
 enum class Indicator : uint8_t { None, Left, Right, Both };
@@ -40,4 +40,4 @@ constexpr VehicleLamps lamps_of(Beam beam, Indicator indicator, bool braking, do
             .right = lit && (indicator == Indicator::Right || indicator == Indicator::Both)};
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::traffic {
 namespace {
 
 constexpr double kGravity = 9.80665;                    // m/s^2
@@ -112,4 +112,4 @@ double steady_yaw_gain(const VehicleParameters& p, double speed) {
     return speed / (p.wheelbase() + understeer_gradient(p) * speed * speed);
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

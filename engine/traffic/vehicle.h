@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::traffic {
 
 /// Rajamani, Vehicle Dynamics and Control (2nd ed., 2012), chapters 2 and 4; the defaults are the sedan of his chapter 3.
 struct VehicleParameters {
@@ -64,4 +64,4 @@ double kinetic_energy(const VehicleState&, const VehicleParameters&);
 double steady_yaw_gain(const VehicleParameters&, double speed);
 double understeer_gradient(const VehicleParameters&);
 
-}  // namespace vesper
+}  // namespace vesper::traffic

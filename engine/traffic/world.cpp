@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::traffic {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -33,7 +33,7 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
     for (const TrafficCar& car : d.cars) {
         if (car.lane >= d.lanes.size()) throw Error("car " + car.node + ": there is no such lane");
         const double drawn = draw(0.9, 1.05);
-        cars_.push_back({.s = car.s, .speed = car.speed, .wish = car.wish > 0 ? car.wish : drawn, .lane = car.lane, .from = car.lane, .patience = draw(0, kPatience)});
+        cars_.push_back({.s = car.s, .speed = car.speed, .speed_factor = car.speed_factor > 0 ? car.speed_factor : drawn, .lane = car.lane, .from = car.lane, .patience = draw(0, kPatience)});
     }
     for (const Walker& walker : d.walkers) {
         if (walker.path >= d.paths.size()) throw Error("walker " + walker.node + ": there is no such path");
@@ -147,7 +147,7 @@ double World::follow(const Car& car, size_t lane, double half_length, int self) 
         s = description_->lanes[lane].beside({at.x, at.z}).s;
     }
     const Neighbour next = ahead(lane, s, half_length, self);
-    return follow_lane(description_->lanes[lane], description_->autopilot.following, s, car.wish, car.speed, next.gap, car.speed - next.speed);
+    return follow_lane(description_->lanes[lane], description_->autopilot.following, s, car.speed_factor, car.speed, next.gap, car.speed - next.speed);
 }
 
 void World::consider_change(size_t index) {
@@ -331,4 +331,4 @@ std::vector<Actor> World::actors() const {
     return actors;
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -16,7 +16,7 @@
 #include "traffic/course.h"
 #include "traffic/vehicle.h"
 
-namespace vesper {
+namespace vesper::traffic {
 
 /// A car that keeps to lanes.
 struct TrafficCar {
@@ -25,7 +25,7 @@ struct TrafficCar {
     double s = 0;            ///< of its middle along the lane at the start, m
     double speed = 0;        ///< m/s
     double length = 4.4, width = 1.8;  ///< m
-    double wish = 0;         ///< wanted speed, part of what the lane allows; 0: drawn, 0.9 .. 1.05
+    double speed_factor = 0;         ///< wanted speed, part of what the lane allows; 0: drawn, 0.9 .. 1.05
     Beam beam = Beam::Low;
 };
 
@@ -106,7 +106,7 @@ public:
 
 private:
     struct Car {
-        double s = 0, speed = 0, acceleration = 0, wish = 1;  // wish: of the allowed speed
+        double s = 0, speed = 0, acceleration = 0, speed_factor = 1;  // speed_factor: of the allowed speed
         size_t lane = 0, from = 0;                            // from: the lane it is leaving
         double change = 1, offset = 0;                        // 0 .. 1: part of the way to `lane`, which began so far to its left, m
         double patience = 0;                                  // s until it thinks of changing again
@@ -166,4 +166,4 @@ private:
     uint64_t steps_ = 0;
 };
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace vesper {
+namespace vesper::traffic {
 namespace {
 
 constexpr double kSameContact = 0.5;                 // s without touching, after which it is another contact
@@ -67,4 +67,4 @@ void World::meet_others(const VehicleState& before) {
     if (driver_.position != was) touched_ |= collide(driver_, before, d.vehicle, d.barriers, ground().position.y);
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -9,7 +9,7 @@
 #include "scene/json_value.h"
 #include "scene/uri.h"
 
-namespace vesper {
+namespace vesper::traffic {
 namespace {
 
 constexpr uint64_t kMostBytes = 64u << 20;
@@ -85,7 +85,7 @@ void read_cars(const JsonValue& root, WorldFile& file) {
         car.allow_only({"node", "front", "lane", "at_m", "speed_km_h", "length_m", "width_m", "beam", "wish"});
         world.cars.push_back({.node = car.at("node").text(), .lane = index_of(car.at("lane"), world.lanes), .s = car.number_or("at_m", 0, -kFar, kFar),
                               .speed = car.number_or("speed_km_h", 0, 0, 300) / 3.6, .length = car.number_or("length_m", 4.4, 0.5, 50), .width = car.number_or("width_m", 1.8, 0.3, 10),
-                              .wish = car.number_or("wish", 0, 0.05, 2), .beam = beam_of(car)});
+                              .speed_factor = car.number_or("wish", 0, 0.05, 2), .beam = beam_of(car)});
         read_front(car, file);
     }
     for (const JsonValue& walker : root.elements_of("walkers")) {
@@ -162,4 +162,4 @@ WorldFile read_world(const std::filesystem::path& path) {
     return file;
 }
 
-}  // namespace vesper
+}  // namespace vesper::traffic

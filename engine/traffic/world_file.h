@@ -11,7 +11,7 @@
 #include "scene/tunnel.h"
 #include "traffic/world.h"
 
-namespace vesper {
+namespace vesper::traffic {
 
 /// Which lamps of vehicles are what, by the names of their rules in the photometry file.
 struct LampRoles {
@@ -35,4 +35,4 @@ struct WorldFile {
 /// Throws Error, naming file, place and reason.
 WorldFile read_world(const std::filesystem::path&);
 
-}  // namespace vesper
+}  // namespace vesper::traffic

@@ -7,12 +7,13 @@
 
 #include <unsupported/Eigen/FFT>
 
+#include "base/angle.h"
+
 namespace vesper {
 namespace {
 
 using glm::dvec2;
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kWidestPupil = 9, kUsualPupil = 5;  // mm
 constexpr double kSample = EyeAperture::kWindow / EyeAperture::kSide;  // mm
 
@@ -43,7 +44,7 @@ dvec2 vitreous_drift(double seconds, uint64_t seed) {
         const uint64_t event = uint64_t(k) * 3;
         const double since = (seconds - (double(k) + chance(seed, event)) * kEvery) / kBack;
         if (since <= 0) continue;
-        const double far = kFarthest * chance(seed, event + 1) * since * std::exp(1 - since), turn = kTurn * chance(seed, event + 2);
+        const double far = kFarthest * chance(seed, event + 1) * since * std::exp(1 - since), turn = kTwoPi * chance(seed, event + 2);
         drift += far * dvec2(std::cos(turn), std::sin(turn));
     }
     return drift;
@@ -75,7 +76,7 @@ EyeAperture::EyeAperture(const ApertureSettings& settings) : settings_(settings)
     const auto unit = [&] { return double(random()) * 0x1p-32; };
     const auto scatter = [&](std::vector<Particle>& particles, int count, double smallest, double largest) {
         for (int i = 0; i < count; ++i) {
-            const double r = 0.5 * kWindow * std::sqrt(unit()), turn = kTurn * unit(), radius = glm::mix(smallest, largest, unit());
+            const double r = 0.5 * kWindow * std::sqrt(unit()), turn = kTwoPi * unit(), radius = glm::mix(smallest, largest, unit());
             particles.push_back({r * dvec2(std::cos(turn), std::sin(turn)), std::numbers::pi * radius * radius});
         }
     };
@@ -84,7 +85,7 @@ EyeAperture::EyeAperture(const ApertureSettings& settings) : settings_(settings)
     scatter(vitreous_, 250, 0.006, 0.018);
     for (int i = 0; i < 200; ++i) {
         // At random: 200 in order would be a grating, with a ring at a tenth of the angle that thousands of them have theirs at.
-        const double turn = kTurn * unit(), inner = 1.5 + unit();  // mm
+        const double turn = kTwoPi * unit(), inner = 1.5 + unit();  // mm
         const dvec2 along(std::cos(turn), std::sin(turn));
         const double width = 0.012 * unit();
         fibres_.push_back({inner * along, 0.5 * kWindow * along, width});

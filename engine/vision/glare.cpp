@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
+
 namespace vesper {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 
 double square(double x) { return x * x; }
 double fourth(double x) { return square(square(x)); }
@@ -73,19 +74,19 @@ double ring(const std::function<double(double)>& psf, double low, double high) {
     double sum = 0;
     for (size_t i = 0; i < kNodes.size(); ++i) {
         const double t = 0.5 * (low + high) + 0.5 * (high - low) * kNodes[i];
-        sum += kWeights[i] * psf(t) * std::sin(t * kDegree);
+        sum += kWeights[i] * psf(t) * std::sin(t * kRadiansPerDegree);
     }
-    return std::numbers::pi * (high - low) * kDegree * sum;
+    return std::numbers::pi * (high - low) * kRadiansPerDegree * sum;
 }
 
-double ward_scattered(double t) { return std::cos(t * kDegree) / square(std::max(t, 0.5)); }
+double ward_scattered(double t) { return std::cos(t * kRadiansPerDegree) / square(std::max(t, 0.5)); }
 
 }  // namespace
 
 double ward_veil(double t) {
     constexpr double kCore = 5e-4;  // deg: far below any pixel
     static const double scattered = EyeScatter(ward_scattered).total();
-    return 0.92 * std::exp(-square(t / kCore)) / (std::numbers::pi * square(kCore * kDegree)) + 0.08 * ward_scattered(t) / scattered;
+    return 0.92 * std::exp(-square(t / kCore)) / (std::numbers::pi * square(kCore * kRadiansPerDegree)) + 0.08 * ward_scattered(t) / scattered;
 }
 
 EyeScatter::EyeScatter(std::function<double(double)> psf) : psf_(std::move(psf)), angles_{0}, sums_{0} {

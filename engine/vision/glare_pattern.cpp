@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "base/angle.h"
 #include "base/luminance.h"
 #include "photometry/observer.h"
 
@@ -15,12 +16,11 @@ using glm::dvec3, glm::vec3;
 using Rows = std::vector<std::vector<float>>;  // row by row, a value for each column
 
 constexpr int kColumns = GlarePattern::kColumns, kRows = GlarePattern::kRows;
-constexpr double kTurn = 2 * std::numbers::pi, kDegree = std::numbers::pi / 180;
-constexpr double kStep = kTurn / kColumns;  // of azimuth, and of ln theta from row to row
+constexpr double kStep = kTwoPi / kColumns;  // of azimuth, and of ln theta from row to row
 
 // How strong needles and colours may be: a tenth of the veil, 0.5 * (1 - 0.8), is left where both are darkest, and the pyramid that makes
 // the veil is up to 8 % off.
-constexpr double kNeedles = 0.8, kColours = 0.5, kLeast = 0.1;
+constexpr double kNeedles = 0.8, kColours = 0.5, kLeastNeedle = 0.1;
 // Needles fade out from here to kReach, degrees.
 constexpr double kFade = 4;
 
@@ -39,7 +39,7 @@ dvec3 coloured_halo(double theta) {
 // Beyond what the samples tell, the last ring goes on outwards.
 Rows rings_of(const std::vector<double>& intensity, int first, int count) {
     constexpr int kSide = EyeAperture::kSide;
-    const double sample = EyeAperture::kWavelength / EyeAperture::kWindow / kDegree;  // degrees
+    const double sample = EyeAperture::kWavelength / EyeAperture::kWindow / kRadiansPerDegree;  // degrees
     const auto at = [&](double x, double y) {
         const double left = std::floor(x), top = std::floor(y), u = x - left, v = y - top;
         const double* p = &intensity[size_t(top + kSide / 2) * kSide + size_t(left + kSide / 2)];
@@ -119,7 +119,7 @@ double halo_share(double diameter) { return spencer_weights(SpencerState::Scotop
 double spencer_veil(double theta, SpencerState state) {
     constexpr double kWide = 2.2;  // degrees: nearly nothing at kReach
     const SpencerWeights w = spencer_weights(state);
-    const double t = theta / kWide, area = std::numbers::pi * kWide * kWide * kDegree * kDegree;
+    const double t = theta / kWide, area = std::numbers::pi * kWide * kWide * kRadiansPerDegree * kRadiansPerDegree;
     return spencer_smooth_glare(theta, w) + w.halo / area * std::exp(-t * t);
 }
 
@@ -150,7 +150,7 @@ GlarePattern spencer_pattern(const EyeScatter& smooth, SpencerState state, uint3
     std::mt19937 random(seed);
     std::vector<std::pair<double, double>> lines;  // azimuth and intensity
     for (int i = 0; i < kLines; ++i) {
-        const double azimuth = kTurn * double(random()) * 0x1p-32;
+        const double azimuth = kTwoPi * double(random()) * 0x1p-32;
         lines.emplace_back(azimuth, double(random()) * 0x1p-32);
     }
     // Colours of single wavelengths are beyond Rec. 709: all of the ring is less colourful, as far as that leaves light in every channel.
@@ -158,7 +158,7 @@ GlarePattern spencer_pattern(const EyeScatter& smooth, SpencerState state, uint3
     for (int row = 0; row < kRows; ++row) {
         const double theta = middle(row);
         const dvec3 halo = w.halo * coloured_halo(theta);
-        const double grey = luminance(halo), spare = spencer_smooth_glare(theta, w) - kNeedles * w.corona * spencer_corona(theta) + grey - kLeast * spencer_veil(theta, state);
+        const double grey = luminance(halo), spare = spencer_smooth_glare(theta, w) - kNeedles * w.corona * spencer_corona(theta) + grey - kLeastNeedle * spencer_veil(theta, state);
         for (int c = 0; c < 3; ++c)
             if (halo[c] < grey) saturation = std::min(saturation, spare / (grey - halo[c]));
     }

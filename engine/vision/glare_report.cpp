@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/luminance.h"
 #include "vision/visibility.h"
@@ -15,10 +16,9 @@ namespace {
 
 using glm::dvec2, glm::dvec3;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kBackground = 10;  // deg about the line of sight
 constexpr double kLooked = 0.1;     // deg: nearer is not beside the line of sight
-constexpr double kLeast = 1e-4;    // cd/m^2: what is darker is left out of the log average
+constexpr double kLeastLuminance = 1e-4;    // cd/m^2: what is darker is left out of the log average
 
 // E cos(theta) f(theta), summed.
 struct Veils {
@@ -28,7 +28,7 @@ struct Veils {
 Veils veils_of(const std::vector<DazzlingLight>& lamps, dvec3 sight, const ScatteringEye& eye) {
     Veils sum;
     for (const DazzlingLight& light : lamps) {
-        const double cosine = std::min(glm::dot(light.direction, sight), 1.0), theta = std::acos(cosine) * kDegrees;
+        const double cosine = std::min(glm::dot(light.direction, sight), 1.0), theta = std::acos(cosine) * kDegreesPerRadian;
         if (cosine <= 0) continue;
         const double e = light.illuminance * cosine;
         sum.illuminance += e;
@@ -65,9 +65,9 @@ double ordinary_luminance(const ImageAngles& image, const Pixels& pixels) {
         for (int x = 0; x < image.width; ++x) {
             const double value = pixels.luminance(x, y);
             sum += value;
-            if (value > kLeast) logarithms += std::log(value), ++lit;
+            if (value > kLeastLuminance) logarithms += std::log(value), ++lit;
         }
-    return lit > 0 ? std::min(std::exp(logarithms / lit), sum / (double(image.width) * image.height)) : kLeast;
+    return lit > 0 ? std::min(std::exp(logarithms / lit), sum / (double(image.width) * image.height)) : kLeastLuminance;
 }
 
 struct Mean {
@@ -96,7 +96,7 @@ void report_target(const ImageAngles& image, const Pixels& pixels, const std::ve
     const dvec2 span = border * image.pixel();
     const double steradians = span.x * span.y * steradians_per_area(middle);
     Target seen{.age = question.eye.age};
-    seen.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegrees * 60;  // of a disc as large
+    seen.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegreesPerRadian * 60;  // of a disc as large
     if (report.around + report.target_veil > 0) report.visibility = visibility_level(report.target + report.target_veil, report.around + report.target_veil, seen);
 }
 
@@ -106,7 +106,7 @@ GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, 
     const Pixels pixels(image, rgba);
     const dvec3 sight = glm::normalize(dvec3(image.at(question.gaze * dvec2(image.width, image.height)), -1));
     const double source_luminance = question.source_luminance ? *question.source_luminance : kSourceContrast * ordinary_luminance(image, pixels);
-    const double wide = std::cos(kBackground / kDegrees);
+    const double wide = std::cos(kBackground / kDegreesPerRadian);
     std::vector<DazzlingLight> lamps(outside.begin(), outside.end());
     Mean background;
     for (int y = 0; y < image.height; ++y)

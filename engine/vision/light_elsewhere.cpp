@@ -7,20 +7,21 @@
 #include <optional>
 #include <tuple>
 
+#include "base/angle.h"
+
 namespace vesper {
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::ivec2, glm::vec3, glm::vec4;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kFinest = 2;              // level at which light from beyond a guard begins: finer ones have no say in what is shown
 constexpr double kNear = 1.0 / 16;      // nodes are taken together that are no further apart than this, times their distance from what is shown:
 constexpr double kFar = 1.0 / 8;        // so wide a tent makes 0.3 % more of a function that falls with the cube of the angle, or 0.5 % with its square
 constexpr int kParts = 8;               // of a pixel, along each axis, that is too large
 constexpr double kInside = 0.01;        // px, from the edge of a picture to where it still is
 constexpr double kUneven = 1e-3;        // of shares under a tent
-constexpr double kWhole = 90, kNone = 100;  // deg
-constexpr double kWidest = 2.5 * kDegree;   // between nodes that are taken together, so that what goes from there to there is straight
+constexpr double kWholeAngle = 90, kNoneAngle = 100;  // deg
+constexpr double kWidest = 2.5 * kRadiansPerDegree;   // between nodes that are taken together, so that what goes from there to there is straight
 
 // Points outwards from the eye: all planes have it on their positive side. Convex.
 struct Pyramid {
@@ -104,14 +105,14 @@ double spline(double x) {
 LightElsewhere::Veil::Veil(const EyeScatter& psf) : psf_(psf) {
     constexpr int kSteps = 8192;
     for (int i = 0; i <= kSteps; ++i) {
-        const double theta = 2 * std::asin(double(i) / kSteps) / kDegree;
-        table_.push_back(float(psf(std::min(theta, kWhole)) * std::clamp((kNone - theta) / (kNone - kWhole), 0.0, 1.0)));
+        const double theta = 2 * std::asin(double(i) / kSteps) / kRadiansPerDegree;
+        table_.push_back(float(psf(std::min(theta, kWholeAngle)) * std::clamp((kNoneAngle - theta) / (kNoneAngle - kWholeAngle), 0.0, 1.0)));
     }
 }
 
 double LightElsewhere::Veil::at(double cosine) const {
     const double sine = std::sqrt(std::max(0.0, 0.5 - 0.5 * cosine)), at = sine * double(table_.size() - 1);  // of half the angle
-    if (sine < 0.02) return psf_(2 * std::asin(sine) / kDegree);  // within 2.3 degrees it is too steep for a table; beyond, that is good to 1e-4
+    if (sine < 0.02) return psf_(2 * std::asin(sine) / kRadiansPerDegree);  // within 2.3 degrees it is too steep for a table; beyond, that is good to 1e-4
     const size_t first = std::min(size_t(at), table_.size() - 2);
     return std::lerp(double(table_[first]), double(table_[first + 1]), at - double(first));
 }

@@ -12,7 +12,7 @@ namespace vesper {
 namespace {
 
 constexpr double kHighlights = 0.99, kSuns = 0.999;  // parts of the pixels with light that are darker
-constexpr double kNothing = -8, kWhole = -6;         // log10 of luminance over highlights from which it counts, and fully
+constexpr double kCountsNothing = -8, kCountsWhole = -6;         // log10 of luminance over highlights from which it counts, and fully
 
 std::vector<float> lit_luminances(std::span<const float> rgb) {
     std::vector<float> lit;
@@ -47,7 +47,7 @@ RelativeLuminance relative_luminance(std::span<const float> rgb) {
     highlights /= static_cast<double>(end - bright);
     double sum = 0, weights = 0;
     for (auto l = lit.begin(); l != end; ++l) {
-        const double log = log_of(*l), weight = smooth_step(highlights + kNothing, highlights + kWhole, log);
+        const double log = log_of(*l), weight = smooth_step(highlights + kCountsNothing, highlights + kCountsWhole, log);
         sum += weight * log, weights += weight;
     }
     return {std::pow(10, sum / weights), std::pow(10, highlights)};

@@ -21,26 +21,26 @@ constexpr int kMostNodes = 17;     // of a row or column: beyond 2.4 tangents ac
 constexpr int kPhases = 8;        // places of the eye's axis within a texel of the top
 constexpr int kAzimuths = 12;
 constexpr double kNarrow = 36 * std::numbers::pi / 180;  // from the axis to a corner: kernels of 5 x 5 follow pixels of that shape
-constexpr int kNear = kScatterNear;
-constexpr int kFar = 16;          // texels of the top beyond which light is counted, not added up
+constexpr int kNearTaps = kScatterNear;
+constexpr int kFarTaps = 16;          // texels of the top beyond which light is counted, not added up
 // Texels outside the picture that light may be to go wholly into the margin of a level. One level lower it has then no say in the picture.
 constexpr double kOutside = 6;
 constexpr double kBalance = 1e4;  // of the light, against the rows of the fit
 
-// What a pixel takes of another, on one axis, through each level, for a shift of -kFar .. kFar texels between them.
-struct Responses {
-    std::vector<std::array<double, 2 * kFar + 1>> levels;
+// What a pixel takes of another, on one axis, through each level, for a shift of -kFarTaps .. kFarTaps texels between them.
+struct CascadeResponses {
+    std::vector<std::array<double, 2 * kFarTaps + 1>> levels;
 
-    Responses(const std::vector<CascadeTaps>& takes, const std::vector<CascadeTaps>& gives) : levels(takes.size()) {
+    CascadeResponses(const std::vector<CascadeTaps>& takes, const std::vector<CascadeTaps>& gives) : levels(takes.size()) {
         for (size_t l = 0; l < levels.size(); ++l) {
-            const int most = l + 1 < levels.size() ? kWideTapReach : kFar;  // taps of levels reach no further
+            const int most = l + 1 < levels.size() ? kWideTapReach : kFarTaps;  // taps of levels reach no further
             levels[l].fill(0);
             for (int t = -most; t <= most; ++t)
                 for (size_t i = 0; i < gives[l].weights.size(); ++i)
-                    levels[l][size_t(t + kFar)] += gives[l].weights[i] * takes[l].at(gives[l].first + int(i) - t);
+                    levels[l][size_t(t + kFarTaps)] += gives[l].weights[i] * takes[l].at(gives[l].first + int(i) - t);
         }
     }
-    double at(size_t level, int shift) const { return levels[level][size_t(shift + kFar)]; }
+    double at(size_t level, int shift) const { return levels[level][size_t(shift + kFarTaps)]; }
 };
 
 dvec3 ray(dvec2 tangents) { return glm::normalize(dvec3(tangents, 1)); }
@@ -68,7 +68,7 @@ std::vector<double> far_weights(const EyeScatter& psf, const ImageAngles& image,
 
 // What every weight makes of a sample: a row of the fit.
 struct Row {
-    Responses x, y;
+    CascadeResponses x, y;
 
     double at(size_t level, ivec2 tap) const { return x.at(level, tap.x) * y.at(level, tap.y); }
     // Of a tap of a level, with its opposite.
@@ -86,11 +86,11 @@ struct Row {
 // Texels of the top whose weights are fitted, row by row; and the taps of all levels and of the top, one after the other.
 std::vector<ivec2> top_taps() {
     std::vector<ivec2> taps;
-    for (int y = -kNear; y <= kNear; ++y)
-        for (int x = -kNear; x <= kNear; ++x) taps.push_back({x, y});
+    for (int y = -kNearTaps; y <= kNearTaps; ++y)
+        for (int x = -kNearTaps; x <= kNearTaps; ++x) taps.push_back({x, y});
     return taps;
 }
-size_t top_tap(ivec2 tap) { return size_t((tap.y + kNear) * (2 * kNear + 1) + tap.x + kNear); }
+size_t top_tap(ivec2 tap) { return size_t((tap.y + kNearTaps) * (2 * kNearTaps + 1) + tap.x + kNearTaps); }
 Eigen::RowVectorXd responses_of(const Row& row, const std::vector<ivec2>& level, const std::vector<ivec2>& top) {
     const size_t levels = row.x.levels.size() - 1, taps = level.size();
     Eigen::RowVectorXd all(Eigen::Index(taps * levels + top.size()));
@@ -115,7 +115,7 @@ std::vector<ivec2> sample_offsets(int levels) {
     std::vector<ivec2> all;
     for (int y = -3; y <= 3; ++y)
         for (int x = -3; x <= 3; ++x) all.push_back({x, y});
-    const double last = (kNear + 2) * std::exp2(levels);
+    const double last = (kNearTaps + 2) * std::exp2(levels);
     for (double r = 4.2, turn = 0; r < last; r *= 1.17, turn += 0.618)
         for (int i = 0; i < kAzimuths; ++i) {
             const double azimuth = 2 * std::numbers::pi * (i + turn) / kAzimuths;
@@ -141,16 +141,16 @@ Samples::Samples(int levels, int reach) : offsets(sample_offsets(levels)), level
 // Weights of the texels of the top about the one that a place lies in the middle of; none for those that are fitted.
 std::vector<double> weights_beyond_near(const EyeScatter& psf, const ImageAngles& image, int levels, dvec2 place) {
     const dvec2 texel = std::exp2(levels) * image.pixel() * dvec2(1, -1);
-    std::vector<double> weights = far_weights(psf, image, levels, place, place - double(kFar) * texel, ivec2(2 * kFar + 1));
-    for (int y = -kNear; y <= kNear; ++y)
-        for (int x = -kNear; x <= kNear; ++x) weights[size_t((y + kFar) * (2 * kFar + 1) + x + kFar)] = 0;
+    std::vector<double> weights = far_weights(psf, image, levels, place, place - double(kFarTaps) * texel, ivec2(2 * kFarTaps + 1));
+    for (int y = -kNearTaps; y <= kNearTaps; ++y)
+        for (int x = -kNearTaps; x <= kNearTaps; ++x) weights[size_t((y + kFarTaps) * (2 * kFarTaps + 1) + x + kFarTaps)] = 0;
     return weights;
 }
 
-// The fit at one place, tangents: the taps of all levels, opposite ones together, then those of the top within kNear.
+// The fit at one place, tangents: the taps of all levels, opposite ones together, then those of the top within kNearTaps.
 std::vector<double> fit_node(const EyeScatter& psf, const ImageAngles& image, int levels, const Samples& samples, dvec2 place) {
     const std::vector<double> far = weights_beyond_near(psf, image, levels, place);
-    const dvec2 pixel = image.pixel(), half = 0.5 * pixel, most = (kFar + 0.5) * std::exp2(levels) * pixel;
+    const dvec2 pixel = image.pixel(), half = 0.5 * pixel, most = (kFarTaps + 0.5) * std::exp2(levels) * pixel;
     std::vector<double> wanted;
     for (const ivec2 d : samples.offsets)
         wanted.push_back(d == ivec2(0) ? light_within(psf, place, -half, half) : light_from(psf, place, place + pixel * dvec2(d.x, -d.y), half));
@@ -228,7 +228,7 @@ std::vector<float> top_matrix(const EyeScatter& psf, const ScatterFit& fit, cons
             for (int v = 0; v < columns.y; ++v)
                 for (int u = 0; u < columns.x; ++u) {
                     const ivec2 d = ivec2(u, v) - kScatterMargin - (ivec2(x, y) - kScatterReach);
-                    if (std::max(std::abs(d.x), std::abs(d.y)) > kNear) {
+                    if (std::max(std::abs(d.x), std::abs(d.y)) > kNearTaps) {
                         matrix.push_back(float(far[size_t(v * columns.x + u)]));
                         continue;
                     }

@@ -42,7 +42,7 @@ protected:
     VesperError error;
 };
 
-std::vector<float> night(uint32_t width, uint32_t height) {
+std::vector<float> night_values(uint32_t width, uint32_t height) {
     std::vector<float> rgb;
     for (uint32_t i = 0; i < width * height; ++i) {
         const float l = std::pow(10.0f, -2 + 5 * float(i % 101) / 101);
@@ -63,7 +63,7 @@ TEST_F(CInterface, MapsAsTheEngineDoes) {
     Device own;
     ToneMapper engine(own);
     for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 5u}, {65u, 33u}}) {
-        const std::vector<float> rgb = night(width, height);
+        const std::vector<float> rgb = night_values(width, height);
         const VesperPicture picture = picture_of(rgb, width, height);
         VesperToneSettings settings;
         vesper_tone_settings_defaults(&settings, sizeof settings);
@@ -95,7 +95,7 @@ TEST_F(CInterface, EverySettingArrives) {
     Device own;
     ToneMapper engine(own);
     constexpr uint32_t width = 40, height = 30;
-    std::vector<float> rgb = night(width, height);
+    std::vector<float> rgb = night_values(width, height);
     for (size_t i = 0; i < 3; ++i) rgb[3 * (width * 9 + 11) + i] = 3e5f / float(i + 1);  // a warm lamp
     VesperPicture picture = picture_of(rgb, width, height);
     picture.scale = 0.01f;
@@ -318,7 +318,7 @@ TEST_F(CInterface, MessagesAreALineOfWholeCharacters) {
 TEST_F(CInterface, SizesAreOfTheFirstVersionAtLeast) {
     VesperToneMapper* mapper = nullptr;
     ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
-    const std::vector<float> rgb = night(9, 9);
+    const std::vector<float> rgb = night_values(9, 9);
     VesperPicture picture = picture_of(rgb, 9, 9);
     std::vector<uint8_t> codes(4 * 81, 77);
     VesperToneSettings settings;

@@ -2,10 +2,10 @@
 #include "channels.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/luminance.h"
 #include "passes/scatter_reference.h"
@@ -15,7 +15,6 @@
 namespace vesper::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr uint32_t kSide = 96;
 
 // A wall 20 m ahead, evenly lit, and a lamp before it far to the left: to all sides, or to the eye alone.
@@ -32,7 +31,7 @@ Scene wall_scene(float ambient, float candela, Lamp::Kind kind) {
     scene.meshes.push_back({"wall", {wall}});
     scene.nodes.push_back({.name = "wall", .mesh = 0});
     scene.lamps.push_back({.name = "lamp", .kind = kind, .intensity = candela, .inner_cone = 0.1f, .outer_cone = 0.2f, .opening = {.length = 0.3f, .width = 0.3f}});
-    scene.nodes.push_back({.name = "lamp", .translation = {-19.0f * std::tan(float(32 * kDegree)), 0, -19}, .rotation = glm::angleAxis(float(212 * kDegree), glm::vec3(0, 1, 0)), .lamp = 0});
+    scene.nodes.push_back({.name = "lamp", .translation = {-19.0f * std::tan(float(32 * kRadiansPerDegree)), 0, -19}, .rotation = glm::angleAxis(float(212 * kRadiansPerDegree), glm::vec3(0, 1, 0)), .lamp = 0});
     scene.ambient_illuminance = ambient;
     return scene;
 }
@@ -40,16 +39,16 @@ Scene wall_scene(float ambient, float candela, Lamp::Kind kind) {
 // Three screens in one plane: a picture cut in three, and the picture itself.
 Channels three() {
     Channels channels;
-    const double edge = std::tan(16 * kDegree);
+    const double edge = std::tan(16 * kRadiansPerDegree);
     for (int i = -1; i <= 1; ++i)
-        channels.screens.push_back({.name = std::to_string(i), .extent = {kSide, kSide}, .left = std::atan((2 * i - 1) * edge), .right = std::atan((2 * i + 1) * edge), .bottom = -16 * kDegree, .top = 16 * kDegree});
+        channels.screens.push_back({.name = std::to_string(i), .extent = {kSide, kSide}, .left = std::atan((2 * i - 1) * edge), .right = std::atan((2 * i + 1) * edge), .bottom = -16 * kRadiansPerDegree, .top = 16 * kRadiansPerDegree});
     channels.gaze = 1;
     return channels;
 }
 
 View whole() {
     View view;
-    const float edge = float(std::tan(16 * kDegree));
+    const float edge = float(std::tan(16 * kRadiansPerDegree));
     view.extent = {3 * kSide, kSide};
     view.tangent_low = {-3 * edge, -edge}, view.tangent_high = {3 * edge, edge};
     return view;
@@ -82,7 +81,7 @@ struct Rig {
 TEST(Channels, AreThePictureTheyAreCutFrom) {
     Rig rig(wall_scene(0.5f, 300, Lamp::Kind::Point));
     RenderSettings settings;
-    const Wall wall = rig.wall.render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic wall = rig.wall.render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0, {.display = true, .scene = true});
     const Frame one = rig.renderer.render(settings, whole(), rig.frame, 0, {.display = true, .scene = true});
     ASSERT_EQ(wall.shown.display.size(), one.display.size());
     int far = 0;
@@ -108,10 +107,10 @@ TEST(Channels, GlareGoesOnAcrossTheSeam) {
     RenderSettings settings;
     settings.glare = Glare::Scatter;
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
-    const Wall wall = rig.wall.render(rig.renderer, three(), settings, driver, rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic wall = rig.wall.render(rig.renderer, three(), settings, driver, rig.frame, 0, {.display = true, .scene = true});
     RenderSettings clear = settings;
     clear.glare = Glare::None;
-    const Wall without = rig.wall.render(rig.renderer, three(), clear, driver, rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic without = rig.wall.render(rig.renderer, three(), clear, driver, rig.frame, 0, {.display = true, .scene = true});
     const auto veil = [&](uint32_t x) {
         const size_t at = 4 * (size_t(kSide / 2) * kSide + x % kSide);
         return double(wall.channels[x / kSide].retina[at + 1] - without.channels[x / kSide].scene[at + 1]);
@@ -134,9 +133,9 @@ Scene sign_scene(double degrees) {
     Scene scene;
     scene.name = "sign";
     scene.materials.push_back({.name = "luminous", .base_colour = {0, 0, 0, 1}, .emission = {1000, 600, 200}});
-    const glm::mat4 turn = glm::rotate(glm::mat4(1), float(degrees * kDegree), glm::vec3(0, 1, 0));
+    const glm::mat4 turn = glm::rotate(glm::mat4(1), float(degrees * kRadiansPerDegree), glm::vec3(0, 1, 0));
     Primitive sign;
-    const float x = 20 * float(std::tan(2 * kDegree)), y = 20 * float(std::tan(1.5 * kDegree));
+    const float x = 20 * float(std::tan(2 * kRadiansPerDegree)), y = 20 * float(std::tan(1.5 * kRadiansPerDegree));
     for (const glm::vec3 corner : {glm::vec3(-x, -y, -20), {x, -y, -20}, {x, y, -20}, {-x, y, -20}}) {
         const glm::vec3 at(turn * glm::vec4(corner, 1));
         sign.vertices.push_back({.position = at, .normal = glm::vec3(turn * glm::vec4(0, 0, 1, 0))});
@@ -153,7 +152,7 @@ Channels turned_screens() {
     Channels channels;
     for (int i = -1; i <= 1; ++i) {
         const uint32_t side = i == 0 ? 120 : kSide;
-        channels.screens.push_back({.name = std::to_string(i), .extent = {side, side}, .yaw = -48 * i * kDegree, .left = -24 * kDegree, .right = 24 * kDegree, .bottom = -16 * kDegree, .top = 16 * kDegree});
+        channels.screens.push_back({.name = std::to_string(i), .extent = {side, side}, .yaw = -48 * i * kRadiansPerDegree, .left = -24 * kRadiansPerDegree, .right = 24 * kRadiansPerDegree, .bottom = -16 * kRadiansPerDegree, .top = 16 * kRadiansPerDegree});
     }
     channels.gaze = 1;
     return channels;
@@ -166,7 +165,7 @@ const RenderSettings kScattering = [] {
 }();
 
 // Luminance of a column of the wall at a part of the height, on the retina; rows in between are linear.
-double seen_at(const Wall& wall, size_t channel, int column, double part) {
+double seen_at(const ChannelMosaic& wall, size_t channel, int column, double part) {
     const VkExtent2D extent = wall.channels[channel].extent;
     const double row = part * extent.height - 0.5, first = std::floor(row);
     const size_t x = column < 0 ? extent.width - size_t(-column) : size_t(column);
@@ -184,7 +183,7 @@ TEST(Channels, GlareOfLitSurfacesHasNoSeam) {
     const Case cases[]{{three(), 30, 0.01}, {turned_screens(), 35, 0.04}, {turned_screens(), 60, 0.01}};
     for (const Case& c : cases) {
         Rig rig(sign_scene(c.degrees));
-        const Wall wall = rig.wall.render(rig.renderer, c.channels, kScattering, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0, {.display = true, .scene = true});
+        const ChannelMosaic wall = rig.wall.render(rig.renderer, c.channels, kScattering, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0, {.display = true, .scene = true});
         for (const size_t seam : {0u, 1u})
             for (const double part : {0.1, 0.3, 0.5, 0.77}) {
                 const auto to_edge = [&](size_t channel, int edge, int next) { return 1.5 * seen_at(wall, channel, edge, part) - 0.5 * seen_at(wall, channel, next, part); };
@@ -203,7 +202,7 @@ TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
     const Channels channels = turned_screens();
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
     RenderSettings clear;
-    const Wall seen = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true}), shown = rig.wall.render(rig.renderer, channels, clear, driver, rig.frame, 0, {.display = true});
+    const ChannelMosaic seen = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true}), shown = rig.wall.render(rig.renderer, channels, clear, driver, rig.frame, 0, {.display = true});
     const auto towards = [&](size_t channel, glm::dvec2 pixels) {
         const View view = channel_view(channels.screens[channel], driver);
         return glm::transpose(glm::dmat3(view.world_to_view)) * reference::direction_of(angles_of(view), pixels);
@@ -230,8 +229,8 @@ TEST(Channels, LampsOfOtherScreensCountOnce) {
     Rig rig(wall_scene(0, 20000, Lamp::Kind::Spot));
     const Channels channels = turned_screens();
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
-    const Wall wall = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true});
-    const glm::dvec3 lamp(-19 * std::tan(32 * kDegree), 0, -19);
+    const ChannelMosaic wall = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true});
+    const glm::dvec3 lamp(-19 * std::tan(32 * kRadiansPerDegree), 0, -19);
     const double distance = glm::length(lamp), lux = 20000 / (distance * distance);
     const EyeScatter psf = eye_scatter({});
     const ImageAngles middle = angles_of(channel_view(channels.screens[1], driver));
@@ -250,7 +249,7 @@ TEST(Channels, OneScreenIsAView) {
     Channels one;
     one.screens.push_back(three().screens[0]);
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
-    const Wall wall = rig.wall.render(rig.renderer, one, kScattering, driver, rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic wall = rig.wall.render(rig.renderer, one, kScattering, driver, rig.frame, 0, {.display = true, .scene = true});
     const Frame alone = rig.renderer.render(kScattering, channel_view(one.screens[0], driver), rig.frame, 0, {.display = true, .scene = true});
     EXPECT_EQ(wall.shown.scene, alone.scene);
     EXPECT_EQ(wall.channels[0].scene, alone.scene);
@@ -279,9 +278,9 @@ TEST(Channels, TurnedScreensSeeWhereTheyLook) {
         ScreenChannel c{.name = "", .yaw = yaw, .pitch = pitch, .left = -0.1, .right = 0.1, .bottom = -0.1, .top = 0.1};
         return glm::vec3(glm::inverse(channel_view(c, driver).world_to_view) * glm::vec4(0, 0, -1, 0));
     };
-    EXPECT_LT(glm::distance(ahead(90 * kDegree, 0), glm::vec3(-1, 0, 0)), 1e-6);
-    EXPECT_LT(glm::distance(ahead(0, 90 * kDegree), glm::vec3(0, 1, 0)), 1e-6);
-    const ScreenChannel rolled{.name = "", .roll = 90 * kDegree, .left = -0.1, .right = 0.1, .bottom = -0.1, .top = 0.1};
+    EXPECT_LT(glm::distance(ahead(90 * kRadiansPerDegree, 0), glm::vec3(-1, 0, 0)), 1e-6);
+    EXPECT_LT(glm::distance(ahead(0, 90 * kRadiansPerDegree), glm::vec3(0, 1, 0)), 1e-6);
+    const ScreenChannel rolled{.name = "", .roll = 90 * kRadiansPerDegree, .left = -0.1, .right = 0.1, .bottom = -0.1, .top = 0.1};
     // Rolled clockwise, what is up in the picture lies to the right.
     EXPECT_LT(glm::distance(glm::vec3(glm::inverse(channel_view(rolled, driver).world_to_view) * glm::vec4(0, 1, 0, 0)), glm::vec3(1, 0, 0)), 1e-6);
 }

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hands.h"
+#include "input_devices.h"
 #include "panel_layout.h"
 #include "scene/scene_files.h"
 #include "support/complaints.h"
@@ -87,10 +87,10 @@ std::vector<ControllerMapping> wheel_mapping() {
     return {{.match = "G29", .gamepad = false, .steering = SteeringAxis{}, .throttle = PedalAxis{.axis = 2, .rest = 1, .full = -1}, .brake = {}, .buttons = {{0, Action::Pause}}}};
 }
 
-TEST(Hands, TakeTheWheelThatIsTurnedFurtherAndThePedalThatIsPressedHarder) {
-    Hands hands(wheel_mapping());
+TEST(InputDevices, TakeTheWheelThatIsTurnedFurtherAndThePedalThatIsPressedHarder) {
+    InputDevices hands(wheel_mapping());
     hands.look({wheel(-0.5f, 0, false)});
-    DriverInput input = hands.next({}, 0, 1.0 / 60);
+    traffic::DriverInput input = hands.next({}, 0, 1.0 / 60);
     EXPECT_DOUBLE_EQ(input.steering, 0.5);
     EXPECT_DOUBLE_EQ(input.throttle, 0.5);
     EXPECT_DOUBLE_EQ(input.brake, 0);
@@ -99,8 +99,8 @@ TEST(Hands, TakeTheWheelThatIsTurnedFurtherAndThePedalThatIsPressedHarder) {
     EXPECT_DOUBLE_EQ(input.brake, 1);
 }
 
-TEST(Hands, NoticePlugsAndPressesOfButtonsOnce) {
-    Hands hands(wheel_mapping());
+TEST(InputDevices, NoticePlugsAndPressesOfButtonsOnce) {
+    InputDevices hands(wheel_mapping());
     EXPECT_TRUE(hands.look({wheel(0, 1, true)}).empty());  // held when it was plugged in: no press
     EXPECT_TRUE(test::contains(hands.take_notice(), "G29 is ready"));
     EXPECT_TRUE(hands.look({wheel(0, 1, false)}).empty());
@@ -112,21 +112,21 @@ TEST(Hands, NoticePlugsAndPressesOfButtonsOnce) {
     EXPECT_DOUBLE_EQ(hands.next({}, 0, 1.0 / 60).throttle, 0);  // nothing stays pressed
 }
 
-TEST(Hands, SwitchesStayAsTheyWereSet) {
-    Hands hands;
+TEST(InputDevices, SwitchesStayAsTheyWereSet) {
+    InputDevices hands;
     EXPECT_TRUE(hands.press(Action::IndicateLeft));
-    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, Indicator::Left);
+    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, traffic::Indicator::Left);
     hands.press(Action::IndicateRight);
-    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, Indicator::Right);
+    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, traffic::Indicator::Right);
     hands.press(Action::IndicateRight);
-    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, Indicator::None);
+    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, traffic::Indicator::None);
     hands.press(Action::Beam);
-    EXPECT_EQ(hands.next({}, 0, 0.1).beam, Beam::High);
+    EXPECT_EQ(hands.next({}, 0, 0.1).beam, traffic::Beam::High);
     hands.press(Action::Autopilot), hands.press(Action::Reverse);
     EXPECT_TRUE(hands.next({}, 0, 0.1).autopilot && hands.next({}, 0, 0.1).reverse);
     EXPECT_FALSE(hands.press(Action::Pause));
     hands.release();
-    EXPECT_EQ(hands.next({}, 0, 0.1), DriverInput());
+    EXPECT_EQ(hands.next({}, 0, 0.1), traffic::DriverInput());
 }
 
 TEST(KeyboardWheel, TurnsWhileHeldReturnsAndTurnsLessAtSpeed) {

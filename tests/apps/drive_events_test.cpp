@@ -12,7 +12,7 @@ using Kind = DriveEvent::Kind;
 
 TEST(DriveEvents, ComeOutAsTheyWentIn) {
     std::vector<DriveEvent> wanted;
-    const auto add = [&](Kind kind, DriverInput input = {}, std::optional<glm::dvec4> pose = {}, const std::string& name = "", uint64_t place = 0) {
+    const auto add = [&](Kind kind, traffic::DriverInput input = {}, std::optional<glm::dvec4> pose = {}, const std::string& name = "", uint64_t place = 0) {
         wanted.push_back({.kind = kind, .input = input, .pose = pose, .name = name, .value = name.empty() ? "" : name + " value", .place = place});
     };
     add(Kind::Frame);
@@ -22,7 +22,7 @@ TEST(DriveEvents, ComeOutAsTheyWentIn) {
     add(Kind::Step, {.throttle = 1}, glm::dvec4(1, 2, 3, 4));
     add(Kind::Frame);
     add(Kind::Step, {.throttle = 1});
-    add(Kind::Step, {.steering = -0.5, .beam = Beam::High}, glm::dvec4(5, 6, 7, 8));
+    add(Kind::Step, {.steering = -0.5, .beam = traffic::Beam::High}, glm::dvec4(5, 6, 7, 8));
     add(Kind::Restart);
     add(Kind::Set, {}, {}, "age", 9);
     add(Kind::Step);

@@ -50,25 +50,25 @@ double road_luminance(const Frame& frame) {
 // Steering, pedals, lamps, cameras, operators and frames at uneven times, as a window makes them.
 std::vector<DriveEvent> adventure() {
     std::vector<DriveEvent> events;
-    const auto add = [&](DriveEvent::Kind kind, const DriverInput& input = {}, const std::string& name = "", const std::string& value = "") {
+    const auto add = [&](DriveEvent::Kind kind, const traffic::DriverInput& input = {}, const std::string& name = "", const std::string& value = "") {
         events.push_back({.kind = kind, .input = input, .pose = {}, .name = name, .value = value});
     };
-    using Kind = DriveEvent::Kind;
-    add(Kind::Frame);
+    using EventKind = DriveEvent::Kind;
+    add(EventKind::Frame);
     for (int i = 0; i < 90; ++i) {
-        DriverInput input{.steering = 0.1 * std::sin(i * 0.1), .throttle = 0.4, .brake = i > 70 ? 0.7 : 0.0};
-        input.beam = i > 30 ? Beam::High : Beam::Low;
-        input.indicator = i > 50 ? Indicator::Left : Indicator::None;
+        traffic::DriverInput input{.steering = 0.1 * std::sin(i * 0.1), .throttle = 0.4, .brake = i > 70 ? 0.7 : 0.0};
+        input.beam = i > 30 ? traffic::Beam::High : traffic::Beam::Low;
+        input.indicator = i > 50 ? traffic::Indicator::Left : traffic::Indicator::None;
         input.autopilot = i > 80;
-        add(Kind::Step, input);
-        if (i == 20) add(Kind::Set, {}, "operator", "ward");
-        if (i == 40) add(Kind::Set, {}, "lamp:street lamp", "0.5");
-        if (i == 60) add(Kind::Set, {}, "camera", "chase");
-        if (i == 65) add(Kind::Set, {}, "operator", "irawan");
-        if (i % 17 == 3 || i == 64) add(Kind::Frame);
+        add(EventKind::Step, input);
+        if (i == 20) add(EventKind::Set, {}, "operator", "ward");
+        if (i == 40) add(EventKind::Set, {}, "lamp:street lamp", "0.5");
+        if (i == 60) add(EventKind::Set, {}, "camera", "chase");
+        if (i == 65) add(EventKind::Set, {}, "operator", "irawan");
+        if (i % 17 == 3 || i == 64) add(EventKind::Frame);
     }
-    add(Kind::Restart);
-    add(Kind::Frame);
+    add(EventKind::Restart);
+    add(EventKind::Frame);
     return events;
 }
 
@@ -213,13 +213,13 @@ TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
     for (const char* name : {"street lamp", "low beam", "high beam", "brake lamp", "tunnel lamp", "left front indicator"}) EXPECT_TRUE(std::find(lamps.begin(), lamps.end(), name) != lamps.end()) << name;
     for (const std::string& lamp : lamps)
         if (lamp != "low beam" && lamp != "high beam") session.set("lamp:" + lamp, "0");
-    session.step({.beam = Beam::Low});
+    session.step({.beam = traffic::Beam::Low});
     const Frame low = session.render(kSize, outputs);
-    session.step({.beam = Beam::High});
+    session.step({.beam = traffic::Beam::High});
     const Frame high = session.render(kSize, outputs);
     session.set("lamp:low beam", "0");
     session.set("lamp:high beam", "0");
-    session.step({.beam = Beam::Low});
+    session.step({.beam = traffic::Beam::Low});
     const Frame dark = session.render(kSize, outputs);
     EXPECT_EQ(dark.lamps, 0u);
     EXPECT_EQ(high.lamps, low.lamps + 2);  // of the driver's car
@@ -227,7 +227,7 @@ TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
     EXPECT_GT(road_luminance(high), road_luminance(low));
     // They go with the car: the road before it stays lit.
     session.set("lamp:low beam", "1");
-    for (int i = 0; i < 120; ++i) session.step({.beam = Beam::Low, .autopilot = true});
+    for (int i = 0; i < 120; ++i) session.step({.beam = traffic::Beam::Low, .autopilot = true});
     EXPECT_GT(road_luminance(session.render(kSize, outputs)), 2 * road_luminance(dark));
 }
 

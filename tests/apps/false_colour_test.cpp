@@ -17,7 +17,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std:
 TEST(FalseColour, GetsLighterWithLuminance) {
     double before = -1;
     for (double position = 0; position <= 1; position += 1.0 / 256) {
-        const Colour c = map_colour(position);
+        const CanvasColour c = map_colour(position);
         const double lightness = 0.212639 * std::pow(c.r, 2.2) + 0.715169 * std::pow(c.g, 2.2) + 0.072192 * std::pow(c.b, 2.2);
         EXPECT_GT(lightness, before - 1e-4) << position;
         before = lightness;
@@ -75,7 +75,7 @@ TEST(FalseColour, CanvasKeepsPixelsAndClips) {
     canvas.pixels(-1, 0, 1, 1, dot);
     canvas.pixels(8, 5, 1, 1, dot);
     canvas.text({4, 3}, "", 10);
-    canvas.text({1000, 3}, "\xff\xfe no UTF-8", 10, Canvas::Align::Right, Colour(1), true);
+    canvas.text({1000, 3}, "\xff\xfe no UTF-8", 10, Canvas::Align::Right, CanvasColour(1), true);
     const auto rgba = canvas.rgba();
     const size_t at = 4 * (2 * 8 + 3);
     ASSERT_EQ(rgba.size(), 8u * 6 * 4);

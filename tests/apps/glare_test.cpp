@@ -1,11 +1,11 @@
 // Glare as people run it: lamps beside a picture, what is reported, what is refused. SPDX-License-Identifier: MIT
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
+#include "base/angle.h"
 #include "io/hdr_image.h"
 #include "vision/glare.h"
 #include "places.h"
@@ -15,7 +15,6 @@
 namespace vesper::test {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 class GlareProgram : public ProgramTest {
 protected:
@@ -57,16 +56,16 @@ TEST_F(GlareProgram, ALampElsewhereVeilsABlackPicture) {
     const HdrImage shown = read_hdr_image(folder / "out.exr");
     const EyeScatter psf([](double theta) { return cie_total_glare(theta, {60, 1}); });
     for (const int column : {3, 32, 60}) {
-        const double x = (column + 0.5 - 32) / 20 * std::tan(4 / kDegrees), y = (20.5 - 20) / 20 * std::tan(4 / kDegrees);
-        const double theta = std::acos((x * std::sin(10 / kDegrees) + std::cos(10 / kDegrees)) / std::sqrt(1 + x * x + y * y)) * kDegrees;
-        const double other = std::acos((y * std::sin(40 / kDegrees) + std::cos(40 / kDegrees)) / std::sqrt(1 + x * x + y * y)) * kDegrees;
+        const double x = (column + 0.5 - 32) / 20 * std::tan(4 / kDegreesPerRadian), y = (20.5 - 20) / 20 * std::tan(4 / kDegreesPerRadian);
+        const double theta = std::acos((x * std::sin(10 / kDegreesPerRadian) + std::cos(10 / kDegreesPerRadian)) / std::sqrt(1 + x * x + y * y)) * kDegreesPerRadian;
+        const double other = std::acos((y * std::sin(40 / kDegreesPerRadian) + std::cos(40 / kDegreesPerRadian)) / std::sqrt(1 + x * x + y * y)) * kDegreesPerRadian;
         const double veil = 5 * psf(theta) + psf(other);
         // 7 %: the pyramid's own error; most of it is less.
         EXPECT_NEAR(shown.rgb[size_t(3 * (20 * 64 + column))] / (0.001 + 99.999 * veil / 10), 1, 0.07) << column;
     }
     EXPECT_EQ(header("out.exr", "vesper:glare"), "cie");
     EXPECT_EQ(header("out.exr", "vesper:glare:age"), "60");
-    const double e = 5 * std::cos(10 / kDegrees), below = std::cos(40 / kDegrees);
+    const double e = 5 * std::cos(10 / kDegreesPerRadian), below = std::cos(40 / kDegreesPerRadian);
     EXPECT_NEAR(std::stod(header("out.exr", "vesper:glare:veil")), e * cie_general_glare(10, {60, 1}) + below * cie_general_glare(40, {60, 1}), 1e-6);
 }
 
@@ -95,10 +94,10 @@ TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {
         EXPECT_EQ(cell("lamps.csv", "lamp", 1), "lamp  old") << "no comma of its own";
         EXPECT_NEAR(std::stod(cell("lamps.csv", "candela", 1)), 20, 1e-4);
         EXPECT_NEAR(std::stod(cell("lamps.csv", "lux", 1)), 20 / square, 1e-4 * 20 / square);
-        EXPECT_NEAR(std::stod(cell("lamps.csv", "azimuth", 1)), std::atan(aside / 10) * kDegrees, 1e-3);
+        EXPECT_NEAR(std::stod(cell("lamps.csv", "azimuth", 1)), std::atan(aside / 10) * kDegreesPerRadian, 1e-3);
         EXPECT_EQ(cell("lamps.csv", "inside", 1), aside < 1 ? "1.000" : "0.000");
         // Seen or not, the veil is that of the lamp.
-        const double theta = std::atan(aside / 10) * kDegrees, want = 20 / square * std::cos(theta / kDegrees) * cie_general_glare(theta, {23, 0.5});
+        const double theta = std::atan(aside / 10) * kDegreesPerRadian, want = 20 / square * std::cos(theta / kDegreesPerRadian) * cie_general_glare(theta, {23, 0.5});
         // 5 %: a pixel is 0.57 degrees, and the light is taken to come from its middle.
         EXPECT_NEAR(std::stod(cell("log.csv", "veil", 1)) / want, 1, 0.05) << aside;
         EXPECT_EQ(header("a.exr", "vesper:glare:veil").substr(0, 6), cell("log.csv", "veil", 1).substr(0, 6));

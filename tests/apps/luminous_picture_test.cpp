@@ -9,12 +9,12 @@
 namespace vesper::test {
 namespace {
 
-constexpr uint32_t kSide = 16, kZoom = 3;  // texels; pixels per texel
+constexpr uint32_t kTexels = 16, kZoom = 3;  // texels; pixels per texel
 
 /// 1e-3 to 1e8 cd/m^2.
 HdrImage picture() {
-    HdrImage image{.width = kSide, .height = kSide, .white_luminance = 1};
-    for (uint32_t i = 0; i < kSide * kSide; ++i)
+    HdrImage image{.width = kTexels, .height = kTexels, .white_luminance = 1};
+    for (uint32_t i = 0; i < kTexels * kTexels; ++i)
         for (int c = 0; c < 3; ++c) image.rgb.push_back(std::pow(10.0f, -3 + 11.0f * float(i * 77 % 256) / 255 - 0.1f * float(c)));
     return image;
 }
@@ -50,18 +50,18 @@ TEST(LuminousPicture, APixelShowsTheLuminanceOfThePicture) {
     for (const double scale : {1.0, 0.5}) {
         const nlohmann::json photometry = {{"version", 1}, {"emitters", {{{"materials", "sign"}, {"image", "sign.exr"}, {"scale", scale}}}}};
         convert(input, folder.write("p.json", photometry.dump()), folder / "out.glb");
-        const std::vector<float> scene = rendered(folder / "out.glb", {kSide * kZoom, kSide * kZoom});
-        for (uint32_t y = 0; y < kSide * kZoom; ++y)
-            for (uint32_t x = 0; x < kSide * kZoom; ++x)
+        const std::vector<float> scene = rendered(folder / "out.glb", {kTexels * kZoom, kTexels * kZoom});
+        for (uint32_t y = 0; y < kTexels * kZoom; ++y)
+            for (uint32_t x = 0; x < kTexels * kZoom; ++x)
                 for (size_t c = 0; c < 3; ++c) {
-                    const double want = scale * double(image.rgb[3 * size_t(y / kZoom * kSide + x / kZoom) + c]);
-                    ASSERT_NEAR(double(scene[4 * (size_t(y) * kSide * kZoom + x) + c]), want, 1e-6 * want) << x << ", " << y;
+                    const double want = scale * double(image.rgb[3 * size_t(y / kZoom * kTexels + x / kZoom) + c]);
+                    ASSERT_NEAR(double(scene[4 * (size_t(y) * kTexels * kZoom + x) + c]), want, 1e-6 * want) << x << ", " << y;
                 }
         // From far away the mean is seen: one pixel for every 4 x 4 texels.
-        const std::vector<float> small = rendered(folder / "out.glb", {kSide / 4, kSide / 4});
+        const std::vector<float> small = rendered(folder / "out.glb", {kTexels / 4, kTexels / 4});
         double seen = 0, shown = 0;
-        for (size_t i = 0; i < small.size(); i += 4) seen += double(small[i + 1]) / (kSide / 4) / (kSide / 4);
-        for (size_t i = 0; i < image.rgb.size(); i += 3) shown += scale * double(image.rgb[i + 1]) / kSide / kSide;
+        for (size_t i = 0; i < small.size(); i += 4) seen += double(small[i + 1]) / (kTexels / 4) / (kTexels / 4);
+        for (size_t i = 0; i < image.rgb.size(); i += 3) shown += scale * double(image.rgb[i + 1]) / kTexels / kTexels;
         EXPECT_NEAR(seen / shown, 1, 1e-3);
     }
 }

@@ -30,11 +30,11 @@ const char* kRun = "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_
 
 TEST(RoadDrive, ARunIsWhereItWasRecorded) {
     const TempFolder folder;
-    const RoadNetwork network = read_opendrive(kRoads);
+    const roads::RoadNetwork network = roads::read_opendrive(kRoads);
     const RoadWorld made = road_world(kRoads, folder.write("run.csv", kRun), {});
     ASSERT_EQ(made.world.world.recordings.size(), 2u);
     EXPECT_TRUE(made.world.world.cars.empty());
-    World world(std::make_shared<const WorldDescription>(made.world.world), 1);
+    traffic::World world(std::make_shared<const traffic::WorldDescription>(made.world.world), 1);
     const auto entity = [&](size_t i) { return world.actors()[1 + i]; };
     const auto until = [&](double t) {
         while (world.seconds() < t - 1e-9) world.step({}, 0.125);
@@ -58,7 +58,7 @@ TEST(RoadDrive, TheAutopilotFollowsTheRoadAmongTraffic) {
     const RoadWorld made = road_world(kRoads, {}, {});
     EXPECT_FALSE(made.world.world.cars.empty());
     EXPECT_FALSE(made.world.world.barriers.empty());
-    World world(std::make_shared<const WorldDescription>(made.world.world), 1);
+    traffic::World world(std::make_shared<const traffic::WorldDescription>(made.world.world), 1);
     for (int i = 0; i < 60 * 30; ++i) {
         world.step({.autopilot = true}, 1.0 / 60);
         ASSERT_LT(made.world.world.lanes[world.driver_lane()].beside(world.driver().position).distance, 1) << i;
@@ -144,7 +144,7 @@ TEST(RoadDrive, StatesOfTrafficLights) {
 // What is no state is named with its place, once; the light stays as it was.
 TEST(RoadDrive, UnknownStatesOfTrafficLightsAreNoted) {
     Scene scene;
-    RoadNetwork network;
+    roads::RoadNetwork network;
     network.roads.resize(1);
     network.roads[0].signals.resize(1);
     network.roads[0].signals[0].id = "7";
@@ -152,7 +152,7 @@ TEST(RoadDrive, UnknownStatesOfTrafficLightsAreNoted) {
         Node& node = scene.nodes.emplace_back();
         node.name = std::string("signal_7/") + colour, node.lamp = 0;
     }
-    EsminiRun run;
+    roads::EsminiRun run;
     run.signals = {{1, "7", "Green", "s.xosc:3"}, {2, "7", "purple", "s.xosc:4"}, {3, "7", "purple", "s.xosc:5"}, {4, "8", "red", "s.xosc:6"}};
     std::vector<std::string> notes;
     const std::vector<SignalLens> lenses = lenses_of(scene, network, run, notes);
@@ -168,7 +168,7 @@ TEST(RoadDrive, ARunSwitchesItsTrafficLights) {
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";
     const std::filesystem::path roads = shared / "esmini/xodr/fabriksgatan_traffic_lights.xodr";
     const Scenery scenery(roads, shared / "esmini-output/traffic_lights.csv", shared / "esmini/xosc/traffic_lights.xosc");
-    const World world(scenery.world(), 1);
+    const traffic::World world(scenery.world(), 1);
     const auto lit = [&](double seconds) {
         std::map<std::string, int> count;
         const SceneFrame frame = scenery.frame(world.actors(), seconds, DriveSettings());

@@ -16,7 +16,7 @@
 namespace vesper::test {
 namespace {
 
-constexpr VkExtent2D kSize{80, 50};
+constexpr VkExtent2D kScenerySize{80, 50};
 
 // A plain with a camera that looks west and slightly down from a lorry, two headlamps and a mount with a third below
 // it, a lamp beside it.
@@ -69,11 +69,11 @@ TEST(Scenery, LampsBelowTheCameraOfASceneGoWithTheCar) {
     const TempFolder folder;
     const Scenery scenery(folder.write("s.gltf", plain_with_headlamps().text()));
     const std::vector<glm::dmat4> rest = world_transforms(scenery.scene(), 0);
-    World world(scenery.world(), 1);
+    traffic::World world(scenery.world(), 1);
     const DriveSettings settings;
     const auto eye = [&] {
         return glm::dmat4(
-            scenery.view(scenery.frame(world.actors(), 0, settings), world.actors(), settings, kSize).world_to_view);
+            scenery.view(scenery.frame(world.actors(), 0, settings), world.actors(), settings, kScenerySize).world_to_view);
     };
     // To the driver's eye, which looks level, all that is below the camera stands as the file has it, at the start and when the car
     // has turned. The view is of floats: 30 m to 2e-6.
@@ -103,7 +103,7 @@ TEST(Scenery, HeadlampsOfASceneLightTheRoadAhead) {
     Session session(device, {.scene = folder.write("s.gltf", plain_with_headlamps().text()),
                              .settings = {{"lamp:street lamp", "0"}}});
     const auto mean = [&] {
-        const Frame frame = session.render(kSize, {.display = false, .scene = true});
+        const Frame frame = session.render(kScenerySize, {.display = false, .scene = true});
         double sum = 0;
         for (size_t i = 0; i < frame.scene.size(); i += 4)
             sum += luminance(glm::dvec3(frame.scene[i], frame.scene[i + 1], frame.scene[i + 2]));
@@ -138,7 +138,7 @@ TEST(Scenery, TheFrontOfANodeLeads) {
                                                   {R"(, "front": "-x")", {-1, 0, 0}}};
     for (const auto& [front, side] : sides) {
         const Scenery scenery(world(front));
-        const std::vector<Actor> actors = World(scenery.world(), 1).actors();
+        const std::vector<traffic::Actor> actors = traffic::World(scenery.world(), 1).actors();
         const SceneFrame frame = scenery.frame(actors, 0, DriveSettings());
         const auto leads = [&, side = side](const char* name) {
             return glm::normalize(glm::dvec3(frame.world[node_of(scenery.scene(), name)] * glm::dvec4(side, 0)));

@@ -73,7 +73,7 @@ private:
 /// The world of a file, driven by its autopilot. Of lamps named "street lamp" every `every`-th shines.
 std::vector<Picture> drive(Device& device, const std::filesystem::path& file, VkExtent2D extent, double fps, double seconds, uint32_t every) {
     const Scenery scenery(file);
-    World world(scenery.world(), 1);
+    traffic::World world(scenery.world(), 1);
     Pictures pictures(device, scenery.scene());
     const DriveSettings settings;
     std::vector<Picture> made;

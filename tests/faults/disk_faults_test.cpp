@@ -78,7 +78,7 @@ TEST_F(DiskFaults, KilledAtAnyChangeOfAFile) {
         uint64_t at = 0;
         do {
             put_old(writing);
-            at += 1 + at / 4;  // ffmpeg changes its file dozens of times
+            at += 1 + at / 2;  // ffmpeg changes its file dozens of times
             run(writing.arguments, fault(FaultKind::Kill, at));
             for (const auto& [file, text] : contents(writing)) EXPECT_TRUE(text == kOld || text == made.at(file)) << writing.arguments << ", change " << at << ": " << file << " is neither old nor new";
             ASSERT_LT(at, 1000u);

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kData = fs::path(VESPER_SOURCE_DIR) / "data";
+const fs::path kDataFolder = fs::path(VESPER_SOURCE_DIR) / "data";
 
 enum class Outcome { Read, Refused, OutOfMemory };
 
@@ -70,16 +70,16 @@ void expect_survives(const std::string& name, const std::function<void()>& read,
 }
 
 TEST(MemoryFaults, EveryReaderAndWriterReportsThem) {
-    expect_survives("scene", [] { read_gltf(kData / "glare/headlamps.gltf"); });
-    expect_survives("photometry", [] { read_photometry(kData / "rivoli/rivoli.measured.photometry.json"); }, 16);  // has an EXR front
-    expect_survives("IES", [] { read_distribution(kData / "photometry/street-lamp.ies"); });
-    expect_survives("EULUMDAT", [] { read_distribution(kData / "road/luminaire.ldt"); });
-    expect_survives("grid", [] { read_distribution(kData / "photometry/high-beam.csv"); });
-    expect_survives("reflection table", [] { read_reflection_table(kData / "road/R3.csv"); });
-    expect_survives("road", [] { read_road(kData / "road/worked-example.json"); });
-    expect_survives("OpenDRIVE", [] { read_opendrive(kData / "rivoli/rivoli.xodr"); });
-    expect_survives("world", [] { read_world(kData / "rivoli/rivoli.world.json"); });
-    expect_survives("OpenEXR", [] { read_hdr_image(kData / "rivoli/signs.exr"); }, 40);
+    expect_survives("scene", [] { read_gltf(kDataFolder / "glare/headlamps.gltf"); });
+    expect_survives("photometry", [] { read_photometry(kDataFolder / "rivoli/rivoli.measured.photometry.json"); }, 16);  // has an EXR front
+    expect_survives("IES", [] { read_distribution(kDataFolder / "photometry/street-lamp.ies"); });
+    expect_survives("EULUMDAT", [] { read_distribution(kDataFolder / "road/luminaire.ldt"); });
+    expect_survives("grid", [] { read_distribution(kDataFolder / "photometry/high-beam.csv"); });
+    expect_survives("reflection table", [] { read_reflection_table(kDataFolder / "road/R3.csv"); });
+    expect_survives("road", [] { read_road(kDataFolder / "road/worked-example.json"); });
+    expect_survives("OpenDRIVE", [] { roads::read_opendrive(kDataFolder / "rivoli/rivoli.xodr"); });
+    expect_survives("world", [] { traffic::read_world(kDataFolder / "rivoli/rivoli.world.json"); });
+    expect_survives("OpenEXR", [] { read_hdr_image(kDataFolder / "rivoli/signs.exr"); }, 40);
     const TempFolder folder;
     write_png(folder / "x.png", 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
     expect_survives("PNG", [bytes = read_file(folder / "x.png", 1 << 20)] { decode_image(bytes, 100); });

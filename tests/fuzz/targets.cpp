@@ -36,10 +36,10 @@ constexpr const char* kRoads = R"(<OpenDRIVE><header revMajor="1" revMinor="6"/>
 </planView><lanes><laneSection s="0"><center><lane id="0" type="none"/></center><right><lane id="-1" type="driving"><width sOffset="0" a="4" b="0" c="0" d="0"/></lane></right></laneSection></lanes></road></OpenDRIVE>)";
 
 void read_scenario(const fs::path& scenario) {
-    static const RoadNetwork roads = parse_opendrive(kRoads, "x.xodr");
+    static const roads::RoadNetwork roads = roads::parse_opendrive(kRoads, "x.xodr");
     const fs::path table = scenario.parent_path() / "run.csv";
     if (!fs::exists(table)) std::ofstream(table) << kRun;
-    read_esmini_run(table, scenario, &roads);
+    roads::read_esmini_run(table, scenario, &roads);
 }
 
 std::map<std::string, FuzzTarget> make_targets() {
@@ -56,9 +56,9 @@ std::map<std::string, FuzzTarget> make_targets() {
         {"radiance", of_file("x.hdr", [](const fs::path& file) { read_radiance(file, {.max_side = 512, .max_pixels = kSmall}); })},
         {"display", of_file("x.json", [](const fs::path& file) { read_display(file); })},
         {"display_measurements", of_file("x.csv", [](const fs::path& file) { read_display_measurements(file, 8); })},
-        {"opendrive", [](Bytes bytes) { parse_opendrive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x.xodr"); }},
-        {"esmini_run", of_file("x.csv", [](const fs::path& file) { read_esmini_run(file); })},
-        {"world", of_file("x.world.json", [](const fs::path& file) { read_world(file); })},
+        {"opendrive", [](Bytes bytes) { roads::parse_opendrive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x.xodr"); }},
+        {"esmini_run", of_file("x.csv", [](const fs::path& file) { roads::read_esmini_run(file); })},
+        {"world", of_file("x.world.json", [](const fs::path& file) { traffic::read_world(file); })},
         {"response", of_file("x.csv", [](const fs::path& file) { read_response(file); })},
         {"road", of_file("x.json", [](const fs::path& file) { read_road(file); })},
         {"scenario", of_file("x.xosc", read_scenario)},

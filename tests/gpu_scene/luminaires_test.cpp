@@ -2,11 +2,11 @@
 #include "gpu_scene/luminaires.h"
 
 #include <map>
-#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "passes/luminaires_reference.h"
 #include "scene/lamp.h"
@@ -16,7 +16,6 @@ namespace vesper::test {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-constexpr double kPi = std::numbers::pi;
 
 const View kView = View::symmetric({1680, 1050}, 0.6f, glm::mat4(1));
 

@@ -12,7 +12,7 @@ namespace {
 /// 1000 cd times cos^n of the angle to the nadir, below the horizontal.
 Distribution cosine_lamp(double exponent) {
     return tabulate(Goniometry::CGamma, {0}, steps(0, 90, 0.25),
-                    [=](double, double g) { return 1000 * std::pow(std::cos(std::min(g, 89.9999) * kDegree), exponent); });
+                    [=](double, double g) { return 1000 * std::pow(std::cos(std::min(g, 89.9999) * kRadiansPerDegree), exponent); });
 }
 
 TEST(Beam, WidthsOfACosineLobe) {
@@ -22,7 +22,7 @@ TEST(Beam, WidthsOfACosineLobe) {
         for (const double share : {0.5, 0.1}) {
             const auto width = width_of(cut, share);
             ASSERT_TRUE(width);
-            EXPECT_NEAR(width->angle(), 2 * std::acos(std::pow(share, 1 / n)) / kDegree, 0.02) << n << " " << share;
+            EXPECT_NEAR(width->angle(), 2 * std::acos(std::pow(share, 1 / n)) / kRadiansPerDegree, 0.02) << n << " " << share;
             EXPECT_NEAR(width->from, -width->to, 1e-9);
         }
     }
@@ -41,8 +41,8 @@ TEST(Beam, FiguresOfALambertianLamp) {
     EXPECT_EQ(f.upward_share, 0);
     EXPECT_EQ(f.symmetry, BeamSymmetry::Rotational);
     EXPECT_EQ(f.largest_v, 0);
-    EXPECT_NEAR(f.at_70_80_90_95[0], 1000 / kPi * std::cos(70 * kDegree), 0.1);
-    EXPECT_NEAR(f.at_70_80_90_95[1], 1000 / kPi * std::cos(80 * kDegree), 0.1);
+    EXPECT_NEAR(f.at_70_80_90_95[0], 1000 / kPi * std::cos(70 * kRadiansPerDegree), 0.1);
+    EXPECT_NEAR(f.at_70_80_90_95[1], 1000 / kPi * std::cos(80 * kRadiansPerDegree), 0.1);
     EXPECT_EQ(f.glare_class, "G*6");
 }
 
@@ -62,7 +62,7 @@ TEST(Beam, ClassesByTheirLimits) {
 TEST(Beam, FindsSymmetries) {
     const auto lamp = [](double about_c0, double about_c90) {
         return tabulate(Goniometry::CGamma, steps(0, 360, 15), steps(0, 90, 5), [=](double c, double g) {
-            return 100 + std::sin(g * kDegree) * (20 * std::cos(2 * c * kDegree) + about_c90 * std::sin(c * kDegree) + about_c0 * std::cos(c * kDegree));
+            return 100 + std::sin(g * kRadiansPerDegree) * (20 * std::cos(2 * c * kRadiansPerDegree) + about_c90 * std::sin(c * kRadiansPerDegree) + about_c0 * std::cos(c * kRadiansPerDegree));
         });
     };
     EXPECT_EQ(symmetry_of(lamp(0, 0)), BeamSymmetry::Quadrants);

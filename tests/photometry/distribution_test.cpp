@@ -35,20 +35,20 @@ TEST(Distribution, FluxOfAnIsotropicLampIsFourPi) {
 
 TEST(Distribution, FluxIsExactForALinearRampInGamma) {
     // I = gamma (rad): the integral of gamma sin gamma over [0, pi] is pi.
-    const auto ramp = [](double, double gamma) { return gamma * kDegree; };
+    const auto ramp = [](double, double gamma) { return gamma * kRadiansPerDegree; };
     EXPECT_NEAR(luminous_flux(tabulate(Goniometry::CGamma, {0}, {0, 45, 46, 180}, ramp)), 2 * kPi * kPi, 1e-12);
     EXPECT_NEAR(luminous_flux(tabulate(Goniometry::CGamma, kPlanes, {0, 180}, ramp)), 2 * kPi * kPi, 1e-11);
     // I = 1 + |V| (rad) about the equator: the integral of (1 + V) cos V over [0, pi/2] is pi/2.
-    const auto wedge = [](double, double v) { return 1 + std::abs(v) * kDegree; };
+    const auto wedge = [](double, double v) { return 1 + std::abs(v) * kRadiansPerDegree; };
     EXPECT_NEAR(luminous_flux(tabulate(Goniometry::TypeA, {-180, 0, 180}, {-90, 0, 90}, wedge)), 2 * kPi * kPi, 1e-12);
-    const auto turned = [](double h, double) { return 1 + std::abs(h) * kDegree; };
+    const auto turned = [](double h, double) { return 1 + std::abs(h) * kRadiansPerDegree; };
     EXPECT_NEAR(luminous_flux(tabulate(Goniometry::TypeB, {-90, 0, 90}, {-180, 180}, turned)), 2 * kPi * kPi, 1e-12);
 }
 
 TEST(Distribution, FluxConvergesToCosinePowers) {
     for (const double n : {1.0, 2.0, 20.0}) {
         const auto lobe = [n](double, double gamma) {
-            return gamma < 90 ? 1000 * std::pow(std::cos(gamma * kDegree), n) : 0.0;
+            return gamma < 90 ? 1000 * std::pow(std::cos(gamma * kRadiansPerDegree), n) : 0.0;
         };
         const double wanted = 2 * kPi * 1000 / (n + 1);
         EXPECT_NEAR(luminous_flux(tabulate(Goniometry::CGamma, {0}, steps(0, 180, 0.5), lobe)), wanted, 2e-4 * wanted);
@@ -61,7 +61,7 @@ TEST(Distribution, FluxConvergesToCosinePowers) {
 }
 
 TEST(Distribution, FluxIsTheIntegralOfIntensity) {
-    const auto uneven = [](double h, double v) { return 50 + 30 * std::sin(h * kDegree) + 20 * std::cos(v * 0.05); };
+    const auto uneven = [](double h, double v) { return 50 + 30 * std::sin(h * kRadiansPerDegree) + 20 * std::cos(v * 0.05); };
     for (const auto& [goniometry, h, v] :
          {std::tuple(Goniometry::CGamma, kPlanes, std::vector<double>{0, 30, 70, 71, 110}),
           std::tuple(Goniometry::TypeA, std::vector<double>{-100, -3, 0, 40}, std::vector<double>{-20, 5, 60}),
@@ -102,7 +102,7 @@ TEST(Distribution, IsBilinearPeriodicAndDarkOutside) {
 }
 
 TEST(Distribution, MirroringExchangesLeftAndRight) {
-    const auto uneven = [](double h, double v) { return 300 + std::fmod(h, 360) + v * std::sin(h * kDegree + 1); };
+    const auto uneven = [](double h, double v) { return 300 + std::fmod(h, 360) + v * std::sin(h * kRadiansPerDegree + 1); };
     const auto check = [](const Distribution& d) {
         const Distribution other = mirrored(d);
         for (const auto& way : {type_a(7, 3), type_a(-8, -2), type_a(1, -30), c_gamma(200, 120), c_gamma(5, 60)})
@@ -112,7 +112,7 @@ TEST(Distribution, MirroringExchangesLeftAndRight) {
     check(tabulate(Goniometry::TypeA, {-10, -5, 12, 20}, {-40, 0, 40}, uneven));
     check(tabulate(Goniometry::TypeB, {-10, -5, 12, 20}, {-40, 0, 40}, uneven));
     check(tabulate(Goniometry::CGamma, kPlanes, kGammas,
-                   [](double h, double v) { return 300 + 100 * std::cos(h * kDegree - 1) * std::sin(v * kDegree); }));
+                   [](double h, double v) { return 300 + 100 * std::cos(h * kRadiansPerDegree - 1) * std::sin(v * kRadiansPerDegree); }));
 }
 
 TEST(Distribution, AreaOfTheOpening) {

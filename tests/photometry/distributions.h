@@ -3,20 +3,18 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "base/angle.h"
 #include "photometry/distribution.h"
 #include "support/complaints.h"
 
 namespace vesper::test {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 
 inline std::span<const uint8_t> bytes_of(const std::string& text) {
     return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
@@ -43,18 +41,18 @@ inline Distribution tabulate(Goniometry goniometry, std::vector<double> horizont
 
 /// The direction of C and gamma in the luminaire's frame.
 inline glm::dvec3 c_gamma(double c, double gamma) {
-    return {std::sin(gamma * kDegree) * std::cos(c * kDegree), std::sin(gamma * kDegree) * std::sin(c * kDegree),
-            -std::cos(gamma * kDegree)};
+    return {std::sin(gamma * kRadiansPerDegree) * std::cos(c * kRadiansPerDegree), std::sin(gamma * kRadiansPerDegree) * std::sin(c * kRadiansPerDegree),
+            -std::cos(gamma * kRadiansPerDegree)};
 }
 
 /// Right, up and forward of a headlamp, in the luminaire's frame.
 inline glm::dvec3 type_a(double h, double v) {
-    return {std::cos(v * kDegree) * std::sin(h * kDegree), std::sin(v * kDegree),
-            -std::cos(v * kDegree) * std::cos(h * kDegree)};
+    return {std::cos(v * kRadiansPerDegree) * std::sin(h * kRadiansPerDegree), std::sin(v * kRadiansPerDegree),
+            -std::cos(v * kRadiansPerDegree) * std::cos(h * kRadiansPerDegree)};
 }
 inline glm::dvec3 type_b(double h, double v) {
-    return {std::sin(h * kDegree), std::cos(h * kDegree) * std::sin(v * kDegree),
-            -std::cos(h * kDegree) * std::cos(v * kDegree)};
+    return {std::sin(h * kRadiansPerDegree), std::cos(h * kRadiansPerDegree) * std::sin(v * kRadiansPerDegree),
+            -std::cos(h * kRadiansPerDegree) * std::cos(v * kRadiansPerDegree)};
 }
 
 inline std::string replaced(std::string text, const std::string& what, const std::string& with) {

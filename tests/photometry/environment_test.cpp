@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "io/hdr_image.h"
 #include "photometry/sky_map.h"
@@ -17,7 +17,6 @@ namespace vesper::test {
 namespace {
 
 using glm::dvec3;
-constexpr double kPi = std::numbers::pi;
 
 /// A sky of a luminance by direction.
 template <class F>

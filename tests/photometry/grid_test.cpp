@@ -18,15 +18,15 @@
 namespace vesper::test {
 namespace {
 
-Distribution read(const std::string& text) { return parse_grid_csv(bytes_of(text), "x.csv"); }
-std::string complaint(const std::string& text) {
-    return complaint_of([&] { read(text); });
+Distribution parsed_grid(const std::string& text) { return parse_grid_csv(bytes_of(text), "x.csv"); }
+std::string grid_complaint(const std::string& text) {
+    return complaint_of([&] { parsed_grid(text); });
 }
 
 const std::string kPlain = "# a beam\n,-10,0,20\n-5,1,2,3\n5,4,5,6\n";
 
 TEST(Grid, ReadsRowsAndColumns) {
-    const Distribution d = read(kPlain);
+    const Distribution d = parsed_grid(kPlain);
     EXPECT_EQ(d.goniometry, Goniometry::TypeA);
     EXPECT_EQ(d.horizontal, (std::vector<double>{-10, 0, 20}));
     EXPECT_EQ(d.vertical, (std::vector<double>{-5, 5}));
@@ -35,7 +35,7 @@ TEST(Grid, ReadsRowsAndColumns) {
 }
 
 TEST(Grid, TakesWhatLaboratoriesWrite) {
-    const Distribution wanted = read(kPlain);
+    const Distribution wanted = parsed_grid(kPlain);
     for (const char* text : {
              "V\\H,-10,0,20\r\n5,4,5,6\r\n-5,1,2,3\r\n",                             // from the top
              "type A,20,0,-10\n5,6,5,4\n-5,3,2,1\n",                                 // from the right, too
@@ -46,19 +46,19 @@ TEST(Grid, TakesWhatLaboratoriesWrite) {
              "I [cd],\"Vertical angle (deg)\",horizontal [°]\n5,5,0\n4,5,-10\n6,5,20\n1,-5,-10\n2,-5,0\n3,-5,20\n",
              "Luminous intensity/cd;V (\xb0);H\xb0\n5;5;0\n4;5;-10\n6;5;20\n1;-5;-10\n2;-5;0\n3;-5;20\n",
          }) {
-        const Distribution d = read(text);
+        const Distribution d = parsed_grid(text);
         EXPECT_EQ(d.horizontal, wanted.horizontal) << text;
         EXPECT_EQ(d.vertical, wanted.vertical) << text;
         EXPECT_EQ(d.candela, wanted.candela) << text;
         EXPECT_EQ(d.goniometry, Goniometry::TypeA) << text;
     }
-    EXPECT_EQ(read("B,-10,0\n-5,1,2\n5,4,5\n").goniometry, Goniometry::TypeB);
-    EXPECT_EQ(read("# goniometry: B\n,-10,0\n-5,1,2\n5,4,5\n").goniometry, Goniometry::TypeB);
-    const Distribution c = read("gamma\\C,0,90\n0,1,1\n90,4,5\n");
+    EXPECT_EQ(parsed_grid("B,-10,0\n-5,1,2\n5,4,5\n").goniometry, Goniometry::TypeB);
+    EXPECT_EQ(parsed_grid("# goniometry: B\n,-10,0\n-5,1,2\n5,4,5\n").goniometry, Goniometry::TypeB);
+    const Distribution c = parsed_grid("gamma\\C,0,90\n0,1,1\n90,4,5\n");
     EXPECT_EQ(c.goniometry, Goniometry::CGamma);
     EXPECT_EQ(c.horizontal, (std::vector<double>{0, 90, 180, 270, 360}));
     for (const char* text : {"C_deg,gamma_deg,cd\n0,0,1\n0,90,0\n", "γ,C-plane,cd\n0,0,1\n90,0,0\n"}) {
-        const Distribution list = read(text);
+        const Distribution list = parsed_grid(text);
         EXPECT_EQ(list.goniometry, Goniometry::CGamma);
         EXPECT_EQ(list.vertical, (std::vector<double>{0, 90})) << text;
     }
@@ -91,7 +91,7 @@ TEST(Grid, SaysWhereAndWhy) {
         {"C_deg/gamma,0,45\n0,1,2\n90,4,5\n", "line 1: the corner cell 'C_deg/gamma' says"},
         {"# lx at 25 m\nE [lx],-10,0\n-5,1,2\n5,4,5\n", "line 2: the corner cell names 'lx'"},
     };
-    for (const auto& c : cases) EXPECT_TRUE(contains(complaint(c.text), c.wanted)) << c.text.substr(0, 60);
+    for (const auto& c : cases) EXPECT_TRUE(contains(grid_complaint(c.text), c.wanted)) << c.text.substr(0, 60);
 }
 
 /// Writes a picture of 3 x 2 cd, rows from the top.
@@ -165,7 +165,7 @@ TEST(Grid, FilesAreKnownByNameOrContents) {
     const TempFolder folder;
     EXPECT_EQ(read_distribution(folder.write("x.CSV", kPlain)).vertical.size(), 2u);
     EXPECT_EQ(read_distribution(folder.write("grid", kPlain)).vertical.size(), 2u);
-    const std::string ies = write_ies(read(kPlain));
+    const std::string ies = write_ies(parsed_grid(kPlain));
     EXPECT_EQ(read_distribution(folder.write("x.IES", ies)).goniometry, Goniometry::TypeA);
     EXPECT_EQ(read_distribution(folder.write("profile.txt", ies)).goniometry, Goniometry::TypeA);
     write_picture(folder / "x.exr", "");

@@ -8,9 +8,9 @@
 namespace vesper::test {
 namespace {
 
-Distribution read(const std::string& text) { return parse_ies(bytes_of(text), "x.ies"); }
-std::string complaint(const std::string& text) {
-    return complaint_of([&] { read(text); });
+Distribution parsed_ies(const std::string& text) { return parse_ies(bytes_of(text), "x.ies"); }
+std::string ies_complaint(const std::string& text) {
+    return complaint_of([&] { parsed_ies(text); });
 }
 
 /// A file of 3 gamma angles: 0, 45, 90.
@@ -21,10 +21,10 @@ std::string file(const std::string& version, const std::string& horizontal_count
            ballast + "\n0 45 90\n" + horizontal + "\n" + candela + "\n";
 }
 
-const std::string kPlain = file("IESNA:LM-63-2002", "1", "0", "100 50 25");
+const std::string kPlainIes = file("IESNA:LM-63-2002", "1", "0", "100 50 25");
 
 TEST(Ies, ReadsRotationalSymmetry) {
-    const Distribution d = read(kPlain);
+    const Distribution d = parsed_ies(kPlainIes);
     EXPECT_EQ(d.goniometry, Goniometry::CGamma);
     EXPECT_EQ(d.horizontal, std::vector<double>{0});
     EXPECT_EQ(d.vertical, (std::vector<double>{0, 45, 90}));
@@ -36,59 +36,59 @@ TEST(Ies, ReadsRotationalSymmetry) {
 
 TEST(Ies, MultipliesByWhatTheVersionSays) {
     const auto first = [](const std::string& version, const std::string& ballast) {
-        return read(file(version, "1", "0", "100 50 25", ballast, "2 500 1.5")).candela[0];
+        return parsed_ies(file(version, "1", "0", "100 50 25", ballast, "2 500 1.5")).candela[0];
     };
     for (const char* version : {"IESNA:LM-63-1995", "IESNA95", "IESNA91", "IESNA:LM-63-1991", "[TEST] no version"})
         EXPECT_NEAR(first(version, "0.8 0.9 20"), 100 * 1.5 * 0.8 * 0.9, 1e-9) << version;
     for (const char* version : {"IESNA:LM-63-2002", "IES:LM-63-2019"})
         EXPECT_NEAR(first(version, "0.8 1.1 20"), 100 * 1.5 * 0.8, 1e-9) << version;
-    EXPECT_EQ(read(file("IESNA91", "1", "0", "1 1 1", "1 1 20", "2 500 1.5")).lamp_flux, 1000);
+    EXPECT_EQ(parsed_ies(file("IESNA91", "1", "0", "1 1 1", "1 1 20", "2 500 1.5")).lamp_flux, 1000);
 }
 
 TEST(Ies, ExpandsSymmetry) {
     const auto at = [](const Distribution& d, double c) { return intensity(d, c_gamma(c, 45)); };
     // Values at gamma 45: the plane's angle.
     const std::string three = "1 0 0\n1 45 0\n1 90 0";
-    const Distribution quadrant = read(file("IESNA:LM-63-2002", "3", "0 45 90", three));
+    const Distribution quadrant = parsed_ies(file("IESNA:LM-63-2002", "3", "0 45 90", three));
     EXPECT_EQ(quadrant.horizontal, (std::vector<double>{0, 45, 90, 135, 180, 225, 270, 315, 360}));
     for (const auto& [c, wanted] : {std::pair(30.0, 30.0), {150.0, 30.0}, {210.0, 30.0}, {330.0, 30.0}, {90.0, 90.0}})
         EXPECT_NEAR(at(quadrant, c), wanted, 1e-9) << c;
-    const Distribution half = read(file("IESNA:LM-63-2002", "3", "0 60 180", "1 0 0\n1 60 0\n1 180 0"));
+    const Distribution half = parsed_ies(file("IESNA:LM-63-2002", "3", "0 60 180", "1 0 0\n1 60 0\n1 180 0"));
     EXPECT_EQ(half.horizontal, (std::vector<double>{0, 60, 180, 300, 360}));
     for (const auto& [c, wanted] : {std::pair(30.0, 30.0), {330.0, 30.0}, {240.0, 120.0}})
         EXPECT_NEAR(at(half, c), wanted, 1e-9) << c;
     const Distribution across =
-        read(file("IESNA:LM-63-1995", "4", "90 120 180 270", "1 90 0\n1 120 0\n1 180 0\n1 270 0"));
+        parsed_ies(file("IESNA:LM-63-1995", "4", "90 120 180 270", "1 90 0\n1 120 0\n1 180 0\n1 270 0"));
     EXPECT_EQ(across.horizontal, (std::vector<double>{0, 60, 90, 120, 180, 270, 360}));
     for (const auto& [c, wanted] :
          {std::pair(0.0, 180.0), {45.0, 135.0}, {315.0, 225.0}, {225.0, 225.0}, {100.0, 100.0}})
         EXPECT_NEAR(at(across, c), wanted, 1e-9) << c;
-    const Distribution whole = read(file("IES:LM-63-2019", "3", "0 120 360", "1 10 0\n1 130 0\n1 10 0"));
+    const Distribution whole = parsed_ies(file("IES:LM-63-2019", "3", "0 120 360", "1 10 0\n1 130 0\n1 10 0"));
     EXPECT_NEAR(at(whole, 240), 70, 1e-9);
     // Without the closing plane.
-    const Distribution open = read(file("IES:LM-63-2019", "3", "0 120 240", "1 10 0\n1 130 0\n1 250 0"));
+    const Distribution open = parsed_ies(file("IES:LM-63-2019", "3", "0 120 240", "1 10 0\n1 130 0\n1 250 0"));
     EXPECT_EQ(open.horizontal.back(), 360);
     EXPECT_NEAR(at(open, 300), 130, 1e-9);
-    EXPECT_TRUE(contains(complaint(file("IES:LM-63-2019", "2", "0 100", "1 1 1 1 1 1")), "C planes from 0 to 100"));
+    EXPECT_TRUE(contains(ies_complaint(file("IES:LM-63-2019", "2", "0 100", "1 1 1 1 1 1")), "C planes from 0 to 100"));
     // What is missing is no more than a closing plane.
-    EXPECT_TRUE(contains(complaint(file("IES:LM-63-2019", "3", "0 95 190", "1 1 1\n1 1 1\n1 1 1")), "C planes from 0 to 190 are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round"));
-    EXPECT_NO_THROW(read(file("IES:LM-63-2019", "3", "0 95 240", "1 1 1\n1 1 1\n1 1 1")));
+    EXPECT_TRUE(contains(ies_complaint(file("IES:LM-63-2019", "3", "0 95 190", "1 1 1\n1 1 1\n1 1 1")), "C planes from 0 to 190 are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round"));
+    EXPECT_NO_THROW(parsed_ies(file("IES:LM-63-2019", "3", "0 95 240", "1 1 1\n1 1 1\n1 1 1")));
     // Both ends are one plane.
     const std::string ends = file("IES:LM-63-2019", "3", "0 120 360", "1 100 0\n1 50 0\n1 91 0");
-    EXPECT_NEAR(at(read(ends), 0), 95.5, 1e-9);
-    EXPECT_TRUE(contains(complaint(replaced(ends, "1 91 0", "1 89 0")), "line 11: C0 and C360 are one plane, but at gamma 45 have 100 and 89 cd"));
+    EXPECT_NEAR(at(parsed_ies(ends), 0), 95.5, 1e-9);
+    EXPECT_TRUE(contains(ies_complaint(replaced(ends, "1 91 0", "1 89 0")), "line 11: C0 and C360 are one plane, but at gamma 45 have 100 and 89 cd"));
 }
 
 TEST(Ies, KnowsVersionLinesFromLabels) {
-    const auto first = [](const std::string& start) { return read(replaced(file("IESNA91", "1", "0", "100 50 25", "1 0.8 20"), "IESNA91\n", start)).candela[0]; };
+    const auto first = [](const std::string& start) { return parsed_ies(replaced(file("IESNA91", "1", "0", "100 50 25", "1 0.8 20"), "IESNA91\n", start)).candela[0]; };
     for (const char* old : {"", "IES PHOTOMETRIC REPORT NO. 4711\n", "IES 99\n", "IESNA91\n", "IESNA86\n", "iesna:lm-63-1995\n", "\n\nIESNA:LM-63-1995\n", "IESNA:LM63-1995\n", "IESNA LM 63 95\n", "IESNA REPORT 2002\n"}) EXPECT_NEAR(first(old), 80, 1e-9) << old;
     for (const char* since : {"IESNA02\n", "\n \nIES:LM-63-2019\n", "ies:lm-63-2019\n", "IESNA:LM-63-2002\n", "IES:LM-63-2031\n", "IESNA:LM63-2002\n", "IESNA LM 63-2002\n", "IESNA:LM-63\n"}) EXPECT_NEAR(first(since), 100, 1e-9) << since;
-    EXPECT_EQ(read(replaced(file("", "1", "0", "1 1 1"), "\n[TEST]", "IES REPORT 12\n[TEST]")).name, "IES REPORT 12");
+    EXPECT_EQ(parsed_ies(replaced(file("", "1", "0", "1 1 1"), "\n[TEST]", "IES REPORT 12\n[TEST]")).name, "IES REPORT 12");
 }
 
 // LM-63-2002 and -2019, Table 1: what lies, and what stands, in m.
 TEST(Ies, CylindersLieAndDiscsStand) {
-    const auto opening = [](const char* version, const char* sizes) { return read(replaced(file(version, "1", "0", "1 1 1"), "1 2 0 0 0", std::string("1 2 ") + sizes)).opening; };
+    const auto opening = [](const char* version, const char* sizes) { return parsed_ies(replaced(file(version, "1", "0", "1 1 1"), "1 2 0 0 0", std::string("1 2 ") + sizes)).opening; };
     for (const char* version : {"IESNA:LM-63-2002", "IES:LM-63-2019"}) {
         EXPECT_NEAR(opening(version, "-2 3 -2").area(), 6, 1e-12);
         EXPECT_NEAR(opening(version, "3 -2 -2").area(), 6, 1e-12);
@@ -102,51 +102,51 @@ TEST(Ies, CylindersLieAndDiscsStand) {
 TEST(Ies, ReadsTypesBAndA) {
     const std::string mirrored_half =
         replaced(file("IESNA:LM-63-2002", "2", "0 30", "1 2 3\n4 5 6"), "3 2 1 2 0", "3 2 3 2 0");
-    const Distribution a = read(replaced(mirrored_half, "0 45 90", "-10 0 90"));
+    const Distribution a = parsed_ies(replaced(mirrored_half, "0 45 90", "-10 0 90"));
     EXPECT_EQ(a.goniometry, Goniometry::TypeA);
     EXPECT_EQ(a.horizontal, (std::vector<double>{-30, 0, 30}));
     EXPECT_EQ(a.candela, (std::vector<double>{4, 5, 6, 1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(a.vertical.front(), -10);
-    const Distribution b = read(replaced(replaced(mirrored_half, "3 2 3 2 0", "3 2 2 2 0"), "0 30", "-20 30"));
+    const Distribution b = parsed_ies(replaced(replaced(mirrored_half, "3 2 3 2 0", "3 2 2 2 0"), "0 30", "-20 30"));
     EXPECT_EQ(b.goniometry, Goniometry::TypeB);
     EXPECT_EQ(b.horizontal, (std::vector<double>{-20, 30}));
-    EXPECT_TRUE(contains(complaint(replaced(kPlain, "3 1 1 2 0", "3 1 3 2 0")), "one horizontal angle"));
+    EXPECT_TRUE(contains(ies_complaint(replaced(kPlainIes, "3 1 1 2 0", "3 1 3 2 0")), "one horizontal angle"));
 }
 
 TEST(Ies, TakesWhatFilesReallyHold) {
     const auto same = [](const std::string& text) {
-        const Distribution d = read(text);
+        const Distribution d = parsed_ies(text);
         EXPECT_EQ(d.vertical, (std::vector<double>{0, 45, 90})) << text;
         EXPECT_EQ(d.candela, (std::vector<double>{100, 50, 25})) << text;
     };
     std::string windows, mac;
-    for (const char c : kPlain)
+    for (const char c : kPlainIes)
         windows += c == '\n' ? std::string("\r\n") : std::string(1, c), mac += c == '\n' ? '\r' : c;
     same(windows);
     same(mac);
-    same("\xef\xbb\xbf" + kPlain);
-    same(replaced(kPlain, "TILT=NONE", "tilt = none"));
-    same(replaced(kPlain, "0 45 90", "0,45,\n 90,"));
-    same(replaced(kPlain, "100 50 25", "100 50\n\n 25\nEND OF DATA 3\n\x1a"));
-    same(replaced(replaced(replaced(kPlain, "3 1 1 2", "4 1 1 2"), "0 45 90", "0 45 90 90"), "50 25", "50 25 25"));
-    same(replaced(kPlain, "1 -1 1 3", "1 -1 1.0e0 3.0"));
-    same(replaced(kPlain, "1 -1 1 3", "0 -1 1 3"));
-    same(replaced(kPlain, "1 -1 1 3", "-1 -1 1 3"));
-    same(replaced(kPlain, "100 50 25", "100 50" + std::string(70, '0') + "e-70 25." + std::string(400, '0')));
-    EXPECT_EQ(read(replaced(kPlain, "100 50 25", "100 50 1e-400")).candela.back(), 0);
-    EXPECT_EQ(read(replaced(kPlain, "100 50 25", "100 50 0." + std::string(400, '0') + "1")).candela.back(), 0);
-    same(replaced(kPlain, "IESNA:LM-63-2002\n", ""));
-    same(replaced(kPlain, "IESNA:LM-63-2002\n[TEST] 1\n[MANUFAC] M\n", ""));
+    same("\xef\xbb\xbf" + kPlainIes);
+    same(replaced(kPlainIes, "TILT=NONE", "tilt = none"));
+    same(replaced(kPlainIes, "0 45 90", "0,45,\n 90,"));
+    same(replaced(kPlainIes, "100 50 25", "100 50\n\n 25\nEND OF DATA 3\n\x1a"));
+    same(replaced(replaced(replaced(kPlainIes, "3 1 1 2", "4 1 1 2"), "0 45 90", "0 45 90 90"), "50 25", "50 25 25"));
+    same(replaced(kPlainIes, "1 -1 1 3", "1 -1 1.0e0 3.0"));
+    same(replaced(kPlainIes, "1 -1 1 3", "0 -1 1 3"));
+    same(replaced(kPlainIes, "1 -1 1 3", "-1 -1 1 3"));
+    same(replaced(kPlainIes, "100 50 25", "100 50" + std::string(70, '0') + "e-70 25." + std::string(400, '0')));
+    EXPECT_EQ(parsed_ies(replaced(kPlainIes, "100 50 25", "100 50 1e-400")).candela.back(), 0);
+    EXPECT_EQ(parsed_ies(replaced(kPlainIes, "100 50 25", "100 50 0." + std::string(400, '0') + "1")).candela.back(), 0);
+    same(replaced(kPlainIes, "IESNA:LM-63-2002\n", ""));
+    same(replaced(kPlainIes, "IESNA:LM-63-2002\n[TEST] 1\n[MANUFAC] M\n", ""));
     // Decimal commas.
-    EXPECT_EQ(read(replaced(kPlain, "100 50 25", "100,5 50 25,25")).candela, (std::vector<double>{100.5, 50, 25.25}));
+    EXPECT_EQ(parsed_ies(replaced(kPlainIes, "100 50 25", "100,5 50 25,25")).candela, (std::vector<double>{100.5, 50, 25.25}));
     // Noise below nothing; small negatives only.
-    EXPECT_EQ(read(replaced(kPlain, "50 25", "50 -0.2")).candela.back(), 0);
-    EXPECT_TRUE(contains(complaint(replaced(kPlain, "50 25", "50 -20")), "x.ies: line 9: a negative intensity"));
+    EXPECT_EQ(parsed_ies(replaced(kPlainIes, "50 25", "50 -0.2")).candela.back(), 0);
+    EXPECT_TRUE(contains(ies_complaint(replaced(kPlainIes, "50 25", "50 -20")), "x.ies: line 9: a negative intensity"));
 }
 
 TEST(Ies, TextBecomesUtf8) {
     const Distribution d =
-        read(replaced(kPlain, "[MANUFAC] M", "[manufac] R\xe9verb\xe8re\n[MORE] SA\n[LUMINAIRE] réseau"));
+        parsed_ies(replaced(kPlainIes, "[MANUFAC] M", "[manufac] R\xe9verb\xe8re\n[MORE] SA\n[LUMINAIRE] réseau"));
     EXPECT_EQ(d.metadata[1].first, "MANUFAC");
     EXPECT_EQ(d.metadata[1].second, "Réverbère\nSA");
     EXPECT_EQ(d.name, "réseau");
@@ -154,24 +154,24 @@ TEST(Ies, TextBecomesUtf8) {
 
 TEST(Ies, AppliesTiltForTheLampAsMeasured) {
     const std::string table = "1\n3\n-30 10 20\n0.6 1.0 0.9\n";
-    EXPECT_NEAR(read(replaced(kPlain, "TILT=NONE\n", "TILT=INCLUDE\n" + table)).candela[0], 90, 1e-9);
-    EXPECT_NEAR(read(replaced(kPlain, "TILT=NONE\n", "TILT=INCLUDE\n1 2 0 45 1 0.5\n")).candela[0], 100, 1e-9);
-    EXPECT_TRUE(contains(complaint(replaced(kPlain, "TILT=NONE\n", "TILT=INCLUDE\n1 2 45 0 1 0.5\n")), "do not ascend"));
+    EXPECT_NEAR(parsed_ies(replaced(kPlainIes, "TILT=NONE\n", "TILT=INCLUDE\n" + table)).candela[0], 90, 1e-9);
+    EXPECT_NEAR(parsed_ies(replaced(kPlainIes, "TILT=NONE\n", "TILT=INCLUDE\n1 2 0 45 1 0.5\n")).candela[0], 100, 1e-9);
+    EXPECT_TRUE(contains(ies_complaint(replaced(kPlainIes, "TILT=NONE\n", "TILT=INCLUDE\n1 2 45 0 1 0.5\n")), "do not ascend"));
 
     const TempFolder folder;
-    const auto lamp = folder.write("lamp.ies", replaced(kPlain, "TILT=NONE", "TILT=lamp.tlt"));
+    const auto lamp = folder.write("lamp.ies", replaced(kPlainIes, "TILT=NONE", "TILT=lamp.tlt"));
     EXPECT_TRUE(contains(complaint_of([&] { read_ies(lamp); }), "line 4: TILT=lamp.tlt"));
     folder.write("lamp.tlt", table);
     EXPECT_NEAR(read_ies(lamp).candela[0], 90, 1e-9);
     EXPECT_EQ(read_ies(lamp).name, "lamp");
-    const auto outside = folder.write("outside.ies", replaced(kPlain, "TILT=NONE", "TILT=../lamp.tlt"));
+    const auto outside = folder.write("outside.ies", replaced(kPlainIes, "TILT=NONE", "TILT=../lamp.tlt"));
     EXPECT_TRUE(contains(complaint_of([&] { read_ies(outside); }), "neither NONE"));
-    EXPECT_NEAR(read(replaced(kPlain, "TILT=NONE", "TILT=lamp.tlt")).candela[0], 100, 1e-9);  // no folder to look in
+    EXPECT_NEAR(parsed_ies(replaced(kPlainIes, "TILT=NONE", "TILT=lamp.tlt")).candela[0], 100, 1e-9);  // no folder to look in
 }
 
 TEST(Ies, ReadsTheLuminousOpening) {
     const auto opening = [](const std::string& units, const std::string& size) {
-        return read(replaced(kPlain, "2 0 0 0\n", units + " " + size + "\n")).opening;
+        return parsed_ies(replaced(kPlainIes, "2 0 0 0\n", units + " " + size + "\n")).opening;
     };
     LuminousOpening o = opening("2", "0.3 1.2 0");
     EXPECT_EQ(o.length, 1.2);
@@ -222,12 +222,12 @@ TEST(Ies, SaysWhereAndWhy) {
         {"1 -1 1 3 1 1 2", "1 -1 1 3 1 4 2", "line 5: the photometric type"},
         {"1 -1 1 3 1 1 2", "1 -1 1 3 1 1 3", "line 5: the type of units"},
     };
-    for (const auto& c : cases) EXPECT_TRUE(contains(complaint(replaced(kPlain, c.what, c.with)), c.wanted)) << c.with;
-    EXPECT_TRUE(contains(complaint(file("IES:LM-63-2019", "2", "0 0", "100 50 25 100 60 25")), "line 8: C angle 0 is there twice, with other intensities"));
-    EXPECT_EQ(read(file("IES:LM-63-2019", "2", "0 0", "100 50 25 100 50 25")).horizontal.size(), 1u);
-    EXPECT_TRUE(contains(complaint(""), "x.ies: line 1: the file ends"));
+    for (const auto& c : cases) EXPECT_TRUE(contains(ies_complaint(replaced(kPlainIes, c.what, c.with)), c.wanted)) << c.with;
+    EXPECT_TRUE(contains(ies_complaint(file("IES:LM-63-2019", "2", "0 0", "100 50 25 100 60 25")), "line 8: C angle 0 is there twice, with other intensities"));
+    EXPECT_EQ(parsed_ies(file("IES:LM-63-2019", "2", "0 0", "100 50 25 100 50 25")).horizontal.size(), 1u);
+    EXPECT_TRUE(contains(ies_complaint(""), "x.ies: line 1: the file ends"));
     const std::string many(60'000, '\n');
-    EXPECT_TRUE(contains(complaint(many + kPlain), "no line TILT= in the first"));
+    EXPECT_TRUE(contains(ies_complaint(many + kPlainIes), "no line TILT= in the first"));
 }
 
 TEST(Ies, WritingComesBack) {
@@ -245,7 +245,7 @@ TEST(Ies, WritingComesBack) {
     all[1].metadata = {{"MANUFAC", "Réverbère\nSA"}, {"LUMINAIRE", "made"}};
     for (const Distribution& d : all) {
         const std::string text = write_ies(d);
-        const Distribution back = read(text);
+        const Distribution back = parsed_ies(text);
         EXPECT_EQ(back.goniometry, d.goniometry);
         EXPECT_EQ(back.name, d.name);
         EXPECT_EQ(back.lamp_flux, d.lamp_flux);
@@ -265,7 +265,7 @@ TEST(Ies, WritingComesBack) {
     }
     // A range that begins at H = 0 is not taken for a half.
     const Distribution right = tabulate(Goniometry::TypeA, {0, 10}, {-5, 5}, [](double, double) { return 7.0; });
-    const Distribution back = read(write_ies(right));
+    const Distribution back = parsed_ies(write_ies(right));
     EXPECT_EQ(intensity(back, type_a(5, 0)), 7);
     EXPECT_EQ(intensity(back, type_a(-5, 0)), 0);
     EXPECT_NEAR(luminous_flux(back), luminous_flux(right), 1e-3 * luminous_flux(right));

@@ -18,7 +18,7 @@ Distribution isotropic(double candela) {
 }
 
 /// r = q0 cos^3(gamma) at close nodes: straight lines between them keep q within 1e-5 of q0.
-ReflectionTable lambert(double q0) {
+ReflectionTable matt_road(double q0) {
     ReflectionTable table{.name = "lambert", .beta = {0, 180}};
     for (int i = 0; i <= 500; ++i) {
         const double t = i < 400 ? i * 0.01 : 4 + (i - 400) * 0.09;
@@ -39,7 +39,7 @@ RoadLayout worked_example(const char* surface) {
 RoadLayout isotropic_road() {
     RoadLayout road{.name = "test"};
     road.distribution = isotropic(1000);
-    road.surface = lambert(0.05);
+    road.surface = matt_road(0.05);
     return road;
 }
 

@@ -9,6 +9,7 @@
 #include "scene/scene_files.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 using Mode = LampEvent::Mode;

@@ -13,6 +13,7 @@
 #include "support/shared_data.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 // esmini works in double too and writes six digits: what is left is its table of arc lengths along polynomials.

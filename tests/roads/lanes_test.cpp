@@ -8,6 +8,7 @@
 #include "roads/road_texts.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 using test::geometry;

@@ -15,6 +15,7 @@
 #include "support/shared_data.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 using test::area_of;

@@ -11,6 +11,7 @@
 #include "roads/road_texts.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 using test::geometry;
@@ -19,13 +20,13 @@ using test::network_of;
 using test::road;
 using test::two_way_section;
 
-bool has_note(const RoadNetwork& network, const std::string& what) {
+bool noted(const RoadNetwork& network, const std::string& what) {
     for (const std::string& note : network.notes)
         if (note.find(what) != note.npos) return true;
     return false;
 }
 
-uint32_t find(const LaneGraph& graph, const std::string& name) {
+uint32_t lane_named(const LaneGraph& graph, const std::string& name) {
     for (uint32_t i = 0; i < graph.lanes().size(); ++i)
         if (graph.lanes()[i].name == name) return i;
     ADD_FAILURE() << name;
@@ -57,9 +58,9 @@ TEST(OthersOpenDrive, RoadsWithoutLengthLeadOn) {
             to_east("b", 50, 50, "<predecessor elementType=\"junction\" elementId=\"j\"/>") +
             "<junction id=\"j\"><connection incomingRoad=\"a\" connectingRoad=\"point\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
             "<connection incomingRoad=\"a\" connectingRoad=\"bend\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection></junction>");
-        EXPECT_TRUE(has_note(network, "road 'point' has no length"));
+        EXPECT_TRUE(noted(network, "road 'point' has no length"));
         const LaneGraph graph(network);
-        const uint32_t a = find(graph, "road a, section 0, lane -1"), b = find(graph, "road b, section 0, lane -1");
+        const uint32_t a = lane_named(graph, "road a, section 0, lane -1"), b = lane_named(graph, "road b, section 0, lane -1");
         EXPECT_EQ(graph.route(a, b).size(), 3u);
         EXPECT_EQ(graph.lanes()[a].successors.size(), 2u);
         EXPECT_NEAR(graph.pose(b, 10).position.x, 60, 1e-9);
@@ -71,7 +72,7 @@ TEST(OthersOpenDrive, RoadsWithoutLengthLeadOn) {
 TEST(OthersOpenDrive, NoLengthIsNoneOfAnyGeometry) {
     for (const char* shape : {"<line/>", "<arc curvature=\"100\"/>", "<spiral curvStart=\"0\" curvEnd=\"9\"/>", "<paramPoly3 pRange=\"normalized\"/>", "<poly3/>"}) {
         const RoadNetwork network = network_of(road("1", 0, geometry(0, 5, 0, 0, 0, shape), two_way_section()) + road("2", 50, geometry(0, 0, 20, 0, 50, "<line/>"), two_way_section()));
-        EXPECT_TRUE(has_note(network, "has no length")) << shape;
+        EXPECT_TRUE(noted(network, "has no length")) << shape;
         EXPECT_GT(street_lamps(network), 0u) << shape;
     }
     // But a road that only says it had none has that of its geometry.
@@ -86,7 +87,7 @@ TEST(OthersOpenDrive, LanesLieBesideEachOtherAcrossGapsOfTheirNumbers) {
     };
     const auto with = [](const std::string& lanes) { return network_of(road("1", 90, geometry(0, 0, 0, 0, 90, "<line/>"), lanes)); };
     const RoadNetwork dense = with(section(-1, -2, -3)), sparse = with(section(-2, -5, -9));
-    EXPECT_TRUE(has_note(sparse, "lane ids have a gap"));
+    EXPECT_TRUE(noted(sparse, "lane ids have a gap"));
     const LaneGraph whole(dense), graph(sparse);
     ASSERT_EQ(graph.lanes().size(), whole.lanes().size());
     for (uint32_t i = 0; i < graph.lanes().size(); ++i) {
@@ -122,7 +123,7 @@ TEST(OthersOpenDrive, SectionsWithoutLengthAreLinkedAcross) {
                lane(id, 3.5, "driving", "<link><predecessor id=\"" + std::to_string(before) + "\"/><successor id=\"" + std::to_string(after) + "\"/></link>") + "</right></laneSection>";
     };
     const RoadNetwork network = network_of(road("1", 100, geometry(0, 0, 0, 0, 100, "<line/>"), section(50, -1, -2, 0) + section(0, -1, 0, -2) + section(49.9996, -2, -1, -1)));
-    EXPECT_TRUE(has_note(network, "lane sections are not in ascending order"));
+    EXPECT_TRUE(noted(network, "lane sections are not in ascending order"));
     ASSERT_EQ(network.roads[0].sections.size(), 2u);
     EXPECT_EQ(network.roads[0].sections[0].end, 50);
     EXPECT_EQ(network.roads[0].sections[0].find(-1)->successors, std::vector<int>{-1});
@@ -193,9 +194,9 @@ TEST(OthersOpenDrive, WhatCannotBeKnownIsLeftOutAndSaid) {
             lane(-1, 3, "driving", "<roadMark type=\"solid\" width=\"-1\"/>") +
             "</right></laneSection></lanes><objects><object id=\"o\"/><object id=\"p\" s=\"1\" t=\"2\"/></objects>"
             "<signals><signal id=\"a\" s=\"4\"/><signal id=\"b\" s=\"4\" t=\"1\"/></signals></road>");
-    EXPECT_TRUE(has_note(network, "include: 'more.xml' is not read"));
-    EXPECT_TRUE(has_note(network, "object: has no s and t: left out"));
-    EXPECT_TRUE(has_note(network, "signal: has no s and t: left out"));
+    EXPECT_TRUE(noted(network, "include: 'more.xml' is not read"));
+    EXPECT_TRUE(noted(network, "object: has no s and t: left out"));
+    EXPECT_TRUE(noted(network, "signal: has no s and t: left out"));
     EXPECT_EQ(network.roads[0].objects.size(), 1u);
     EXPECT_EQ(network.roads[0].signals.size(), 1u);
     EXPECT_EQ(network.roads[0].speeds[0].limit, 0) << "none stated";
@@ -213,8 +214,8 @@ TEST(OthersOpenDrive, ValuesThatNobodyKnowsAreSaid) {
     const auto said = [&](const std::string& what, const std::string& types, const std::string& lanes, const std::string& attributes = "", const std::string& plan = "") {
         const RoadNetwork network = network_of(road("1", 50, plan.empty() ? line : plan, lanes, types, attributes));
         EXPECT_EQ(network.notes.size(), what.empty() ? 0u : 1u) << what;
-        EXPECT_TRUE(what.empty() || has_note(network, what)) << what;
-        EXPECT_TRUE(what.empty() || has_note(network, "test.xodr:")) << what;
+        EXPECT_TRUE(what.empty() || noted(network, what)) << what;
+        EXPECT_TRUE(what.empty() || noted(network, "test.xodr:")) << what;
         return network;
     };
     EXPECT_EQ(said("the unit 'kmh' is none of m/s", speed + "kmh\"/></type>", two_way_section()).roads[0].speeds[0].limit, 0);

@@ -6,6 +6,7 @@
 #include "roads/plan_curve.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 /// Fresnel's integrals of cos and sin(pi u^2 / 2) by their power series (Abramowitz and Stegun 7.3.11, 7.3.13): another

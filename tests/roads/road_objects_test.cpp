@@ -10,6 +10,7 @@
 #include "roads/scene_parts.h"
 
 namespace vesper::test {
+using namespace roads;
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -31,7 +32,7 @@ ObjectKind kind(const std::string& type, const std::string& subtype, const std::
     return kind_of(object);
 }
 
-bool has_note(const RoadNetwork& network, const std::string& what) {
+bool object_noted(const RoadNetwork& network, const std::string& what) {
     for (const std::string& note : network.notes)
         if (note.find(what) != note.npos) return true;
     return false;
@@ -131,9 +132,9 @@ TEST(RoadSignals, StandWhereTheirPositionSays) {
     }
     const RoadNetwork inertial = signal("<positionInertial x=\"7\" y=\"6\" z=\"2\" hdg=\"0\"/>"), nowhere = signal("<positionRoad roadId=\"9\" s=\"7\" t=\"6\"/>");
     EXPECT_NEAR(place(inertial).x, 50, 0.2);
-    EXPECT_TRUE(has_note(inertial, "positionInertial: is not read"));
+    EXPECT_TRUE(object_noted(inertial, "positionInertial: is not read"));
     EXPECT_NEAR(place(nowhere).x, 50, 0.2);
-    EXPECT_TRUE(has_note(nowhere, "positionRoad: there is no road '9'"));
+    EXPECT_TRUE(object_noted(nowhere, "positionRoad: there is no road '9'"));
 }
 
 TEST(RoadSignals, BeyondTheEndOfTheirRoadAreSaid) {
@@ -142,12 +143,12 @@ TEST(RoadSignals, BeyondTheEndOfTheirRoadAreSaid) {
         return with("<signals><signal s=\"" + s + "\" t=\"5\" id=\"7\"><positionRoad roadId=\"" + id + "\" s=\"" + there + "\" t=\"6\"/></signal></signals>");
     };
     for (const char* id : {"1", "2"}) {
-        EXPECT_TRUE(has_note(moved("50", id, "1e8"), "positionRoad: s = 100000000.000000 is not on road '" + std::string(id) + "'"));
+        EXPECT_TRUE(object_noted(moved("50", id, "1e8"), "positionRoad: s = 100000000.000000 is not on road '" + std::string(id) + "'"));
         EXPECT_TRUE(moved("1e8", id, "50").notes.empty());
     }
     const RoadNetwork network = with("<objects><object id=\"1\" type=\"pole\" s=\"95\" t=\"6\"/></objects><signals><signal s=\"-4\" t=\"5\" id=\"7\"/></signals>");
-    EXPECT_TRUE(has_note(network, "object: s = 95.000000 is not on road '1', which is 90.0"));
-    EXPECT_TRUE(has_note(network, "signal: s = -4.0"));
+    EXPECT_TRUE(object_noted(network, "object: s = 95.000000 is not on road '1', which is 90.0"));
+    EXPECT_TRUE(object_noted(network, "signal: s = -4.0"));
     EXPECT_EQ(network.notes.size(), 2u);
 }
 

@@ -8,6 +8,7 @@
 #include "roads/road_texts.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 using test::geometry;
@@ -15,7 +16,7 @@ using test::network_of;
 using test::road;
 using test::two_way_section;
 
-RoadNetwork straight(const std::string& profiles, const std::string& lanes = two_way_section()) {
+RoadNetwork profiled(const std::string& profiles, const std::string& lanes = two_way_section()) {
     return network_of("<road id=\"1\" length=\"100\"><planView>" + geometry(0, 0, 0, 0, 100, "<line/>") +
                       "</planView>" + profiles + "<lanes>" + lanes + "</lanes></road>");
 }
@@ -27,7 +28,7 @@ void expect_at(const RoadPoint& got, double x, double y, double z) {
 }
 
 TEST(RoadPoints, SuperelevationTurnsTheCrossSection) {
-    const auto network = straight("<lateralProfile><superelevation s=\"0\" a=\"0.1\"/></lateralProfile>");
+    const auto network = profiled("<lateralProfile><superelevation s=\"0\" a=\"0.1\"/></lateralProfile>");
     const RoadPoint left = surface_point(network.roads[0], 40, 5);
     expect_at(left, 40, 5 * std::cos(0.1), 5 * std::sin(0.1));
     EXPECT_NEAR(left.up.y, -std::sin(0.1), 1e-12);
@@ -36,7 +37,7 @@ TEST(RoadPoints, SuperelevationTurnsTheCrossSection) {
 }
 
 TEST(RoadPoints, ElevationIsACubicOfS) {
-    const auto network = straight(
+    const auto network = profiled(
         "<elevationProfile><elevation s=\"0\" a=\"1\" b=\"0.02\"/><elevation s=\"50\" a=\"2\" b=\"0.02\" c=\"0.001\" "
         "d=\"-0.00001\"/></elevationProfile>");
     expect_at(surface_point(network.roads[0], 30, -2), 30, -2, 1.6);
@@ -47,7 +48,7 @@ TEST(RoadPoints, ElevationIsACubicOfS) {
 }
 
 TEST(RoadPoints, ShapesLieBetweenTheirStations) {
-    const auto network = straight(
+    const auto network = profiled(
         "<lateralProfile><shape s=\"0\" t=\"-5\" a=\"0.5\" b=\"-0.1\"/><shape s=\"0\" t=\"0\" a=\"0\" "
         "b=\"0.02\"/><shape s=\"100\" t=\"-5\" a=\"0\"/></lateralProfile>");
     expect_at(surface_point(network.roads[0], 0, -3), 0, -3, 0.3);
@@ -56,13 +57,13 @@ TEST(RoadPoints, ShapesLieBetweenTheirStations) {
 }
 
 TEST(RoadPoints, CrossfallFallsOutwards) {
-    const auto network = straight("<lateralProfile><crossfall side=\"both\" s=\"0\" a=\"0.025\"/></lateralProfile>");
+    const auto network = profiled("<lateralProfile><crossfall side=\"both\" s=\"0\" a=\"0.025\"/></lateralProfile>");
     expect_at(surface_point(network.roads[0], 10, 4), 10, 4, -4 * std::tan(0.025));
     expect_at(surface_point(network.roads[0], 10, -4), 10, -4, -4 * std::tan(0.025));
 }
 
 TEST(RoadPoints, StripsOfACrossSectionFollowEachOther) {
-    const auto network = straight(
+    const auto network = profiled(
         "<lateralProfile><crossSectionSurface><tOffset><coefficients s=\"0\" a=\"0.5\"/></tOffset><surfaceStrips>"
         "<strip id=\"1\"><width><coefficients s=\"0\" a=\"2\"/></width><linear><coefficients s=\"0\" "
         "a=\"-0.1\"/></linear></strip>"
@@ -75,7 +76,7 @@ TEST(RoadPoints, StripsOfACrossSectionFollowEachOther) {
 }
 
 TEST(RoadPoints, LanesAddUpFromTheLaneOffset) {
-    const auto network = straight("", "<laneOffset s=\"0\" a=\"1\" b=\"0.01\"/>" + two_way_section());
+    const auto network = profiled("", "<laneOffset s=\"0\" a=\"1\" b=\"0.01\"/>" + two_way_section());
     const Road& r = network.roads[0];
     EXPECT_NEAR(lane_border(r, r.sections[0], 0, 50), 1.5, 1e-12);
     EXPECT_NEAR(lane_border(r, r.sections[0], 2, 50), 7, 1e-12);
@@ -85,7 +86,7 @@ TEST(RoadPoints, LanesAddUpFromTheLaneOffset) {
 }
 
 TEST(RoadPoints, BordersAreWhereTheyAreUnlessAnInnerOneIsFurtherOut) {
-    const auto network = straight("",
+    const auto network = profiled("",
                                   "<laneSection s=\"0\"><left><lane id=\"2\" type=\"driving\"><border sOffset=\"0\" "
                                   "a=\"5\" b=\"-0.04\"/></lane><lane id=\"1\" type=\"driving\"><border sOffset=\"0\" "
                                   "a=\"4\"/></lane></left><center><lane id=\"0\"/></center></laneSection>");
@@ -97,7 +98,7 @@ TEST(RoadPoints, BordersAreWhereTheyAreUnlessAnInnerOneIsFurtherOut) {
 }
 
 TEST(RoadPoints, LevelLanesDoNotFollowTheSuperelevation) {
-    const auto network = straight("<lateralProfile><superelevation s=\"0\" a=\"0.1\"/></lateralProfile>",
+    const auto network = profiled("<lateralProfile><superelevation s=\"0\" a=\"0.1\"/></lateralProfile>",
                                   "<laneSection s=\"0\"><left><lane id=\"2\" type=\"sidewalk\" level=\"true\"><width "
                                   "sOffset=\"0\" a=\"2\"/></lane><lane id=\"1\" type=\"driving\"><width sOffset=\"0\" "
                                   "a=\"3\"/></lane></left><center><lane id=\"0\"/></center></laneSection>");
@@ -110,7 +111,7 @@ TEST(RoadPoints, AStepOfTheOffsetBelongsToTheNextSection) {
     const auto lanes = [](int first, const std::string& side, int to, int from) {
         return "<" + side + ">" + test::lane(first, 3.5, "driving", "<link>" + (to ? "<successor id=\"" + std::to_string(to) + "\"/>" : "") + (from ? "<predecessor id=\"" + std::to_string(from) + "\"/>" : "") + "</link>") + "</" + side + ">";
     };
-    const auto network = straight("", "<laneOffset s=\"0\" a=\"0\"/><laneOffset s=\"50\" a=\"3.5\"/><laneSection s=\"0\">" + lanes(-1, "right", -2, 0) +
+    const auto network = profiled("", "<laneOffset s=\"0\" a=\"0\"/><laneOffset s=\"50\" a=\"3.5\"/><laneSection s=\"0\">" + lanes(-1, "right", -2, 0) +
                                           "</laneSection><laneSection s=\"50\"><right>" + test::lane(-1, 3.5) + test::lane(-2, 3.5, "driving", "<link><predecessor id=\"-1\"/></link>") + "</right></laneSection>");
     const Road& r = network.roads[0];
     expect_at(lane_point(r, r.sections[0], -1, 50, 1), 50, -3.5, 0);
@@ -129,7 +130,7 @@ TEST(RoadPoints, StationsFollowInnerBorders) {
         return "<lane id=\"" + std::to_string(id) + "\" type=\"driving\"><width sOffset=\"0\"" + test::quantity("a", a) + "/><width sOffset=\"40\"" + test::quantity("a", a) +
                test::quantity("c", c) + test::quantity("d", d) + "/><width sOffset=\"60\"" + test::quantity("a", last) + "/></lane>";
     };
-    const auto network = straight("", "<laneSection s=\"0\"><right>" + wide(-1, 3.5, 0.02625, -0.000875, 7) + wide(-2, 7, -0.02625, 0.000875, 3.5) + "</right></laneSection>");
+    const auto network = profiled("", "<laneSection s=\"0\"><right>" + wide(-1, 3.5, 0.02625, -0.000875, 7) + wide(-2, 7, -0.02625, 0.000875, 3.5) + "</right></laneSection>");
     const LaneSection& section = network.roads[0].sections[0];
     const auto stations = road_stations(network.roads[0], section, 0.01, 20);
     EXPECT_LT(stations.size(), 60u);

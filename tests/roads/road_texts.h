@@ -7,6 +7,7 @@
 #include "roads/opendrive.h"
 
 namespace vesper::test {
+using namespace roads;
 
 inline std::string quantity(const char* name, double value) {
     char text[64];

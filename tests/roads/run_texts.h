@@ -13,6 +13,7 @@
 #include "support/shared_data.h"
 
 namespace vesper::test {
+using namespace roads;
 
 class RunFiles : public testing::Test {
 protected:

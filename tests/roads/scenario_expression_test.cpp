@@ -7,6 +7,7 @@
 #include "roads/esmini_parts.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 // Ranks of operators, functions and their arguments, numbers with exponents: values by hand.

@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 
 namespace vesper::test {
+using namespace roads;
 
 struct Triangle {
     std::array<glm::dvec3, 3> corners;

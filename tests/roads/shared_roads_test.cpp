@@ -10,6 +10,7 @@
 #include "support/shared_data.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 std::vector<std::filesystem::path> shared_roads() {

@@ -9,6 +9,7 @@
 #include "roads/run_texts.h"
 
 namespace vesper {
+using namespace roads;
 namespace {
 
 using namespace test;

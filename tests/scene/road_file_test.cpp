@@ -38,13 +38,13 @@ json layout() {
               {"maintenance_factor", 0.8}}}};
 }
 
-RoadFile read(const json& file, const RoadOverrides& overrides = {}) {
+RoadFile read_layout(const json& file, const RoadOverrides& overrides = {}) {
     const TempFolder folder;
     return read_road(folder.write("road.json", file.dump()), overrides);
 }
 
 TEST(RoadFile, ReadsEverything) {
-    const RoadFile file = read(layout());
+    const RoadFile file = read_layout(layout());
     const RoadLayout& road = file.layout;
     EXPECT_EQ(file.wanted_class, "M4");
     EXPECT_EQ(road.name, "test road");
@@ -61,7 +61,7 @@ TEST(RoadFile, ReadsEverything) {
 }
 
 TEST(RoadFile, OverridesTakeThePlaceOfTheFile) {
-    const RoadFile file = read(layout(), {.reflection_table = "C1",
+    const RoadFile file = read_layout(layout(), {.reflection_table = "C1",
                                           .q0 = 0.11,
                                           .spacing = 20,
                                           .height = 7,
@@ -75,9 +75,9 @@ TEST(RoadFile, OverridesTakeThePlaceOfTheFile) {
     EXPECT_EQ(file.layout.tilt, 0);
     EXPECT_EQ(file.layout.maintenance_factor, 0.9);
     // The file's Q0 belongs to the file's surface.
-    EXPECT_EQ(read(layout(), {.reflection_table = "C1"}).layout.surface, find_reflection_table("C1"));
-    EXPECT_THROW(read(layout(), {.luminaire = "missing.ldt"}), Error);
-    EXPECT_THROW(read(layout(), {.spacing = -3}), Error);
+    EXPECT_EQ(read_layout(layout(), {.reflection_table = "C1"}).layout.surface, find_reflection_table("C1"));
+    EXPECT_THROW(read_layout(layout(), {.luminaire = "missing.ldt"}), Error);
+    EXPECT_THROW(read_layout(layout(), {.spacing = -3}), Error);
 }
 
 TEST(RoadFile, ListsOfPositions) {
@@ -87,7 +87,7 @@ TEST(RoadFile, ListsOfPositions) {
     luminaires["arrangement"] = "list";
     luminaires["positions"] = {
         {{"y_m", 1}}, {{"x_m", 4}, {"y_m", 7}, {"height_m", 6}}, {{"y_m", 7}, {"facing_deg", 45}}};
-    const RoadLayout road = read(file).layout;
+    const RoadLayout road = read_layout(file).layout;
     ASSERT_EQ(road.list.size(), 3u);
     EXPECT_EQ(road.list[0].position, glm::dvec3(0, 1, 9));
     EXPECT_EQ(road.list[0].facing, 90);
@@ -118,20 +118,20 @@ TEST(RoadFile, NamesThePlaceOfWhatIsWrong) {
         {"/luminaires/height", 8, "/luminaires/height: unknown key"},
         {"/observer_age", 200, "/observer_age"},
     };
-    expect_places(layout(), faults, [](const json& file) { return complaint_of([&] { read(file); }); }, "road.json: ");
+    expect_places(layout(), faults, [](const json& file) { return complaint_of([&] { read_layout(file); }); }, "road.json: ");
     for (const char* key : {"carriageway", "surface", "luminaires"}) {
         json file = layout();
         file.erase(key);
-        EXPECT_THROW(read(file), Error) << key;
+        EXPECT_THROW(read_layout(file), Error) << key;
     }
     const TempFolder folder;
     EXPECT_THROW(read_road(folder.write("road.json", "{\"version\": 1")), Error);
     json dark = layout();
     dark["luminaires"]["file"] = folder.write("dark.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n0 0\n").string();
-    EXPECT_TRUE(contains(complaint_of([&] { read(dark); }), "dark.ies: the luminaire gives no light"));
+    EXPECT_TRUE(contains(complaint_of([&] { read_layout(dark); }), "dark.ies: the luminaire gives no light"));
     RoadOverrides narrow;
     narrow.spacing = 1;
-    EXPECT_TRUE(contains(complaint_of([&] { read(layout(), narrow); }), "road.json: test road: the spacing must be"));
+    EXPECT_TRUE(contains(complaint_of([&] { read_layout(layout(), narrow); }), "road.json: test road: the spacing must be"));
 }
 
 TEST(RoadFile, EveryExampleIsCalculated) {
@@ -167,7 +167,7 @@ double rendered_illuminance(const Scene& scene, glm::dvec3 point, double reach) 
 }
 
 TEST(RoadScene, HasTheLightOfTheCalculation) {
-    RoadLayout road = read(layout()).layout;
+    RoadLayout road = read_layout(layout()).layout;
     for (const bool street_side : {false, true}) {
         road.c0_street_side = street_side;
         const Scene scene = road_scene(road);

@@ -88,7 +88,7 @@ TEST(Threads, ReadersReadTheSameFiles) {
         seen.push_back(luminous_flux(read_distribution(data / "photometry/street-lamp.ies")));
         seen.push_back(luminous_flux(read_distribution(data / "road/luminaire.ldt")));
         seen.push_back(luminous_flux(read_distribution(data / "photometry/high-beam.csv")));
-        seen.push_back(double(read_opendrive(data / "rivoli/rivoli.xodr").roads.size()));
+        seen.push_back(double(roads::read_opendrive(data / "rivoli/rivoli.xodr").roads.size()));
         seen.push_back(double(decode_image(read_file(folder / "x.png", 1 << 20), 100).rgba[3]));
         seen.push_back(double(find_display("lcd").peak));
         read_photometry(data / "rivoli/rivoli.measured.photometry.json");

@@ -2,16 +2,17 @@
 #include "traffic/contact.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "base/angle.h"
 #include "traffic/world.h"
 
 namespace vesper {
+using namespace traffic;
 namespace {
 
-constexpr double kStep = 1.0 / 60, kPi = std::numbers::pi;
+constexpr double kStep = 1.0 / 60;
 
 std::shared_ptr<WorldDescription> street() {
     auto d = std::make_shared<WorldDescription>();
@@ -112,7 +113,7 @@ TEST(World, AParkedVanStopsTheDriver) {
 TEST(World, ACarThatIsHitGoesOnWithTheBlow) {
     auto d = street();
     d->driver_s = 30, d->driver_speed = 14;
-    d->cars.push_back({.node = "slow", .s = 36, .speed = 2, .wish = 0.1});
+    d->cars.push_back({.node = "slow", .s = 36, .speed = 2, .speed_factor = 0.1});
     World world(d, 1);
     while (world.contacts().empty() && world.seconds() < 5) world.step({}, kStep);
     ASSERT_EQ(world.contacts().size(), 1u);

@@ -7,9 +7,10 @@
 #include <gtest/gtest.h>
 
 namespace vesper {
+using namespace traffic;
 namespace {
 
-constexpr double kStep = 1.0 / 60;
+constexpr double kVehicleStep = 1.0 / 60;
 
 // A car without resistances, so that what is left is in the formulas.
 VehicleParameters frictionless() {
@@ -23,7 +24,7 @@ VehicleState settled(const VehicleParameters& p, double speed, double angle) {
     VehicleState s;
     s.speed = speed;
     for (int i = 0; i < 1200; ++i) {
-        advance(s, p, {.angle = angle}, kStep);
+        advance(s, p, {.angle = angle}, kVehicleStep);
         s.speed = speed;
     }
     return s;
@@ -58,15 +59,15 @@ TEST(Vehicle, BrakesWithinTheFormula) {
     for (const double pedal : {0.3, 1.0}) {
         VehicleState s;
         s.speed = 20;
-        while (s.speed > 0) advance(s, p, {.brake = pedal}, kStep);
+        while (s.speed > 0) advance(s, p, {.brake = pedal}, kVehicleStep);
         const double expected = 20.0 * 20 / (2 * pedal * p.brake_deceleration);
-        EXPECT_NEAR(s.odometer, expected, 0.1 + 20 * kStep / 4) << pedal;  // a substep at 20 m/s is 0.08 m
+        EXPECT_NEAR(s.odometer, expected, 0.1 + 20 * kVehicleStep / 4) << pedal;  // a substep at 20 m/s is 0.08 m
     }
     VehicleParameters ice = p;
     ice.friction = 0.1;
     VehicleState s;
     s.speed = 10;
-    while (s.speed > 0) advance(s, ice, {.brake = 1}, kStep);
+    while (s.speed > 0) advance(s, ice, {.brake = 1}, kVehicleStep);
     EXPECT_NEAR(s.odometer, 100 / (2 * 0.1 * 9.80665), 0.3);
 }
 
@@ -80,20 +81,20 @@ TEST(Vehicle, BrakesHoldAgainstTheEngine) {
             road.friction = grip;
             VehicleState s;
             for (int i = 0; i < 120; ++i) {
-                advance(s, road, {.throttle = throttle, .brake = fades * 1.05}, kStep);
+                advance(s, road, {.throttle = throttle, .brake = fades * 1.05}, kVehicleStep);
                 ASSERT_EQ(s.speed, 0) << i;
             }
             EXPECT_EQ(s.odometer, 0);
         }
     VehicleState s;
-    for (int i = 0; i < 60; ++i) advance(s, p, {.throttle = 1, .brake = fades * 0.5}, kStep);
+    for (int i = 0; i < 60; ++i) advance(s, p, {.throttle = 1, .brake = fades * 0.5}, kVehicleStep);
     const double expected = (p.drive_force * 0.5 - p.rolling * p.mass * 9.80665) / p.mass;
     EXPECT_NEAR(s.speed, expected, 0.02);
     s.speed = 10;
-    for (int i = 0; i < 240; ++i) advance(s, p, {.throttle = 1, .brake = 1}, kStep);
+    for (int i = 0; i < 240; ++i) advance(s, p, {.throttle = 1, .brake = 1}, kVehicleStep);
     EXPECT_EQ(s.speed, 0) << "comes to rest, and stays";
     s.speed = -3;  // brakes do not stop an engine that they are weaker than
-    for (int i = 0; i < 120; ++i) advance(s, p, {.throttle = 1, .brake = 0.1}, kStep);
+    for (int i = 0; i < 120; ++i) advance(s, p, {.throttle = 1, .brake = 0.1}, kVehicleStep);
     EXPECT_GT(s.speed, 1);
 }
 
@@ -101,7 +102,7 @@ TEST(Vehicle, BrakesHoldAgainstTheEngine) {
 TEST(Vehicle, TopSpeedIsWherePowerIsSpent) {
     const VehicleParameters p;
     VehicleState s;
-    for (int i = 0; i < 60 * 300; ++i) advance(s, p, {.throttle = 1}, kStep);
+    for (int i = 0; i < 60 * 300; ++i) advance(s, p, {.throttle = 1}, kVehicleStep);
     const double v = s.speed, spent = v * (p.rolling * p.mass * 9.80665 + 0.5 * p.air_density * p.drag_area * v * v);
     EXPECT_NEAR(spent / p.power, 1, 1e-3);
 }
@@ -113,7 +114,7 @@ TEST(Vehicle, LeansOutwardsAndDives) {
     EXPECT_GT(s.roll, 0.01);  // left turn: left side up
     s = {};
     s.speed = 20;
-    for (int i = 0; i < 30; ++i) advance(s, p, {.brake = 0.8}, kStep);
+    for (int i = 0; i < 30; ++i) advance(s, p, {.brake = 0.8}, kVehicleStep);
     EXPECT_LT(s.pitch, -0.02);
 }
 
@@ -127,7 +128,7 @@ TEST(Vehicle, EnergyNeverGrowsWithoutThrottle) {
         s.speed = 40 * random() - 3, s.lateral = 6 * random() - 3, s.yaw_rate = 4 * random() - 2;
         double energy = kinetic_energy(s, p);
         for (int i = 0; i < 120; ++i) {
-            advance(s, p, {.angle = 2 * random() - 1, .brake = i % 3 ? 0 : random()}, kStep);
+            advance(s, p, {.angle = 2 * random() - 1, .brake = i % 3 ? 0 : random()}, kVehicleStep);
             const double now = kinetic_energy(s, p);
             ASSERT_LE(now, energy * (1 + 1e-12)) << "run " << run << " step " << i;
             ASSERT_TRUE(std::isfinite(s.position.x + s.yaw));
@@ -146,7 +147,7 @@ TEST(Vehicle, SlowCarsRollWithoutSlip) {
     const auto rear = [&] { return s.position - p.rear_axle * s.forward(); };
     const glm::dvec2 centre = rear() + radius * s.left();
     for (int i = 0; i < 60 * 20; ++i) {
-        advance(s, p, {.angle = 0.4}, kStep);
+        advance(s, p, {.angle = 0.4}, kVehicleStep);
         ASSERT_NEAR(glm::length(rear() - centre), radius, 0.01);
     }
     EXPECT_NEAR(s.odometer, 20 * std::hypot(1, p.rear_axle / radius), 0.5);
@@ -155,10 +156,10 @@ TEST(Vehicle, SlowCarsRollWithoutSlip) {
 TEST(Vehicle, StandsStillAndReverses) {
     const VehicleParameters p;
     VehicleState s;
-    for (int i = 0; i < 60; ++i) advance(s, p, {.angle = 0.3, .brake = 1}, kStep);
+    for (int i = 0; i < 60; ++i) advance(s, p, {.angle = 0.3, .brake = 1}, kVehicleStep);
     EXPECT_EQ(s.speed, 0);
     EXPECT_EQ(s.position, glm::dvec2(0));
-    for (int i = 0; i < 120; ++i) advance(s, p, {.throttle = -0.3}, kStep);
+    for (int i = 0; i < 120; ++i) advance(s, p, {.throttle = -0.3}, kVehicleStep);
     EXPECT_LT(s.speed, -1);
     EXPECT_GT(s.position.y, 1);  // +Z lies behind
 }
@@ -169,7 +170,7 @@ TEST(Vehicle, PassesFromRollingToSlippingSmoothly) {
     VehicleState s;
     double last = 0;
     for (int i = 0; i < 60 * 6; ++i) {
-        advance(s, p, {.angle = 0.1, .throttle = 0.5}, kStep);
+        advance(s, p, {.angle = 0.1, .throttle = 0.5}, kVehicleStep);
         EXPECT_LT(std::abs(s.yaw_rate - last), 0.02) << s.speed;
         last = s.yaw_rate;
     }

@@ -2,10 +2,10 @@
 #include "traffic/world.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "places.h"
 #include "scene/scene_files.h"
@@ -14,9 +14,10 @@
 #include "traffic/world_file.h"
 
 namespace vesper {
+using namespace traffic;
 namespace {
 
-constexpr double kStep = 1.0 / 60, kPi = std::numbers::pi;
+constexpr double kWorldStep = 1.0 / 60;
 
 Course straight(double length, double speed = 50 / 3.6) { return {"straight", {{0, 0, 0}, {0, 0, -length}}, 3, speed}; }
 
@@ -92,14 +93,14 @@ TEST(Course, KeepsToLimitsThatChange) {
     EXPECT_EQ(ring.speed_at(500), 5);
 
     auto d = one_lane(lane);
-    d->cars.push_back({.node = "car", .lane = 0, .s = 0, .speed = 100 / 3.6, .length = 4.5, .wish = 1});
+    d->cars.push_back({.node = "car", .lane = 0, .s = 0, .speed = 100 / 3.6, .length = 4.5, .speed_factor = 1});
     d->driver_lane = 0, d->driver_s = 100, d->driver_speed = 100 / 3.6;
     World world(d, 1);
     double slowest = 100, hardest = 0, before = d->driver_speed;
     for (int i = 0; i < 60 * 40 && world.driver().position.y > -690; ++i) {
-        world.step({.autopilot = true}, kStep);
+        world.step({.autopilot = true}, kWorldStep);
         const double s = -world.driver().position.y, v = world.driver().speed;
-        hardest = std::max(hardest, (before - v) / kStep), before = v;
+        hardest = std::max(hardest, (before - v) / kWorldStep), before = v;
         if (s > 400 && s < 500) {
             EXPECT_LT(v, 30 / 3.6 * 1.05) << s;
         }
@@ -130,7 +131,7 @@ TEST(World, CarsNeverMeetAndKeepTheirDistance) {
     for (int i = 0; i < 12; ++i) d->cars.push_back({.node = "car", .s = 28.0 * i, .speed = 5.0 + i % 3, .length = 4.5});
     World world(d, 7);
     for (int i = 0; i < 60 * 120; ++i) {
-        world.step({}, kStep);
+        world.step({}, kWorldStep);
         const auto actors = world.actors();
         for (size_t a = 1; a < actors.size(); ++a)
             for (size_t b = 1; b < a; ++b) ASSERT_GT(glm::distance(actors[a].position, actors[b].position), 4.5) << i;
@@ -147,7 +148,7 @@ TEST(World, ACarStopsBehindTheDriverWithBrakeLamps) {
     d->cars.push_back({.node = "car", .s = 20, .speed = 13});
     World world(d, 1);
     bool braked = false;
-    for (int i = 0; i < 60 * 30; ++i) world.step({.brake = 1}, kStep), braked |= world.actors()[1].lamps.brake;
+    for (int i = 0; i < 60 * 30; ++i) world.step({.brake = 1}, kWorldStep), braked |= world.actors()[1].lamps.brake;
     const double gap = world.actors()[1].position.z - world.actors()[0].position.z;
     EXPECT_TRUE(braked);
     EXPECT_LT(world.actors()[1].speed, 0.2);
@@ -164,7 +165,7 @@ TEST(World, ACarThatComesInAnewSparesTheDriver) {
         World world(d, 1);
         double least = 1e9;
         for (int i = 0; i < 60 * 40; ++i) {
-            world.step({.brake = 1}, kStep);
+            world.step({.brake = 1}, kWorldStep);
             ASSERT_EQ(world.touched(), 0) << driver << " m, step " << i;
             if (i > 60 * 5) least = std::min(least, double(world.actors()[1].position.z - world.actors()[0].position.z));
         }
@@ -179,9 +180,9 @@ TEST(World, TheAutopilotKeepsToItsLane) {
     d->driver_lane = 0;
     World world(d, 1);
     for (int i = 0; i < 60 * 60; ++i) {
-        world.step({.autopilot = true}, kStep);
+        world.step({.autopilot = true}, kWorldStep);
         const Course::Beside beside = d->lanes[0].beside(world.driver().position);
-        ASSERT_LT(beside.distance, 0.5) << i * kStep << " s";
+        ASSERT_LT(beside.distance, 0.5) << i * kWorldStep << " s";
     }
     EXPECT_NEAR(world.driver().speed, std::sqrt(Course::kCurve * 30), 0.7);
 }
@@ -191,7 +192,7 @@ TEST(World, IsTheSameEveryTimeAndHangsOnItsSeed) {
     d->driver_lane = 0;
     for (int i = 1; i < 6; ++i) d->cars.push_back({.node = "car", .s = 40.0 * i, .speed = 8});
     World a(d, 5), b(d, 5), c(d, 6);
-    for (int i = 0; i < 600; ++i) a.step({.autopilot = true}, kStep), b.step({.autopilot = true}, kStep), c.step({.autopilot = true}, kStep);
+    for (int i = 0; i < 600; ++i) a.step({.autopilot = true}, kWorldStep), b.step({.autopilot = true}, kWorldStep), c.step({.autopilot = true}, kWorldStep);
     EXPECT_EQ(a.driver().position, b.driver().position);
     EXPECT_EQ(a.actors()[3].position, b.actors()[3].position);
     EXPECT_NE(a.actors()[3].position, c.actors()[3].position);
@@ -202,11 +203,11 @@ TEST(World, ChangesLaneToOvertake) {
     auto d = one_lane(straight(3000));
     d->lanes.push_back({"left", {{-3, 0, 0}, {-3, 0, -3000}}, 3, 50 / 3.6});
     d->lanes[0].left = 2, d->lanes[2].right = 0;
-    d->cars.push_back({.node = "slow", .s = 60, .speed = 6, .wish = 0.4});
-    d->cars.push_back({.node = "fast", .s = 20, .speed = 13, .wish = 1});
+    d->cars.push_back({.node = "slow", .s = 60, .speed = 6, .speed_factor = 0.4});
+    d->cars.push_back({.node = "fast", .s = 20, .speed = 13, .speed_factor = 1});
     World world(d, 1);
     bool left = false;
-    for (int i = 0; i < 60 * 40; ++i) world.step({}, kStep), left |= world.actors()[2].lamps.left;
+    for (int i = 0; i < 60 * 40; ++i) world.step({}, kWorldStep), left |= world.actors()[2].lamps.left;
     EXPECT_TRUE(left);
     EXPECT_LT(world.actors()[2].position.z, world.actors()[1].position.z);
     EXPECT_NEAR(world.actors()[2].position.x, -3, 1e-9);
@@ -221,7 +222,7 @@ TEST(World, CarsLetWalkersCrossAndWalkersWait) {
     double nearest = 1e9;
     bool crossed = false;
     for (int i = 0; i < 60 * 60; ++i) {
-        world.step({}, kStep);
+        world.step({}, kWorldStep);
         const auto actors = world.actors();
         crossed |= actors[2].position.x < -5.5;
         if (std::abs(actors[2].position.x) < 2) nearest = std::min(nearest, glm::distance(actors[1].position, actors[2].position));
@@ -241,7 +242,7 @@ TEST(Barrier, StopsACarAndTakesEnergy) {
         double energy = kinetic_energy(s, p);
         for (int i = 0; i < 60 * 4; ++i) {
             const VehicleState before = s;
-            advance(s, p, {}, kStep);
+            advance(s, p, {}, kWorldStep);
             hit |= collide(s, before, p, kerb);
             ASSERT_LE(kinetic_energy(s, p), energy * (1 + 1e-9));
             energy = kinetic_energy(s, p);
@@ -266,7 +267,7 @@ TEST(World, RoadsAboveOneAnotherDoNotMeet) {
         d->recordings.push_back(parked);
         for (const bool by_hand : {false, true}) {
             World world(d, 1);
-            for (int i = 0; i < 30 / kStep; ++i) world.step({.throttle = by_hand ? 0.3 : 0.0, .autopilot = !by_hand}, kStep);
+            for (int i = 0; i < 30 / kWorldStep; ++i) world.step({.throttle = by_hand ? 0.3 : 0.0, .autopilot = !by_hand}, kWorldStep);
             const glm::dvec3 at = world.actors().front().position;
             if (high > 0) {
                 EXPECT_LT(at.z, -250) << by_hand;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle.h"
 #include "base/luminance.h"
 
 namespace vesper::test {
@@ -15,7 +16,6 @@ namespace {
 using glm::dvec3;
 
 constexpr int kColumns = GlarePattern::kColumns, kRows = GlarePattern::kRows;
-constexpr double kDegree = std::numbers::pi / 180;
 
 EyeScatter cie(double age) {
     return EyeScatter([age](double theta) { return cie_total_glare(theta, {age, 0.5}); });
@@ -32,7 +32,7 @@ double middle(int row) { return GlarePattern::angle(row + 0.5); }
 dvec3 modulation(const GlarePattern& p, int row, int column) { return dvec3(p.modulation[size_t(row) * kColumns + size_t(column)]); }
 /// sr of a row.
 double steradians(int row) {
-    return 2 * std::numbers::pi * (std::cos(GlarePattern::angle(row) * kDegree) - std::cos(GlarePattern::angle(row + 1) * kDegree));
+    return 2 * std::numbers::pi * (std::cos(GlarePattern::angle(row) * kRadiansPerDegree) - std::cos(GlarePattern::angle(row + 1) * kRadiansPerDegree));
 }
 
 /// What is seen about a lamp beside the smooth veil: mean of a row.

@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angle.h"
 #include "vision/visibility.h"
 #include "photometry/road.h"
 
 namespace vesper {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 struct Picture {
     ImageAngles image{321, 201, {-0.6, -0.375}, {0.6, 0.375}};
@@ -37,7 +37,7 @@ TEST(GlareReport, LampsInAndBesideThePictureAddUp) {
 
     double want = 0, road = 0;
     for (const auto& [direction, lux] : {std::pair{inside, 2e5 * picture.steradians(250, 60)}, {outside, 3.0}}) {
-        const double theta = std::acos(-direction.z) * kDegrees, e = lux * -direction.z;
+        const double theta = std::acos(-direction.z) * kDegreesPerRadian, e = lux * -direction.z;
         want += e * (10 / std::pow(theta, 3) + (5 / (theta * theta) + 0.05 / theta) * (1 + std::pow(60 / 62.5, 4)) + 0.00125);
         road += e * 9.86 * (1 + std::pow(60 / 66.4, 4)) / (theta * theta);
     }
@@ -103,10 +103,10 @@ TEST(GlareReport, GlareHidesATarget) {
     EXPECT_NEAR(free.target, 0.6, 1e-6);
     EXPECT_NEAR(free.around, 0.3, 1e-6);
     const double steradians = 16 * picture.steradians(160, 100);
-    EXPECT_NEAR(free.visibility / visibility_level(0.6, 0.3, {.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegrees * 60}), 1, 1e-3);
+    EXPECT_NEAR(free.visibility / visibility_level(0.6, 0.3, {.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegreesPerRadian * 60}), 1, 1e-3);
     picture.set(175, 99, float(2 / picture.steradians(175, 99)));  // 2 lx at 3.2 degrees
     const GlareReport dazzled = ask();
-    EXPECT_NEAR(dazzled.target_veil, 2 * cie_general_glare(std::acos(glm::dot(picture.towards(175, 99), glm::normalize(glm::dvec3(picture.image.at({160, 100}), -1)))) * kDegrees, {23, 0.5}), 0.01);
+    EXPECT_NEAR(dazzled.target_veil, 2 * cie_general_glare(std::acos(glm::dot(picture.towards(175, 99), glm::normalize(glm::dvec3(picture.image.at({160, 100}), -1)))) * kDegreesPerRadian, {23, 0.5}), 0.01);
     EXPECT_LT(dazzled.visibility, 0.5 * free.visibility);
 }
 

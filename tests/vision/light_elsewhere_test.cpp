@@ -1,5 +1,6 @@
 // Light of other pictures of one eye: added up, and scattered into a picture, against the sum over every pixel of all of them.
 // SPDX-License-Identifier: MIT
+#include "base/angle.h"
 #include "passes/scatter_reference.h"
 
 #include <algorithm>
@@ -13,16 +14,15 @@
 namespace vesper::reference {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kGuard = LightElsewhere::kGuard;
 constexpr ivec2 kStrip(4, 32);
 
 /// A screen: angles of its edges from its axis, and how that is turned, degrees; with its border.
 EyePicture screen(ivec2 pixels, double left, double right, double down, double up, double yaw, double pitch = 0, double roll = 0) {
-    const auto tangent = [](double degrees) { return std::tan(degrees * kDegree); };
+    const auto tangent = [](double degrees) { return std::tan(degrees * kRadiansPerDegree); };
     const dvec2 low(tangent(left), tangent(down)), high(tangent(right), tangent(up)), border = double(kGuard) * (high - low) / dvec2(pixels);
-    glm::dmat4 turn = glm::rotate(glm::dmat4(1), yaw * kDegree, dvec3(0, 1, 0));
-    turn = glm::rotate(glm::rotate(turn, pitch * kDegree, dvec3(1, 0, 0)), -roll * kDegree, dvec3(0, 0, 1));
+    glm::dmat4 turn = glm::rotate(glm::dmat4(1), yaw * kRadiansPerDegree, dvec3(0, 1, 0));
+    turn = glm::rotate(glm::rotate(turn, pitch * kRadiansPerDegree, dvec3(1, 0, 0)), -roll * kRadiansPerDegree, dvec3(0, 0, 1));
     return {{pixels.x + 2 * kGuard, pixels.y + 2 * kGuard, low - border, high + border}, glm::dmat3(turn), kGuard};
 }
 
@@ -113,7 +113,7 @@ Plane retina(const EyeScatter& psf, const std::vector<EyePicture>& pictures, con
 
 /// A patch of `radius` degrees about a direction, with an edge of a tenth of that.
 Lamp patch(double yaw, double pitch, double radius) {
-    const dvec3 at(-std::sin(yaw * kDegree) * std::cos(pitch * kDegree), std::sin(pitch * kDegree), -std::cos(yaw * kDegree) * std::cos(pitch * kDegree));
+    const dvec3 at(-std::sin(yaw * kRadiansPerDegree) * std::cos(pitch * kRadiansPerDegree), std::sin(pitch * kRadiansPerDegree), -std::cos(yaw * kRadiansPerDegree) * std::cos(pitch * kRadiansPerDegree));
     return [=](dvec3 d) { return 1000 * std::clamp((radius - degrees_apart(d, at)) / (0.1 * radius) + 0.5, 0.0, 1.0); };
 }
 
@@ -189,7 +189,7 @@ TEST(LightElsewhere, ALampCrossesASeam) {
         for (size_t own = 0; own < 3; ++own) elsewhere.emplace_back(psf, pictures, own);
         const ScatterFit fits[]{fit_scatter(psf, pictures[0].image, kStrip), fit_scatter(psf, pictures[1].image, kStrip), fit_scatter(psf, pictures[2].image, kStrip)};
         for (double yaw = 19; yaw < 29; yaw += 0.77) {
-            const dvec3 lamp(-std::sin(yaw * kDegree), 0.05, -std::cos(yaw * kDegree));
+            const dvec3 lamp(-std::sin(yaw * kRadiansPerDegree), 0.05, -std::cos(yaw * kRadiansPerDegree));
             std::vector<Plane> scenes;
             std::vector<LightSums> sums;
             std::vector<std::vector<float>> values;
@@ -220,9 +220,9 @@ TEST(LightElsewhere, WhatIsFarIsTakenTogether) {
 
 // Three screens in one plane, seen off their axes.
 TEST(LightElsewhere, ScreensMayLieInOnePlane) {
-    const double edge = std::tan(16 * kDegree);
+    const double edge = std::tan(16 * kRadiansPerDegree);
     std::vector<EyePicture> pictures;
-    for (int i = -1; i <= 1; ++i) pictures.push_back(screen({96, 96}, std::atan((2 * i - 1) * edge) / kDegree, std::atan((2 * i + 1) * edge) / kDegree, -16, 16, 0));
+    for (int i = -1; i <= 1; ++i) pictures.push_back(screen({96, 96}, std::atan((2 * i - 1) * edge) / kRadiansPerDegree, std::atan((2 * i + 1) * edge) / kRadiansPerDegree, -16, 16, 0));
     expect_everywhere(pictures, patch(24, 3, 4));
 }
 
@@ -254,7 +254,7 @@ TEST(LightElsewhere, UnseenLampsVeil) {
     std::vector<Plane> dark;
     for (const EyePicture& p : pictures) dark.emplace_back(ivec2(p.image.width, p.image.height));
     for (const double pitch : {19.0, 25.0, 40.0, 70.0}) {
-        const dvec3 lamp(0, std::sin(pitch * kDegree), -std::cos(pitch * kDegree));
+        const dvec3 lamp(0, std::sin(pitch * kRadiansPerDegree), -std::cos(pitch * kRadiansPerDegree));
         const Plane seen = retina(psf, pictures, dark, 0, {{lamp, dvec3(10, 5, 1)}});
         for (const ivec2 at : {ivec2(kGuard), dark[0].size / 2, dark[0].size - 1 - kGuard}) {
             const double want = psf(degrees_apart(lamp, pictures[0].turn * direction_of(pictures[0].image, dvec2(at) + 0.5)));

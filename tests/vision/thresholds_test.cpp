@@ -9,7 +9,7 @@ namespace vesper::test {
 namespace {
 
 // Six digits are tabulated.
-constexpr double kDigits = 5e-6;
+constexpr double kTableDigits = 5e-6;
 
 // tone-mapping.md, 1.1: log10 L, cones, rods, both.
 TEST(Thresholds, OfConesRodsAndBothAreThoseOfTheTable) {
@@ -21,9 +21,9 @@ TEST(Thresholds, OfConesRodsAndBothAreThoseOfTheTable) {
                             {4, 555.904, 4027.17, 555.904}};
     for (const auto& [l, cones, rods, both] : table) {
         const double luminance = std::pow(10, l);
-        EXPECT_NEAR(cone_threshold(luminance) / cones, 1, kDigits) << l;
-        EXPECT_NEAR(rod_threshold(luminance) / rods, 1, kDigits) << l;
-        EXPECT_NEAR(human_threshold(luminance) / both, 1, kDigits) << l;
+        EXPECT_NEAR(cone_threshold(luminance) / cones, 1, kTableDigits) << l;
+        EXPECT_NEAR(rod_threshold(luminance) / rods, 1, kTableDigits) << l;
+        EXPECT_NEAR(human_threshold(luminance) / both, 1, kTableDigits) << l;
     }
 }
 

@@ -6,7 +6,7 @@ install(TARGETS vesper-cli vesper-drive-cli vesper-bench-cli RUNTIME DESTINATION
 # The generators stay with the source.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/vesper
         PATTERN generate.py EXCLUDE PATTERN rivoli/street EXCLUDE PATTERN __pycache__ EXCLUDE)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/DESIGN.md DESTINATION ${documents})
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md DESTINATION ${documents})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/examples/ DESTINATION ${documents}/examples PATTERN __pycache__ EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)

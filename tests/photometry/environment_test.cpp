@@ -114,7 +114,7 @@ TEST(Environment, ThePolynomialIsExactUpToOrderTwo) {
 }
 
 // Half a sky is the smoothest of the hard cases: within 3 % of the largest illuminance. A single spot is the hardest
-// there is: 12 % of what it gives at best, since the orders left out begin with the fourth. DESIGN.md states both.
+// there is: 12 % of what it gives at best, since the orders left out begin with the fourth. docs/design/lamps.md states both.
 TEST(Environment, ThePolynomialsErrorIsAsStated) {
     std::mt19937 random(5);
     const Environment half = sky_of(64, [](dvec3 d) { return dvec3(d.y > 0); });

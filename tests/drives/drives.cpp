@@ -1,5 +1,5 @@
 // How steady is the picture of a drive? Greys of constant luminance are put into every frame of three drives, and the largest change of their
-// codes from one frame to the next is held against a limit for each operator. Prints the table of docs/tone.md.
+// codes from one frame to the next is held against a limit for each operator. Prints the table of docs/tone-curve.md.
 //     vesper-drives [WIDTHxHEIGHT [FPS [SECONDS [none|cie [OPERATOR]]]]]
 // SPDX-License-Identifier: MIT
 #include <algorithm>

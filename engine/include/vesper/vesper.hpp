@@ -1,5 +1,5 @@
 /** @file
- * vesper.h from C++: owners of its handles, and exceptions for its results. SPDX-License-Identifier: MIT
+ * C++17 for vesper.h: owners of handles, and exceptions for results. SPDX-License-Identifier: MIT
  */
 #ifndef VESPER_VESPER_HPP
 #define VESPER_VESPER_HPP
@@ -14,18 +14,18 @@
 /** The C interface with owners and exceptions. */
 namespace vesper::cpp {
 
-/** What a call failed with. */
+/** A failed call. */
 class Failure : public std::runtime_error {
 public:
-    /** Of a result that is not VESPER_OK, with its message. */
+    /** `kind` is not VESPER_OK. */
     Failure(VesperResult kind, const std::string& message) : std::runtime_error(message), result(kind) {}
-    VesperResult result; /**< which kind it is */
+    VesperResult result; /**< kind of the failure */
 };
 
-/** Destroys what a handle stands for. */
+/** Deleter of a handle. */
 template <auto Destroy>
 struct Destroyer {
-    /** Called by the owner. */
+    /** Destroys the object. */
     template <class T>
     void operator()(T* object) const {
         Destroy(object);
@@ -36,7 +36,7 @@ using ToneMapper = std::unique_ptr<VesperToneMapper, Destroyer<vesper_tone_mappe
 using Scene = std::unique_ptr<VesperScene, Destroyer<vesper_scene_destroy>>;                   /**< owner of a scene */
 using Renderer = std::unique_ptr<VesperRenderer, Destroyer<vesper_renderer_destroy>>;          /**< owner of a renderer */
 
-/** Calls a function of vesper.h, without its last argument. Throws Failure:
+/** Calls a function of vesper.h, without its last argument (the error). Throws Failure. Example:
  *     call(vesper_render, renderer.get(), &settings, &view, seconds, &outputs); */
 template <class... Parameters, class... Arguments>
 void call(VesperResult (*function)(Parameters...), Arguments&&... arguments) {
@@ -45,7 +45,8 @@ void call(VesperResult (*function)(Parameters...), Arguments&&... arguments) {
     if (result != VESPER_OK) throw Failure(result, error.message);
 }
 
-/** Makes something by a function of vesper.h, without its last two arguments. Throws Failure:
+/** Makes an object by a function of vesper.h, without its last two arguments (object and error). Throws Failure.
+ * Example:
  *     const auto device = make<Device>(vesper_device_open, nullptr); */
 template <class Owner, class... Parameters, class... Arguments>
 Owner make(VesperResult (*function)(Parameters...), Arguments&&... arguments) {
@@ -54,7 +55,7 @@ Owner make(VesperResult (*function)(Parameters...), Arguments&&... arguments) {
     return Owner(made);
 }
 
-/** A structure of vesper.h with its size set and everything else zero. */
+/** A structure of vesper.h with its size set and all other fields zero. */
 template <class T>
 T sized() {
     return VESPER_INIT(T);

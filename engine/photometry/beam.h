@@ -25,8 +25,8 @@ Cut plane_cut(const Distribution&, double c);
 Cut horizontal_cut(const Distribution&, double v);
 Cut vertical_cut(const Distribution&, double h);
 
-/// Where in a cut the intensity is at least `share` of its greatest, deg: from the first such angle to the last, linear
-/// between nodes. Nothing where all is dark.
+/// First and last angle, deg, at which the intensity of a cut is at least `share` of its greatest, linear between
+/// nodes. Empty for a dark cut.
 struct Width {
     double from = 0, to = 0;
     double angle() const { return to - from; }
@@ -34,7 +34,7 @@ struct Width {
 std::optional<Width> width_of(const Cut&, double share);
 
 enum class BeamSymmetry : uint8_t { None, Rotational, Quadrants, AboutC0, AboutC90, LeftRight };
-/// What holds for all intensities within 0.1 % of the greatest. AboutC0: C and -C are alike; LeftRight: H and -H.
+/// Symmetry that all intensities have within 0.1 % of the greatest. AboutC0: C and -C are alike; LeftRight: H and -H.
 BeamSymmetry symmetry_of(const Distribution&);
 const char* name_of(BeamSymmetry);
 

@@ -12,7 +12,7 @@ namespace vesper {
 
 struct HdrImage;
 
-/// What an emitting surface looks like. Values times a factor that belongs to the surface are cd/m^2.
+/// Luminance of an emitting surface. Values times a factor of the surface are cd/m^2.
 struct LuminancePicture {
     std::string name;
     uint32_t width = 0, height = 0;
@@ -21,9 +21,9 @@ struct LuminancePicture {
 
 constexpr float kLargestValue = 1e30f;
 
-/// From a picture, its values as they are. A colour outside of Rec. 709 (a negative component) is mixed with the grey of
-/// its luminance until it is inside; one without luminance, or of a negative one, becomes black. How many pixels that
-/// concerns is added to `changed`. Throws Error (reason only) naming the first pixel that is NaN, infinite or beyond
+/// From a picture, its values as they are. A colour outside of Rec. 709 (a negative component) is mixed with the grey
+/// of its luminance until it is inside; one without luminance, or of a negative one, becomes black. The number of such
+/// pixels is added to `changed`. Throws Error (reason only) naming the first pixel that is NaN, infinite or beyond
 /// kLargestValue.
 LuminancePicture make_luminance_picture(HdrImage, uint64_t* changed = nullptr);
 

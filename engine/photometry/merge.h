@@ -13,11 +13,11 @@
 namespace vesper {
 
 constexpr size_t kMaxExposures = 32;
-/// Codes that hold a pixel well; the others are left out where there is one of these.
+/// Range of good codes. Other codes count only if no exposure has a good one.
 constexpr int kLowestGoodCode = 8, kHighestGoodCode = 247;
 
-/// time * ISO speed / f-number^2 of each picture, by name. Throws Error if one has no time, or if only some say
-/// f-number or ISO speed; what none says counts as equal.
+/// time * ISO speed / f-number^2 of each picture, by name. A value that no picture states counts as equal. Throws Error
+/// if a picture has no time, or if only some state f-number or ISO speed.
 std::vector<double> relative_exposures(std::span<const std::pair<std::string, CameraExposure>>);
 
 struct MergedImage {
@@ -29,9 +29,9 @@ struct MergedImage {
     double darkest = 0, brightest = 0;  ///< luminance of the other pixels, in the picture's unit
 };
 
-/// ln E = sum p(Z) (g(Z) - ln t) / sum p(Z) over the good codes, per channel (eq. 6 with the precisions of codes). What no picture holds well gets
-/// the value of the picture that comes closest: among black ones the longest exposure, among white ones the shortest.
-/// Throws Error unless there are 1 to kMaxExposures pictures of equal size with exposures > 0.
+/// ln E = sum p(Z) (g(Z) - ln t) / sum p(Z) over the good codes, per channel (eq. 6 with the precisions of codes). A
+/// pixel without a good code gets the value of the closest picture: of black ones the longest exposure, of white ones
+/// the shortest. Throws Error unless there are 1 to kMaxExposures pictures of equal size with exposures > 0.
 MergedImage merge_exposures(std::span<const Exposure>, const Response&);
 
 /// Sets the shifts, relative to the picture of middle exposure, from median threshold bitmaps of neighbours in exposure

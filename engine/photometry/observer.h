@@ -17,7 +17,8 @@ extern const std::array<glm::dvec3, kWavelengths> kObserver;
 /// Radiance of a black body (Planck) over that at 560 nm.
 double black_body(double nanometres, double kelvin);
 
-/// Which part of R, G and B of white light (a black body of 6500 K) each wavelength makes: each channel's sum is 1. Parts may be negative.
+/// Share of each wavelength in R, G and B of white light (a black body of 6500 K). Shares of a channel add to 1 and may
+/// be negative.
 std::array<glm::dvec3, kWavelengths> white_light();
 
 }  // namespace vesper

@@ -1,4 +1,4 @@
-// How a road surface reflects towards a driver: tables of reduced luminance coefficients. SPDX-License-Identifier: MIT
+// Reflection tables of road surfaces: reduced luminance coefficients towards a driver. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@ namespace vesper {
 /// An r-table (CIE 144:2001): r = q cos^3(gamma), q = L / E_h, for an observer who looks down at 1 degree. gamma is the
 /// angle of incidence from the vertical; beta, in plan, is the turn from "observer to point" to "point to lamp": 0
 /// where the lamp stands beyond the point (the specular side), 180 where it stands behind the observer. A cell of 0 is
-/// one the table does not cover. L = r I / H^2 with H the height of the lamp above the road.
+/// not covered. L = r I / H^2 with H the height of the lamp above the road.
 struct ReflectionTable {
     std::string name;
     std::vector<double> tan_gamma;  ///< ascending from 0, at least 2
     std::vector<double> beta;       ///< deg, ascending from 0 to 180, at least 2
     std::vector<double> r;          ///< sr^-1, beta.size() values for each tan_gamma
-    double stated_q0 = 0;           ///< the Q0 of the class, sr^-1; 0 where none is stated
-    bool wet = false;               ///< of a wet surface, which the limits of dry ones do not hold for
+    double stated_q0 = 0;           ///< the Q0 of the class, sr^-1; 0 if not stated
+    bool wet = false;               ///< a wet surface: limits of dry surfaces do not apply
     bool extended = false;          ///< see extended()
 
     double at(size_t t, size_t b) const { return r[t * beta.size() + b]; }
@@ -36,8 +36,8 @@ double luminance_coefficient(const ReflectionTable&, double tan_gamma, double be
 /// The integral of the bilinear r; it lies 1 to 3 % above the published values of the standard tables, because straight
 /// lines between the nodes lie above a lobe.
 double average_luminance_coefficient(const ReflectionTable&);
-/// Qd = L / E under a sky of uniform luminance, the luminance coefficient in diffuse illumination: the integral of q cos(gamma) over the
-/// hemisphere, over pi, sr^-1. Of rho / pi for a Lambert surface.
+/// Qd = L / E under a sky of uniform luminance, the luminance coefficient in diffuse illumination: the integral of q
+/// cos(gamma) over the hemisphere, over pi, sr^-1. Of rho / pi for a Lambert surface.
 double diffuse_luminance_coefficient(const ReflectionTable&);
 /// S1 = r(tan gamma 2, beta 0) / r(0, 0), how specular the surface is (CIE 144:2001).
 double specular_factor(const ReflectionTable&);
@@ -46,14 +46,14 @@ double specular_factor(const ReflectionTable&);
 /// none is stated), so that R3 of Q0 = 0.07 is R3 as published.
 ReflectionTable rescaled(ReflectionTable, double q0);
 
-/// For rendering, which must not show the edge of a table: every cell not covered takes q of the nearest covered tan
-/// gamma below it in its column, and beyond the last tan gamma L per illuminance on a plane facing the lamp stays, so that r falls
-/// as cos^2(gamma). Where the four cells around a direction are covered nothing changes. CIE calculations take the table as it is.
+/// The table continued for rendering, without an edge. A cell that is not covered takes q of the nearest covered tan
+/// gamma below it in its column. Beyond the last tan gamma L per illuminance on a plane facing the lamp is constant: r
+/// falls as cos^2(gamma). Covered cells are unchanged. CIE calculations use the table as it is.
 ReflectionTable extended(ReflectionTable);
-/// The same at any beta as at 90 degrees.
+/// The table with its values at beta = 90 degrees for all beta.
 ReflectionTable without_sheen(ReflectionTable);
 
-/// Throws Error (starting with `place`) unless the table is as described above, of at most 512 by 512 finite values.
+/// Throws Error (starting with `place`) unless the table has the form above and at most 512 by 512 finite values.
 void check_reflection_table(const ReflectionTable&, const std::string& place);
 
 /// Whether a CSV file is an r-table: its corner cell is tan gamma.
@@ -65,7 +65,7 @@ ReflectionTable read_reflection_table(const std::filesystem::path& file);
 
 /// Names of the tables built in: R1 to R4, C1, C2 (dry), W3, W4 (wet).
 std::vector<std::string> standard_reflection_tables();
-/// One of them by its name; otherwise the file of that name, relative to `folder`.
+/// A standard table by name; else a file relative to `folder`.
 ReflectionTable find_reflection_table(const std::string& name_or_file, const std::filesystem::path& folder = {});
 
 }  // namespace vesper

@@ -1,4 +1,4 @@
-// The response of a camera: which exposure gives which code. SPDX-License-Identifier: MIT
+// The response of a camera: codes over exposure. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -34,9 +34,10 @@ Response srgb_response();
 /// Weight of a code: 0 at both ends of the range, where noise and saturation are, 1 in its middle (eq. 4).
 constexpr double code_weight(int code) { return (code < 128 ? code : 255 - code) / 127.5; }
 
-/// What a code of one channel tells of ln X where codes have equal noise: 1 / g'(Z)^2, the inverse of its variance for noise of one code,
-/// lowered within 32 codes of both ends, where pictures saturate. (M. Robertson et al., "Estimation-theoretic approach to dynamic range
-/// enhancement using multiple exposures", Journal of Electronic Imaging 12(2), 2003, have this weight for light instead of its logarithm.)
+/// Precision of ln X from a code of one channel with equal noise of codes: 1 / g'(Z)^2, the inverse of its variance,
+/// lowered within 32 codes of both ends, where pictures saturate. (M. Robertson et al., "Estimation-theoretic approach
+/// to dynamic range enhancement using multiple exposures", Journal of Electronic Imaging 12(2), 2003, have this weight
+/// for light instead of its logarithm.)
 std::array<double, 256> code_precisions(const std::array<double, 256>& ln_exposure);
 
 struct RecoveredResponse {
@@ -46,16 +47,17 @@ struct RecoveredResponse {
     std::array<int, 3> falls{};      ///< codes from 1 to 254 that stand for less light than the code below
 };
 
-/// Recovers the response from at least two pictures of equal size and different exposure: minimizes (eq. 3)
-/// sum w(Z)^2 (g(Z) - ln E - ln t)^2 + lambda^2 sum w(z)^2 s''(z)^2 over g and the irradiances E of pixels spread over
-/// the picture and over all codes, where s is what g has beside a ln z + b ln(z + 0.055) + c ln(1.1 - z), z from 0 to 1, of any a, b and c.
-/// Without random numbers. `smoothness` is lambda, where each code has data of weight one. Throws Error if the pictures do not determine it.
+/// Recovers the response from at least two pictures of equal size and different exposure: minimizes (eq. 3) sum w(Z)^2
+/// (g(Z) - ln E - ln t)^2 + lambda^2 sum w(z)^2 s''(z)^2 over g and the irradiances E of pixels spread over the picture
+/// and over all codes, where s is g less its best a ln z + b ln(z + 0.055) + c ln(1.1 - z), z from 0 to 1.
+/// Deterministic. `smoothness` is lambda, where each code has data of weight one. Throws Error if the pictures do not
+/// determine it.
 RecoveredResponse recover_response(std::span<const Exposure>, double smoothness = 100);
 
-/// How many codes from 1 to 254 stand for less light than the code below.
+/// Number of codes from 1 to 254 that stand for less light than the code below.
 std::array<int, 3> count_falls(const Response&);
 
-/// A table of 256 lines "code, g of R, G and B" under one line of headings, which say which column is of which channel. Throws Error.
+/// A table of 256 lines "code, g of R, G and B" under one line of headings that name the channels. Throws Error.
 void write_response(const std::filesystem::path& file, const Response&);
 Response read_response(const std::filesystem::path& file);
 

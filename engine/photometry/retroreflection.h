@@ -10,13 +10,14 @@ namespace vesper {
 
 constexpr size_t kMaxRetroNodes = 8;  ///< of either angle
 
-/// A coefficient of retroreflection over the observation angle (at the target, between lamp and eye) and the entrance angle
-/// (between lamp and normal). Its logarithm is linear between observation angles, constant before the first and goes on as
-/// at the end beyond the last; the factor for the entrance is linear in its cosine, constant beyond both ends.
+/// A coefficient of retroreflection over the observation angle (at the target, between lamp and eye) and the entrance
+/// angle (between lamp and normal). Its logarithm is linear between observation angles, constant before the first and
+/// continues its slope beyond the last; the factor for the entrance is linear in its cosine, constant beyond both ends.
 struct Retroreflector {
     std::string name;
     std::vector<double> observation;     ///< degrees, ascending, at least two
-    std::vector<double> coefficient;     ///< at the first entrance angle and where the base colour is 1, > 0; falls at the end
+    std::vector<double> coefficient;     ///< at the first entrance angle and where the base colour is 1, > 0; falls at
+                                         ///< the end
     std::vector<double> entrance;        ///< degrees, ascending, at least one
     std::vector<double> entrance_factor; ///< [0, 1]
     bool marking = false;                ///< R_L rather than R_A
@@ -30,13 +31,13 @@ Retroreflector retroreflective_class(const std::string& name);
 Retroreflector retroreflective_marking(double r_l_mcd);
 /// All coefficients times a factor.
 Retroreflector rescaled(Retroreflector, double factor);
-/// Throws Error (reason only) for what breaks the rules above.
+/// Throws Error (reason only) unless the rules above hold.
 void check_retroreflector(const Retroreflector&);
 
-/// R_A, cd/(lx m^2), or R_L, cd/(lx m^2) as well. Degrees.
+/// R_A or R_L, cd/(lx m^2), at angles in degrees.
 double retroreflection(const Retroreflector&, double observation, double entrance);
-/// Luminance of what a lamp lights with `illuminance` (lx, facing the lamp), seen `view` degrees from the normal, cd/m^2.
-/// cos(view) counts as at least 0.05.
+/// Luminance, cd/m^2, of a surface lit with `illuminance` (lx, facing the lamp) and seen `view` degrees from its
+/// normal. cos(view) counts as at least 0.05.
 double retroreflected_luminance(const Retroreflector&, double observation, double entrance, double view, double illuminance);
 
 }  // namespace vesper

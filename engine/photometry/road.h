@@ -57,7 +57,7 @@ struct RoadLayout {
     double age = 23;  ///< of the observer of TI, years
 };
 
-/// Throws Error (starting with the layout's name) when the numbers are no road's.
+/// Throws Error (starting with the layout's name) if a value is out of range.
 void check_road(const RoadLayout&);
 
 /// A luminaire in place.
@@ -66,11 +66,11 @@ struct RoadLuminaire {
     glm::dmat3 axes{1};  ///< columns: C0, C90 and up (against the nadir) of its distribution
 };
 
-/// The luminaires of one spacing, and all whose x lies in [low, high].
+/// The luminaires of one spacing (road_mounts), and all with x in [low, high] (road_luminaires).
 std::vector<RoadMount> road_mounts(const RoadLayout&);
 std::vector<RoadLuminaire> road_luminaires(const RoadLayout&, double low, double high);
 
-/// The part of the road that is looked at: N values of x over one spacing (10 up to 30 m, then steps of 3 m or less),
+/// The calculated part of the road: N values of x over one spacing (10 up to 30 m, then steps of 3 m or less),
 /// three values of y in every lane (EN 13201-3, 7.1).
 struct RoadField {
     std::vector<double> x, y;
@@ -82,18 +82,19 @@ double road_height(const RoadLayout&);
 
 /// Maintained horizontal illuminance, lx: luminaires within 5H (EN 13201-3, 7.2).
 double horizontal_illuminance(const RoadLayout&, std::span<const RoadLuminaire>, glm::dvec2 point);
-/// The reduced luminance coefficient by which a luminaire counts for a point and an observer, sr^-1: 0 unless it stands
-/// from 5H before to 12H beyond the point and 5H aside (CIE 140, 4.3), within the table.
+/// The reduced luminance coefficient of a luminaire for a point and an observer, sr^-1. 0 outside the table, or if the
+/// luminaire is not within 5H before, 12H beyond and 5H beside the point (CIE 140, 4.3).
 double reflected_towards(const RoadLayout&, const RoadLuminaire&, glm::dvec2 point, glm::dvec2 observer);
-/// Maintained luminance towards an observer, cd/m^2, by the luminaires that count.
+/// Maintained luminance towards an observer, cd/m^2, by all luminaires with a coefficient above 0.
 double road_luminance(const RoadLayout&, std::span<const RoadLuminaire>, glm::dvec2 point, glm::dvec2 observer);
-/// Veiling luminance for 1 lx at the eye, sr^-1, theta degrees off the line of sight: 1.5 to 60 degrees 9.86 (1 + (age/66.4)^4)
-/// / theta^2, 0.1 to 1.5 degrees 10/theta^3 + 5/theta^2 (1 + (age/62.5)^4); otherwise 0 (EN 13201-3, 8.5).
+/// Veiling luminance for 1 lx at the eye, sr^-1, theta degrees off the line of sight: 1.5 to 60 degrees 9.86 (1 +
+/// (age/66.4)^4) / theta^2, 0.1 to 1.5 degrees 10/theta^3 + 5/theta^2 (1 + (age/62.5)^4); otherwise 0 (EN 13201-3,
+/// 8.5).
 double road_glare(double theta, double age);
-/// Veiling luminance of new luminaires for an eye that looks along x and 1 degree down, cd/m^2; not those beyond 500 m, nor above
-/// the car's roof, 20 degrees up (EN 13201-3, 8.5).
+/// Veiling luminance of new luminaires for an eye that looks along x and 1 degree down, cd/m^2; not those beyond 500 m,
+/// nor above the car's roof, 20 degrees up (EN 13201-3, 8.5).
 double veiling_luminance(const RoadLayout&, std::span<const RoadLuminaire>, glm::dvec3 eye);
-/// Luminaires beyond this distance along the road dazzle nobody (CIE 140), m.
+/// Greatest distance along the road of luminaires that count as glare (CIE 140), m.
 constexpr double kGlareRange = 500;
 /// TI, %: 65 Lv / Lav^0.8, above 5 cd/m^2 95 Lv / Lav^1.05 (CIE 140; EN 13201-3, 8.5).
 double threshold_increment(double veil, double average_luminance);
@@ -105,7 +106,7 @@ struct FieldPoint {
     std::vector<double> luminance;  ///< for each observer, cd/m^2
 };
 
-/// What the observer in the middle of a lane sees.
+/// Figures of the observer in the middle of a lane.
 struct RoadObserver {
     int lane = 1;                      ///< from 1 at the nearside edge
     glm::dvec3 eye{0};                 ///< 60 m before the field, 1.5 m up
@@ -117,7 +118,7 @@ struct RoadObserver {
     double threshold_increment = 0;    ///< there, %, with the initial average luminance
 };
 
-/// The observers in place, lane by lane, with nothing calculated.
+/// The observers in their places, lane by lane, without figures.
 std::vector<RoadObserver> road_observers(const RoadLayout&);
 
 struct RoadResult {
@@ -132,21 +133,21 @@ struct RoadResult {
     bool wet = false;  ///< as the surface is
 };
 
-/// Throws Error when the layout is no road's, or none of its light is seen.
+/// Calculates all figures. Throws Error if a value is out of range, or if no light reaches an observer.
 RoadResult calculate_road(const RoadLayout&);
 
-/// A lighting class for motorised traffic (EN 13201-2:2015, Table 1): all but `increment` are lower limits, of the dry road but for
-/// `overall_wet`.
+/// A lighting class for motorised traffic (EN 13201-2:2015, Table 1): all but `increment` are lower limits, of the dry
+/// road but for `overall_wet`.
 struct LightingClass {
     const char* name;
     double luminance, overall, lengthwise, increment, edge, overall_wet = 0.15;
 };
 std::span<const LightingClass> lighting_classes();
-/// Of that name, or nothing.
+/// The class of a name, or null.
 const LightingClass* find_lighting_class(const std::string& name);
-/// Whether all limits hold; of a wet road that of `overall_wet`, the only one it has.
+/// True if all limits hold; for a wet road if `overall_wet` holds.
 bool fulfils(const RoadResult&, const LightingClass&);
-/// The most demanding class whose limits all hold; nothing where there is none, and for wet roads.
+/// The most demanding class whose limits all hold; null without one, and for wet roads.
 const LightingClass* reached_class(const RoadResult&);
 
 }  // namespace vesper

@@ -9,8 +9,8 @@
 
 namespace vesper {
 
-/// A map of all directions on a square (Q. Meyer et al., "On Floating-Point Normal Vectors", 2010; z is the pole), with a
-/// border of one texel that repeats what lies beyond the edge, so that bilinear lookups need no wrapping.
+/// A map of all directions on a square (Q. Meyer et al., "On Floating-Point Normal Vectors", 2010; z is the pole), with
+/// a border of one texel that repeats what lies beyond the edge, so that bilinear lookups need no wrapping.
 struct OctahedralMap {
     uint32_t side = 0;              ///< texels without the border
     std::vector<glm::vec4> texels;  ///< (side + 2)^2, cd/m^2 RGB
@@ -27,20 +27,21 @@ constexpr uint32_t kSpecularSide = 32;  ///< of the table of reflected fractions
 struct SkyMap {
     Irradiance9 irradiance{};
     OctahedralMap sharp;               ///< as seen; the reflection of roughness 0
-    std::vector<OctahedralMap> lobes;  ///< mean luminance in the GGX lobe of each roughness about a direction of reflection
+    std::vector<OctahedralMap> lobes;  ///< mean luminance in the GGX lobe of each roughness about a direction of
+                                       ///< reflection
 };
-/// The lobes are those of light, eye and normal in one line (B. Karis, "Real Shading in Unreal Engine 4", 2013), weighted
-/// by the cosine: a uniform sky stays what it is. At grazing incidence true lobes are longer.
+/// Lobes for light, eye and normal in one line (B. Karis, "Real Shading in Unreal Engine 4", 2013), weighted by the
+/// cosine, so a uniform sky is unchanged. At grazing incidence true lobes are longer.
 SkyMap make_sky_map(const Environment&);
 
-/// Direction of a place on the square, [-1, 1] both ways, and back.
+/// Direction of a place on the square [-1, 1]^2, and its inverse.
 glm::dvec3 octahedral_direction(glm::dvec2 place);
 glm::dvec2 octahedral_place(glm::dvec3 direction);
-/// Bilinear.
+/// Luminance in a direction, cd/m^2 RGB, bilinear between texels.
 glm::dvec3 luminance_of(const OctahedralMap&, glm::dvec3 direction);
 
-/// Fractions of uniform light that a rough surface reflects: `scale` F0 + `offset` F90 (Karis 2013), F Schlick's. GGX with
-/// height-correlated Smith masking (Heitz 2014). By importance sampling with `samples` directions.
+/// Fractions of uniform light that a rough surface reflects: `scale` F0 + `offset` F90 (Karis 2013), F Schlick's. GGX
+/// with height-correlated Smith masking (Heitz 2014). By importance sampling with `samples` directions.
 struct Reflected {
     double scale = 0, offset = 0;
 };

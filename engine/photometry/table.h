@@ -1,4 +1,4 @@
-// What the readers of distributions share: text, bounds, checks, symmetry. Not a public header.
+// Shared parts of the readers of distributions: text, bounds, checks, symmetry. Not a public header.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -23,7 +23,7 @@ class LineReader {
 public:
     LineReader(std::span<const uint8_t> bytes, std::string name);
 
-    /// The next line without its end; nothing when there is none.
+    /// The next line without its end; empty at the end of the file.
     std::optional<std::string_view> next();
     /// Number of the line that next() gave last, from 1.
     size_t line() const { return line_; }
@@ -39,33 +39,34 @@ private:
 };
 
 std::string_view trimmed(std::string_view text);
-/// Fit for a name: trimmed, control characters replaced; bytes that are no UTF-8 are taken for Latin-1.
+/// A text made fit for a name: trimmed, control characters replaced; bytes that are no UTF-8 are taken for Latin-1.
 std::string readable(std::string_view text);
 /// A text in a message, quoted and short.
 std::string quoted(std::string_view text);
-/// The words of a heading in lower case, whatever stands between them: "V [°]" is one, "I_cd" are two.
+/// The words of a heading in lower case, separated by any other characters: "V [°]" is one, "I_cd" are two.
 std::vector<std::string> words_of(std::string_view heading);
 /// Whether a corner cell names tan gamma ("tan_gamma", "tg", "beta\\tan(gamma)"): the file is an r-table.
 bool names_tan_gamma(std::string_view cell);
-/// A finite number; the whole text must be one. One too small for a double is 0. A decimal comma will do where `comma` is set.
+/// A finite number; the whole text must be one. One too small for a double is 0. A decimal comma will do where `comma`
+/// is set.
 std::optional<double> number_of(std::string_view text, bool comma = true);
 
-/// The trimmed fields of a line. What is behind more than `most` of them is left off, so that there being more shows.
+/// The trimmed fields of a line. Parsing stops after more than `most` fields, so that the caller sees the excess.
 std::vector<std::string_view> fields_of(std::string_view line, char separator, size_t most);
 
 enum class TablePart : uint8_t { Horizontal, Vertical, Candela };
 using TableFault = std::function<void(TablePart, const std::string& reason)>;  ///< must throw
 
-/// Why a table of so many angles is not read; empty if it is.
+/// Reason to refuse a table of so many angles; empty if it is accepted.
 std::string objection_to_size(double horizontal, double vertical);
 
-/// Whether C planes from 0 on go round the circle: from the last to 360 deg is at most half as much again as their widest step.
+/// True if C planes from 0 close the circle: the gap from the last to 360 deg is at most 1.5 times the widest step.
 bool go_round(const std::vector<double>& planes);
 
-/// Makes a distribution of a table as a file holds it: checks angles and intensities, drops a last angle that is there
-/// twice, sets negative noise (down to -1 % of the largest intensity) to 0 and expands symmetry. C planes may be one; 0
-/// to 90, 180 or 360 (whose two ends differ by at most 10 % of the largest intensity: their mean is taken); 0 to less than
-/// 360 where they go round; 90 to 270; -90 to 90. `halves`: H of types A and B from 0 stands for both sides.
+/// Completes a table as read from a file: checks angles and intensities, drops a repeated last angle, sets negative
+/// noise (down to -1 % of the largest intensity) to 0 and expands symmetry. C planes may be one; 0 to 90, 180 or 360
+/// (whose two ends differ by at most 10 % of the largest intensity: their mean is taken); 0 to less than 360 if they
+/// close the circle; 90 to 270; -90 to 90. `halves`: H of types A and B from 0 stands for both sides.
 void finish_table(Distribution& table, bool halves, const TableFault& fault);
 
 }  // namespace vesper

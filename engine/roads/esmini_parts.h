@@ -1,4 +1,4 @@
-// What the parts of reading a run share. Not a public header. SPDX-License-Identifier: MIT
+// Shared parts of the reader of runs. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <functional>
@@ -23,7 +23,7 @@ public:
     XmlElement root() const { return file_->root(); }
     const Parameters& parameters() const { return parameters_; }
 
-    /// An element of a catalog and its parameters, as a CatalogReference asks for.
+    /// An element of a catalog and its parameters, for a CatalogReference.
     struct Entry {
         XmlElement element;
         Parameters parameters;
@@ -40,16 +40,16 @@ private:
     void look_for_catalogs();
 };
 
-/// Parameters declared in an element, over those around it; `assigned` wins.
+/// Parameters of an element and of its parents; the inner ones override.
 Parameters declared(const XmlElement& element, const Parameters& around);
-/// The value of an expression, truth as 1 and 0; nothing where it is none of known parameters or not finite.
+/// The value of an expression (truth: 1 and 0); empty if it is invalid, has unknown parameters, or is not finite.
 std::optional<double> expression_value(std::string_view text, const Parameters& scope);
-/// An attribute with its parameters and expressions ($name, ${$a * 2}) put in; nothing where missing.
+/// An attribute with evaluated parameters and expressions ($name, ${$a * 2}); empty if missing.
 std::optional<std::string> resolved(const XmlElement& element, const char* attribute, const Parameters& scope);
 bool flag_in(const XmlElement& element, const char* attribute, const Parameters& scope);
 double number_in(const XmlElement& element, const char* attribute, const Parameters& scope, double fallback);
 
-/// Goes through the storyboard at the run's steps and enters what it sets.
+/// Plays the storyboard at the steps of the run and adds its events of lamps, traffic lights and time of day.
 void play_storyboard(ScenarioFile& scenario, const RoadNetwork* roads, EsminiRun& run);
 
 }  // namespace vesper::roads

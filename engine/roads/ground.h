@@ -1,4 +1,4 @@
-// The ground around roads: heights on a grid, nowhere above a road. SPDX-License-Identifier: MIT
+// The ground around roads: heights on a grid, always below the roads. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@ namespace vesper::roads {
 /// Heights over the plane of the file's frame, bilinear between the nodes of a grid.
 class Ground {
 public:
-    static constexpr double kBelow = 0.06;  ///< m that the ground lies under what it must not rise above
+    static constexpr double kBelow = 0.06;  ///< m of the ground below a road
 
     Ground() = default;
-    /// A grid over a rectangle; cells of at least `cell` m, more where there would be too many.
+    /// A grid over a rectangle with cells of at least `cell` m; larger if there were too many.
     Ground(glm::dvec2 low, glm::dvec2 high, double cell);
 
-    /// The ground stays below this point, and 1.5 cells around it.
+    /// Keeps the ground below this point, and 1.5 cells around it.
     void stay_below(glm::dvec3 point);
-    /// Goes on from what is known to where nothing is, smoothly.
+    /// Extends the known heights smoothly to all other nodes.
     void spread();
 
     double cell() const { return cell_; }

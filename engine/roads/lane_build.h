@@ -7,7 +7,7 @@ namespace vesper::roads {
 
 /// All lanes with their poses and neighbours, and their links as the file states them.
 std::vector<Lane> build_lanes(const RoadNetwork& network);
-/// Links where lanes meet though the file does not say so.
+/// Links lanes that meet without a link in the file.
 void link_where_they_meet(std::vector<Lane>& lanes);
 std::vector<Kerb> build_kerbs(const RoadNetwork& network);
 

@@ -1,4 +1,4 @@
-// Lanes to drive and walk on, as a graph: what traffic, an autopilot and collisions with kerbs need to know of roads.
+// The lanes of a road network as a graph, for traffic, autopilot and collisions with kerbs.
 // SPDX-License-Identifier: MIT
 // Everything is in the world of the scene (Y up, m) and in the direction of travel: `along` is the distance from where
 // a lane is entered, `offset` the distance from its centre, positive to the left. Speeds m/s.
@@ -20,18 +20,19 @@ namespace vesper::roads {
 
 constexpr uint32_t kNoLane = ~0u;
 
-/// Where the centre of a lane is, and how it lies.
+/// Pose of the centre of a lane.
 struct LanePose {
     glm::dvec3 position{0};
     glm::dvec3 forward{0, 0, -1};  ///< unit, the direction of travel, climbing with the road
     glm::dvec3 up{0, 1, 0};        ///< unit, the normal of the surface
     double width = 0;              ///< m
     double curvature = 0;          ///< 1/m, seen from above, positive: the lane bends to the left
-    double speed_limit = 0;        ///< m/s from here to the next pose; 0: none stated, infinite: stated that there is none
+    double speed_limit = 0;        ///< m/s from here to the next pose; 0: none stated, infinite: stated that there is
+                                   ///< none
     glm::dvec3 left() const { return glm::cross(up, forward); }
 };
 
-/// One lane of one lane section of a road, in one direction. Positions lie within 5 mm of those of the file.
+/// One lane of one lane section of a road, in one direction. Positions are within 5 mm of the file.
 struct Lane {
     std::string name;      ///< "road 3, section 0, lane -1" with the ids of the file
     uint32_t road = 0;     ///< index into RoadNetwork::roads
@@ -42,15 +43,15 @@ struct Lane {
     bool forwards = true;                            ///< travels in the direction of the road's s
     double length = 0;                               ///< m, > 0
     double speed_limit = 0;                          ///< m/s of its first pose
-    std::vector<uint32_t> successors, predecessors;  ///< lanes that follow where it ends, that lead to where it begins
+    std::vector<uint32_t> successors, predecessors;  ///< lanes after its end, lanes before its start
     uint32_t left = kNoLane, right = kNoLane;        ///< next to it, of the same type and direction
     uint32_t oncoming = kNoLane;  ///< the nearest driven lane of the other direction of the same section
     std::vector<double> along;    ///< of the poses, ascending from 0 to length
     std::vector<LanePose> poses;
 };
 
-/// The speed allowed from a pose of a lane on, m/s: 50 km/h where none is stated, in junctions what was allowed `before`;
-/// at most 130 km/h.
+/// The speed limit from a pose of a lane on, m/s, at most 130 km/h. Without a statement: 50 km/h, in junctions
+/// `before`.
 double allowed_speed(const Lane& lane, const LanePose& pose, double before = 0);
 
 /// A place on a lane.
@@ -58,22 +59,22 @@ struct LanePlace {
     uint32_t lane = kNoLane;
     double along = 0;     ///< m
     double offset = 0;    ///< m to the left of the centre
-    double distance = 0;  ///< m, from the point asked for to the centre line
+    double distance = 0;  ///< m, from the requested point to the centre line
 };
 
-/// A stretch of kerb: the edge between where a car may be and where it may not, at the level of the road.
+/// A stretch of kerb: the edge of the area for cars, at the level of the road.
 struct Kerb {
     glm::dvec3 from{0}, to{0};
     glm::dvec3 inside{0};  ///< unit, horizontal, towards the road
-    double height = 0;     ///< m, how far what is behind it rises; 0: nothing rises, the road just ends
+    double height = 0;     ///< m above the road behind the kerb; 0: the road ends without a step
 };
 
-/// The lanes of a network. Copies are deep; all questions are const and may be asked from several threads at once.
+/// The lanes of a network. Copies are deep. Const functions may be called from several threads at once.
 class LaneGraph {
 public:
     LaneGraph() = default;
-    /// Lanes of the driven types, biking, sidewalk and parking. Links that the file does not state are found where one
-    /// lane begins within 0.3 m of where another ends and in its direction.
+    /// Lanes of the driven types, biking, sidewalk and parking. Missing links are added if a lane begins within 0.3 m
+    /// of the end of another, in its direction.
     explicit LaneGraph(const RoadNetwork& network);
 
     std::span<const Lane> lanes() const { return lanes_; }
@@ -81,24 +82,24 @@ public:
 
     /// The pose at a distance along a lane; beyond its ends straight on. Continuous in `along`.
     LanePose pose(uint32_t lane, double along) const;
-    /// The place itself: pose() moved by the offset, the forward direction that of the lane.
+    /// pose() moved by the offset, with the forward direction of the lane.
     LanePose pose(const LanePlace& place) const { return pose_beside(place.lane, place.along, place.offset); }
     LanePose pose_beside(uint32_t lane, double along, double offset) const;
 
-    /// The lane that passes nearest to a point, up to `reach` m away, among those that `wanted` accepts (all driven
-    /// lanes where there is no such). The distance counts in three dimensions, so bridges are told from what is below.
+    /// The nearest lane within `reach` m of a point that `wanted` accepts (default: driven lanes). The distance is in
+    /// three dimensions, so bridges differ from roads below.
     std::optional<LanePlace> nearest(glm::dvec3 point, double reach = 20,
                                      const std::function<bool(const Lane&)>& wanted = {}) const;
-    /// The same, preferring lanes of the direction `forward`: a lane across or against it counts as up to 4 m further
-    /// away.
+    /// As nearest(), with a preference for the direction `forward`: a lane across or against it counts as up to 4 m
+    /// further away.
     std::optional<LanePlace> nearest_along(glm::dvec3 point, glm::dvec3 forward, double reach = 20) const;
 
-    /// The shortest way from a lane to another over successors, both included; empty where there is none.
+    /// The shortest route from a lane to another over successors, both included; empty if there is none.
     std::vector<uint32_t> route(uint32_t from, uint32_t to) const;
     /// The longest way (greedily, m) over driven lanes that begins at `from` and enters no lane twice.
     std::vector<uint32_t> long_route(uint32_t from) const;
-    /// `distance` m further from a place, which may be behind: over successors (the straightest where several follow)
-    /// or predecessors. Stops at dead ends. The offset is kept.
+    /// The place `distance` m further (negative: back), over the straightest successors or over predecessors. Stops at
+    /// dead ends. Keeps the offset.
     LanePlace advance(LanePlace place, double distance) const;
     /// The successor that turns least; kNoLane at a dead end.
     uint32_t straight_on(uint32_t lane) const;

@@ -9,9 +9,9 @@
 namespace vesper::roads {
 
 constexpr double kMarkHeight =
-    0.006;  ///< m of paint over the road: reversed depth tells it from the road at any distance
+    0.006;  ///< m of paint above the road; reversed depth resolves this at any distance
 
-/// A scene under way.
+/// State of the construction of a scene.
 struct RoadBuild {
     const RoadNetwork& network;
     const LaneGraph& lanes;
@@ -36,15 +36,15 @@ struct CutSection {
 
 std::vector<CutSection> cut_roads(const RoadNetwork& network, double chord);
 
-/// Whether a border lane is the grass beside the road.
+/// True if a border lane is the grass beside the road.
 bool is_verge(const LaneSection& section, const RoadLane& lane, double s);
-/// Whether a point of a road lies on a driven lane of another road, at its height, more than `margin` m inside. Only
-/// where one of the two belongs to a junction: that is where roads cross on purpose.
+/// True if a point of a road lies on a driven lane of another road, at its height, more than `margin` m inside, and one
+/// of the two roads belongs to a junction.
 bool is_driven_over(const RoadBuild& build, uint32_t road, glm::dvec3 point, double margin);
-/// Whether a point lies on any driven lane, or within `margin` m of one.
+/// True if a point lies on a driven lane, or within `margin` m of one.
 bool is_on_road(const RoadBuild& build, glm::dvec3 point, double margin);
 
-/// The frame of something at (s, t), z_offset above the surface: x along the road.
+/// A frame at (s, t), z_offset m above the surface, x along the road.
 BodyFrame frame_at(const Road& road, double s, double t, double z_offset);
 
 Ground make_ground(const RoadNetwork& network, const std::vector<CutSection>& cut, double margin);

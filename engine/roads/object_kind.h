@@ -1,4 +1,4 @@
-// What an object of a road is, by the words that describe it. Not a public header. SPDX-License-Identifier: MIT
+// Kinds of road objects, from the words that describe them. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "roads/road_network.h"
@@ -22,11 +22,11 @@ enum class ObjectKind : uint8_t {
     Island
 };
 
-/// Its type says, else its subtype, else its name: whole words, that end at what is no letter and at capitals. A pole may
-/// be found to be a street lamp or a guide post, vegetation to be a bush.
+/// The kind by whole words of the type, else the subtype, else the name; words end at capitals and at other characters
+/// than letters. A pole may become a street lamp or a guide post, vegetation a bush.
 ObjectKind kind_of(const RoadObject& object);
 
-/// Whether it lies on the road, whatever height above it the file reserves.
+/// True if objects of the kind lie flat on the road, independent of the stated height.
 bool is_flat(ObjectKind kind);
 
 }  // namespace vesper::roads

@@ -9,7 +9,7 @@
 
 namespace vesper::roads {
 
-/// Upper bounds on what a file may ask for. Those on memory follow VESPER_LIMITS (base/limits.h).
+/// Limits of a file. Those that cost memory scale with VESPER_LIMITS (base/limits.h).
 struct RoadLimits {
     uint64_t file_bytes = scaled_limit(256ull << 20);
     size_t roads = scaled_limit(200'000);
@@ -21,10 +21,10 @@ struct RoadLimits {
     double turns = 1e4;           ///< rad, that one geometry may turn
 };
 
-/// Reads a road network. Throws Error naming file, line and reason where there is no geometry to go by; what breaks
-/// only a rule is read as it is meant, and noted.
+/// Reads a road network. Throws Error naming file, line and reason if there is no usable geometry. A violated rule
+/// without harm is noted, and the file is read as meant.
 RoadNetwork read_opendrive(const std::filesystem::path& file, const RoadLimits& limits = {});
-/// The same from memory; `name` is what messages call it.
+/// As read_opendrive(), from memory; `name` is for messages.
 RoadNetwork parse_opendrive(std::string_view text, const std::string& name, const RoadLimits& limits = {});
 
 }  // namespace vesper::roads

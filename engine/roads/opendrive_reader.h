@@ -1,4 +1,4 @@
-// What the parts of the OpenDRIVE reader share. Not a public header. SPDX-License-Identifier: MIT
+// Shared parts of the OpenDRIVE reader. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <map>
@@ -15,13 +15,13 @@ struct OpenDriveReader {
     const RoadLimits& limits;
     size_t elements = 0;                                   ///< read so far
     std::map<std::string, uint32_t> roads{}, junctions{};  ///< by id
-    std::set<std::string> said{};                          ///< kinds of notes that were made already
+    std::set<std::string> said{};                          ///< kinds of notes made so far
 
-    /// Counts an element; throws when there are too many.
+    /// Counts an element. Throws Error if there are too many.
     void count(const XmlElement& element);
-    /// Notes something, with its place.
+    /// Adds a note with its place.
     void note(const XmlElement& element, const std::string& what);
-    /// Notes it where it happens first.
+    /// Adds a note with its place, once per text.
     void note_once(const XmlElement& element, const std::string& what);
 };
 
@@ -34,12 +34,12 @@ void read_objects(OpenDriveReader&, const XmlElement& element, Road& road);
 void read_signals(OpenDriveReader&, const XmlElement& element, Road& road);
 void read_links(OpenDriveReader&, const XmlElement& element, Road& road);
 void read_junction(OpenDriveReader&, const XmlElement& element, Junction& junction);
-/// What only shows once everything is read: joints that do not meet, links to nowhere.
+/// Checks of the complete network: joints that do not meet, links to nowhere.
 void check_network(OpenDriveReader&, const XmlFile& file);
 
 /// Polynomials of the children `name`, with s from the attribute `s_name` plus `from`; sorted.
 Profile profile_of(OpenDriveReader&, const XmlElement& element, std::string_view name, const char* s_name, double from);
-/// What a speed element states from s on.
+/// The limit of a speed element from s on.
 SpeedLimit limit_of(OpenDriveReader&, const XmlElement& element, double s);
 
 }  // namespace vesper::roads

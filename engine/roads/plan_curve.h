@@ -12,7 +12,7 @@ namespace vesper::roads {
 struct PlanGeometry {
     enum class Kind : uint8_t { Line, Arc, Spiral, Poly3, ParamPoly3 };
     Kind kind = Kind::Line;
-    double s = 0;                      ///< where it begins along the road
+    double s = 0;                      ///< its start along the road
     double x = 0, y = 0, heading = 0;  ///< of its first point
     double length = 0;
     double curvature = 0, curvature_end = 0;  ///< Arc: the first; Spiral: linear between the two

@@ -9,7 +9,7 @@ namespace vesper::roads {
 /// up.
 void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, int towards);
 
-/// Node of a frame: X, Y and -Z of what it holds along these axes of the file's frame.
+/// A node whose X, Y and -Z lie along these axes of the file's frame.
 Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y,
              glm::dvec3 z);
 

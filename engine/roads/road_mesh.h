@@ -14,7 +14,7 @@
 
 namespace vesper::roads {
 
-/// What things are made of; road_materials.cpp says how that reflects.
+/// Road materials; road_materials.cpp has their reflection.
 enum class RoadMaterial : uint8_t {
     Asphalt,
     Shoulder,
@@ -50,7 +50,7 @@ enum class RoadMaterial : uint8_t {
     Count
 };
 
-/// The material of a kind of stuff; adds it (and what it refers to) to the scene when it is new there.
+/// Materials of the scene by kind; adds them, with their tables and reflectors, on first use.
 class RoadMaterials {
 public:
     explicit RoadMaterials(Scene& scene) : scene_(scene), index_(static_cast<size_t>(RoadMaterial::Count), kNone) {}
@@ -61,7 +61,7 @@ private:
     std::vector<uint32_t> index_;
 };
 
-/// Triangles in the frame of the network's file, kept in the world's.
+/// Collects triangles, given in the frame of the file, in the frame of the world.
 class RoadMesh {
 public:
     explicit RoadMesh(const RoadNetwork& network) : network_(network) {}
@@ -69,7 +69,7 @@ public:
     struct Corner {
         glm::dvec3 position{0}, normal{0, 0, 1};
     };
-    /// Counter-clockwise seen from the front. Those without area are left out.
+    /// Adds a triangle, counter-clockwise seen from the front, unless its area is 0.
     void triangle(RoadMaterial stuff, const Corner& a, const Corner& b, const Corner& c);
     void quad(RoadMaterial stuff, const Corner& a, const Corner& b, const Corner& c, const Corner& d);
     /// The same, flat.
@@ -88,7 +88,7 @@ private:
     std::map<RoadMaterial, Primitive> primitives_;
 };
 
-/// A frame to put bodies in: origin and three unit axes.
+/// A frame for bodies: origin and three unit axes.
 struct BodyFrame {
     glm::dvec3 origin{0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     glm::dvec3 at(double u, double v, double w) const { return origin + x * u + y * v + z * w; }

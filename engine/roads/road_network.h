@@ -70,7 +70,7 @@ struct MarkLine {
     MarkColour colour = MarkColour::White;
 };
 
-/// What is painted along a lane's outer border (the centre lane's: along the lane reference) from s to the next mark.
+/// Paint along a lane's outer border (the centre lane's: along the lane reference) from s to the next mark.
 struct RoadMark {
     double s = 0;
     std::string type;  ///< as stated: "solid", "broken", ...
@@ -100,7 +100,7 @@ struct RoadLane {
     std::vector<RoadMark> marks;
     std::vector<SpeedLimit> speeds;
     std::vector<int> predecessors, successors;  ///< lane ids
-    bool missing = false;  ///< its id is left out in the file: it has no width, and the next one lies at its inner border
+    bool missing = false;  ///< its id is missing in the file: it has no width
 };
 
 struct LaneSection {
@@ -223,10 +223,10 @@ struct Junction {
 struct RoadNetwork {
     std::string name;
     int major = 1, minor = 0;  ///< revision of OpenDRIVE
-    glm::dvec3 origin{0};      ///< of the world, in the file's frame: near the roads, so that floats are exact enough
+    glm::dvec3 origin{0};      ///< of the world, in the file's frame: near the roads, for the precision of floats
     std::vector<Road> roads;
     std::vector<Junction> junctions;
-    std::vector<std::string> notes;  ///< what was put right or left out, one line each
+    std::vector<std::string> notes;  ///< corrections and omissions, one line each
 
     /// From the file's frame to the world: X = x, Y = z, Z = -y, from the origin.
     glm::dvec3 to_world(glm::dvec3 point) const { return direction_to_world(point - origin); }

@@ -22,14 +22,14 @@ RoadPoint reference_point(const Road& road, double s);
 /// crossfall and shape. `height` m are added along the surface's normal.
 RoadPoint surface_point(const Road& road, double s, double t, double height = 0);
 
-/// The width that the file states for a lane; can be negative.
+/// The stated width of a lane, m; may be negative.
 double stated_width(const LaneSection& section, const RoadLane& lane, double s);
 
 /// t of a lane's outer border (id 0: of the centre lane, which is the lane offset). Lanes that are narrower than 0 have
 /// no width. The lane must be there.
 double lane_border(const Road& road, const LaneSection& section, int id, double s);
 
-/// A lane's own height above the surface at a fraction of its width, 0 inner to 1 outer.
+/// Height of a lane above the surface at a fraction of its width, 0 inner to 1 outer.
 double lane_height(const RoadLane& lane, double s, double fraction);
 
 /// A point of a lane: `fraction` of its width from the inner border, its own height and level lanes included.

@@ -1,4 +1,4 @@
-// Segments in the plane by cells, to find those near a point. SPDX-License-Identifier: MIT
+// A grid of segments in the plane, to find segments near a point. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,14 @@
 
 namespace vesper::roads {
 
-/// A grid of square cells over the plane; segments are numbered as they are added. What comes back does not depend on
-/// hashes: it is sorted.
+/// A grid of square cells over the plane. Segments are numbered in the order of addition. Results are sorted.
 class SegmentGrid {
 public:
     explicit SegmentGrid(double cell = 16) : cell_(cell) {}
 
     /// Adds a segment; returns its number. Longer ones than a few cells should be cut.
     uint32_t add(glm::dvec2 from, glm::dvec2 to);
-    /// Numbers of the segments that come near: all within `reach`, and some beyond.
+    /// Numbers of all segments within `reach` m of a point, and of some beyond.
     std::vector<uint32_t> near(glm::dvec2 point, double reach) const;
     size_t size() const { return count_; }
 

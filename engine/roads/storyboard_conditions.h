@@ -7,7 +7,7 @@ namespace vesper::roads {
 
 class LaneGraph;
 
-/// What conditions and actions look at.
+/// State that conditions and actions read.
 struct StoryTime {
     EsminiRun& run;
     const RoadNetwork* roads;
@@ -36,20 +36,20 @@ struct StoryTime {
     /// Roads, entities and selections by name; before anything is read.
     void find_places();
     void find_references();
-    /// The entity that an attribute names, or those of the selection; where there are none, that is noted.
+    /// The entities of a name or a selection in an attribute; a note if there are none.
     std::vector<RunEntity*> all_of(const XmlElement& element, const char* attribute, const Parameters& scope);
     RunEntity* one_of(const XmlElement& element, const char* attribute, const Parameters& scope);
-    /// So much more is asked every step; throws Error where that is too much.
+    /// Adds to the evaluations per step. Throws Error beyond the limit.
     void ask(size_t more);
-    /// One more change of a lamp, of a traffic light or of the time of day is kept; throws Error where there are too many.
+    /// Counts a stored change of a lamp, a traffic light or the time of day. Throws Error beyond the limit.
     void keep();
     void note(const std::string& what);
 };
 
-/// Leaves out what stands there more than once.
+/// Removes repeated entities.
 void each_once(std::vector<RunEntity*>& entities);
 
-/// One condition with its delay and edge, judged as esmini does.
+/// A condition with its delay and edge, evaluated as in esmini.
 struct TimedCondition {
     enum class Edge : uint8_t { None, Rising, Falling, Both };
     std::function<bool(int step, std::vector<RunEntity*>* triggering)> test;
@@ -65,20 +65,20 @@ struct TimedCondition {
     bool holds(int step, const StoryTime& story, bool select);
 };
 
-/// A trigger: any of its groups, of which all conditions hold.
+/// A trigger: holds if all conditions of one of its groups hold.
 struct Trigger {
     std::vector<std::vector<TimedCondition>> groups{};
-    bool without = true;                   ///< the answer where it has no groups
+    bool without = true;                   ///< value without groups
     bool select = false;                   ///< the entities that trigger are asked for
     std::vector<RunEntity*> triggering{};  ///< where it held
 
     /// At ascending steps.
     bool holds(int step, const StoryTime& story);
-    /// Before it is waited for once more.
+    /// Resets the trigger for the next execution.
     void forget();
 };
 
-/// A trigger that is not there always holds.
+/// A missing trigger always holds.
 Trigger trigger_of(const std::optional<XmlElement>& trigger, const Parameters& scope, StoryTime& story, bool without = true);
 
 }  // namespace vesper::roads

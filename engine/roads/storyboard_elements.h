@@ -1,4 +1,4 @@
-// Elements of a storyboard, found by name, and how far they are. Not a public header. SPDX-License-Identifier: MIT
+// Elements of a storyboard by name, and their states. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <deque>
@@ -9,7 +9,7 @@ namespace vesper::roads {
 
 enum class ElementKind : uint8_t { Story, Act, ManeuverGroup, Maneuver, Event, Action, Count };
 
-/// How far an element is. Steps are those of the run; -1: not yet.
+/// State of an element. Steps of the run; -1: not yet.
 struct ElementState {
     enum class Is : uint8_t { Waiting, Standby, Running, Complete };
     Is is = Is::Waiting;  ///< Waiting: the element around it does not run yet
@@ -18,7 +18,8 @@ struct ElementState {
 
 class StoryElements {
 public:
-    /// Enters an element below another (kNone: a story). Throws Error where there are too many, or its path is too long.
+    /// Enters an element below another (kNone: a story). Throws Error where there are too many, or its path is too
+    /// long.
     size_t add(ElementKind kind, const XmlElement& element, const std::string& name, size_t above);
     ElementState& operator[](size_t index) { return entries_[index].state; }
     size_t size() const { return entries_.size(); }

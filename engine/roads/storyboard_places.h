@@ -1,4 +1,4 @@
-// Where things of a run are, and how far apart: what conditions and actions measure. Not a public header.
+// Places and distances of a run, for conditions and actions. Not a public header.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace vesper::roads {
 
-/// What something takes up seen from above: of entities their box, of positions a point.
+/// Extent in plan: the box of an entity, or a point of a position.
 struct StoryBox {
     glm::dvec2 reference{0}, centre{0}, half{0};  ///< m
     glm::dvec2 ahead{1, 0};                       ///< unit
@@ -17,17 +17,17 @@ struct StoryBox {
     static StoryBox of(glm::dvec3 point);
 };
 
-/// How a distance is measured, as esmini does: straight, or along the heading of the entity asked about, or across it.
+/// Measure of a distance, as in esmini: straight, or along the heading of the entity asked about, or across it.
 struct Measure {
     enum class Along : uint8_t { Straight, Longitudinal, Lateral };
     Along along = Along::Straight;
     bool free_space = false;  ///< between the boxes, not between the reference points
 
-    /// m; negative where what is measured to lies behind, or to the right.
+    /// Distance, m; negative behind, or to the right.
     double distance(const StoryBox& from, const StoryBox& to) const;
 };
 
-/// Of relativeDistanceType (unless it is `fixed`), coordinateSystem and freespace. What cannot be measured in is noted.
+/// The measure of relativeDistanceType (unless `fixed`), coordinateSystem and freespace. Unsupported ones give a note.
 Measure measure_of(const XmlElement& element, const Parameters& scope, StoryTime& story, std::optional<Measure::Along> fixed = std::nullopt);
 
 /// A world, lane or road position in the file's frame, of the child Position or the element itself.

@@ -1,4 +1,4 @@
-// Reading XML with complaints that name file and line. Not a public header. SPDX-License-Identifier: MIT
+// XML with errors that name file and line. Not a public header. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ constexpr double kMaxNumber = 1e9;  ///< of any attribute, either sign, unless s
 
 class XmlFile;
 
-/// An element of an XML file. Prefixes of names (odr:road) count for nothing. Every access checks and throws Error with
+/// An element of an XML file. Name prefixes (odr:road) are ignored. Every access checks its value and throws Error with
 /// file, line and reason.
 class XmlElement {
 public:
@@ -30,7 +30,7 @@ public:
     /// The children of all children of a name: children_of("objects", "object").
     std::vector<XmlElement> children_of(std::string_view holder, std::string_view name) const;
 
-    /// Attributes: trimmed text, nothing where missing or empty.
+    /// Trimmed text of an attribute; empty optional if missing or empty.
     std::optional<std::string_view> attribute(std::string_view name) const;
     std::string text(std::string_view name) const;
     std::string text_or(std::string_view name, const std::string& fallback) const;

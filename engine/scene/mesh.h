@@ -7,11 +7,12 @@ namespace vesper {
 
 /// Normal of a triangle times twice its area.
 glm::vec3 area_normal(const std::vector<Vertex>& vertices, const uint32_t* corners);
-/// A vector of unit length; up where it has no direction.
+/// A vector scaled to unit length; up if it has no direction.
 glm::vec3 unit_or_up(glm::vec3 v);
-/// Normals of vertices whose own has no direction: of the triangles around them, by area; up where those have none. `missing`: by vertex.
+/// Sets the normals of vertices marked in `missing` to the mean of the triangles around them, by area; up if that has
+/// no direction.
 void fill_normals(Primitive& primitive, const std::vector<char>& missing);
-/// Flat shading: every triangle gets corners of its own, with its normal.
+/// Flat shading: gives each triangle its own three vertices with its normal.
 void make_flat(Primitive& primitive);
 
 }  // namespace vesper

@@ -1,4 +1,4 @@
-// The photometry file: what turns a daytime database into a night one (docs/photometry.md). SPDX-License-Identifier:
+// The photometry file, which makes a database photometric (docs/photometry.md). SPDX-License-Identifier:
 // MIT
 #pragma once
 
@@ -22,19 +22,19 @@ struct LampRule {
     glm::dvec3 offset{0};            ///< m, along the node's axes
 };
 
-/// A distribution that rules name.
+/// A distribution used by rules.
 struct MeasuredLamp {
-    std::string file;  ///< as the rule has it
+    std::string file;  ///< as in the rule
     bool mirror = false;
     size_t lamp_set = 0;
     Distribution distribution{};
 };
 
-/// A picture of a light source that rules name.
+/// A picture of a light source used by rules.
 struct EmitterPicture {
     std::vector<uint8_t> bytes;   ///< of the file
     LuminancePicture picture{};   ///< its name is that of the rule
-    double white_luminance = 0;   ///< cd/m^2 of the value 1 as the file has it; 0 where it does not say
+    double white_luminance = 0;   ///< cd/m^2 of the value 1 by the file; 0 if not stated
     uint64_t changed = 0;         ///< pixels with a negative component, see make_luminance_picture
 };
 
@@ -42,13 +42,14 @@ struct EmitterPicture {
 struct EmitterRule {
     std::string name;
     std::vector<std::string> materials;  ///< patterns
-    double luminance = 0;                ///< cd/m^2; with lamps: only to be checked, 0 where not given
-    std::vector<std::string> lamps;      ///< names of lamp rules whose glass this is: their openings are drawn instead
+    double luminance = 0;                ///< cd/m^2; with lamps only compared; 0 if not given
+    std::vector<std::string> lamps;      ///< names of lamp rules whose glass this is: their openings are drawn
     glm::dvec3 colour{1};                ///< linear, luminance 1
     bool modulate = false;  ///< the material's texture times the above; its brightest texel has `luminance`
-    uint32_t picture = kNone;  ///< index into Photometry::pictures: the material shows it; its brightest texel has `luminance`
+    uint32_t picture = kNone;  ///< index into Photometry::pictures: the material shows it; its brightest texel has
+                               ///< `luminance`
     double scale = 1;          ///< cd/m^2 of the value 1 of the picture
-    bool unit_unknown = false;  ///< neither rule nor picture says what the value 1 is: taken for 1 cd/m^2
+    bool unit_unknown = false;  ///< neither rule nor picture states a unit: the value 1 is 1 cd/m^2
 };
 
 /// A rule that changes how materials reflect.
@@ -90,8 +91,8 @@ struct Photometry {
     std::vector<DirectionalRule> directional;
     bool keep_lights = false;
     std::vector<LampRule> lamps;
-    std::vector<MeasuredLamp> measured;  ///< each once, however many rules name it
-    std::vector<EmitterPicture> pictures;  ///< the same
+    std::vector<MeasuredLamp> measured;  ///< each once
+    std::vector<EmitterPicture> pictures;  ///< each once
     std::vector<EmitterRule> emitters;
     std::vector<SurfaceRule> surfaces;
 };
@@ -99,10 +100,10 @@ struct Photometry {
 /// Reads and checks a photometry file. Throws Error naming file, JSON pointer and reason.
 Photometry read_photometry(const std::filesystem::path& file);
 
-/// Whether a name matches a pattern of `*` (any characters) and `?` (one character).
+/// True if a name matches a pattern of `*` (any characters) and `?` (one character).
 bool matches_name(const std::string& pattern, const std::string& name);
 
-/// Whether a pattern with '/' matches the end of a path: `path` holds the names from the node up to its root. Names of
+/// True if a pattern with '/' matches the end of a path: `path` holds the names from the node up to its root. Names of
 /// the path are joined with '/', the match begins at the start of a name, and wildcards do not match a '/'. A pattern
 /// without '/' is compared with the node's own name. Returns at once when more names are needed than there are slashes.
 bool matches_path(const std::string& pattern, const std::vector<std::string>& path);

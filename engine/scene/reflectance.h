@@ -1,4 +1,4 @@
-// Codes of pictures as linear values, and what materials reflect with them. SPDX-License-Identifier: MIT
+// Linear values of picture codes, and mean reflectance of materials. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -12,28 +12,29 @@ namespace vesper {
 /// The linear value of each 8-bit code: sRGB, or Eq. 1 of Petit, Bremond and Vienne.
 std::array<double, 256> linear_codes(const Transfer& transfer);
 
-/// The box of texture coordinates that something lies in. Empty (low > high): all of the picture.
+/// A box of texture coordinates. Empty (low > high): the whole picture.
 struct UvBox {
     glm::dvec2 low{HUGE_VAL}, high{-HUGE_VAL};
 
     void add(glm::dvec2 uv) { low = glm::min(low, uv), high = glm::max(high, uv); }
 };
 
-/// Mean over the texels of a box, each by how much of it lies inside: the colour through a transfer, opacity code / 255. An axis on which the
-/// box spans 1 or more counts whole.
+/// Mean over the texels of a box, weighted by their area inside: colour through a transfer, opacity as code / 255. An
+/// axis on which the box spans 1 or more counts whole.
 glm::dvec4 mean_texel(const Image& image, const Transfer& transfer, const TextureUse& use, const UvBox& box = {});
 
-/// What of a material is shown.
+/// Shown area, colour and texture coordinates of a material.
 struct MaterialUse {
-    double area = 0;          ///< m^2 of all nodes; where a node stretches unevenly, by the mean square of its three scales
+    double area = 0;          ///< m^2 of all nodes; uneven scales count by their mean square
     glm::dvec3 colour{1};     ///< mean of the vertex colours over that area
     UvBox uv;
 };
 
-/// One for each material. Those that no node shows are taken for white and whole.
+/// Uses of all materials. A material that no node shows counts as white, with its whole texture.
 std::vector<MaterialUse> material_uses(const Scene& scene);
 
-/// Mean reflectance (luminance) of the surfaces of a material: base colour, vertex colours, and what of its texture they use.
+/// Mean reflectance (luminance) of the surfaces of a material: base colour, vertex colours, and the used part of its
+/// texture.
 double mean_reflectance(const Scene& scene, const Material& material, const MaterialUse& use);
 
 }  // namespace vesper

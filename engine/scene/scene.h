@@ -1,4 +1,4 @@
-// A scene in memory: what a glTF file holds once it is photometric. SPDX-License-Identifier: MIT
+// A photometric scene in memory. SPDX-License-Identifier: MIT
 // Lengths in m, angles in rad, intensities in cd, luminances in cd/m^2, illuminances in lx. Y is up, cameras and lamps
 // look along their local -Z, matrices are column-major.
 #pragma once
@@ -23,7 +23,7 @@ namespace vesper {
 
 constexpr uint32_t kNone = ~0u;  ///< "no such element" wherever an index is kept
 
-/// An axis-aligned box, m. Empty (low > high) until something is added.
+/// An axis-aligned box, m. Empty (low > high) until a point is added.
 struct Bounds {
     glm::vec3 low{std::numeric_limits<float>::infinity()};
     glm::vec3 high{-std::numeric_limits<float>::infinity()};
@@ -39,7 +39,7 @@ struct Transfer {
     float gamma = 2.2f;  ///< Kind::Gamma: value = T^gamma (Petit, Bremond and Vienne, Eq. 1: gamma = 2.2)
 };
 
-/// A picture as its file had it: 8 bit per channel RGBA, rows from the top, not yet linear.
+/// A picture as in its file: RGBA with 8 bits per channel, rows from the top, not linear.
 struct Image {
     std::string name;
     uint32_t width = 0, height = 0;
@@ -96,8 +96,8 @@ struct Mesh {
     std::vector<Primitive> primitives;
 };
 
-/// Lamps that a frame can have, on every device: loops over them must end by themselves. Lavapipe ends those of an invocation after 65,535 turns in
-/// all, and a lamp that a retroreflective pixel returns takes three.
+/// Most lamps of a frame, on each device. Lavapipe ends the loops of an invocation silently after 65,535 turns, and a
+/// lamp takes three in a retroreflective pixel.
 inline constexpr uint32_t kMaxLamps = 21'000;
 
 /// A lamp's distribution of luminous intensity about its axis (local -Z).
@@ -105,19 +105,20 @@ struct Lamp {
     enum class Kind : uint8_t { Point, Spot, CosinePower, Directional, Measured };
     std::string name;
     Kind kind = Kind::Point;
-    float intensity = 0;        ///< on the axis, cd; Directional: illuminance on a surface facing it, lx; Measured: factor
-                                ///< on the candela of the distribution (flux scale, maintenance factor, dimming)
+    float intensity = 0;        ///< on the axis, cd; Directional: illuminance on a surface facing it, lx; Measured:
+                                ///< factor on the candela of the distribution (flux scale, maintenance factor, dimming)
     glm::vec3 colour{1};        ///< linear Rec. 709 of luminance 1: (0.212639, 0.715169, 0.072192) . colour == 1
     float inner_cone = 0;       ///< Spot: half angle of full intensity, rad
     float outer_cone = 0.785f;  ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
     float exponent = 1;         ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
     uint32_t distribution = kNone;  ///< Measured: index into Scene::distributions
-    LuminousOpening opening;    ///< seen directly: at the lamp, facing its axis (of a Point: facing the eye); m, whatever
-                                ///< the node's scale. Length along its X, width along its Y. Without area it is not drawn
+    LuminousOpening opening;    ///< seen directly: at the lamp, facing its axis (Point: facing the eye); m, independent
+                                ///< of the node's scale. Length along its X, width along its Y. Not drawn if the area
+                                ///< is 0
 };
 
 struct Camera {
-    std::string name;              ///< of the camera, or of its node where that has none
+    std::string name;              ///< of the camera, else of its node
     float vertical_fov = 0.6435f;  ///< rad, in (0, pi)
     float near = 0.1f;             ///< m; there is no far plane
 };
@@ -125,10 +126,10 @@ struct Camera {
 struct Node {
     std::string name;
     uint32_t parent = kNone;  ///< always smaller than the node's own index
-    glm::dvec3 translation{0};  ///< m; in double, since databases lie far from their origin and are brought back by nodes above
+    glm::dvec3 translation{0};  ///< m; double: databases lie far from their origin, and parent nodes compensate
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1};
-    std::optional<glm::dmat4> matrix;  ///< replaces the three above where the file gave one
+    std::optional<glm::dmat4> matrix;  ///< replaces the three above if the file has one
     uint32_t mesh = kNone, lamp = kNone, camera = kNone;
 };
 
@@ -143,7 +144,7 @@ struct Channel {
     std::vector<glm::vec4> values;  ///< xyz or quaternion xyzw; Cubic: in-tangent, value, out-tangent per key
 };
 
-constexpr size_t kMaxRetroreflectors = 8;  ///< what the shaders take
+constexpr size_t kMaxRetroreflectors = 8;  ///< limit of the shaders
 
 struct Scene {
     std::string name;
@@ -153,8 +154,9 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Lamp> lamps;
     std::vector<Distribution> distributions;
-    std::vector<ReflectionTable> reflection_tables;  ///< as published,
-    bool beyond_tables = true;                       ///< and rendered as extended(); false: as they are, for comparison with a calculation of theirs
+    std::vector<ReflectionTable> reflection_tables;  ///< as published
+    bool beyond_tables = true;                       ///< tables are rendered as extended(); false: as published, to
+                                                     ///< compare with a calculation
     std::vector<Retroreflector> retroreflectors;     ///< at most kMaxRetroreflectors
     std::vector<Camera> cameras;
     std::vector<Node> nodes;        ///< parents before children
@@ -167,8 +169,8 @@ struct Scene {
     std::optional<Environment> environment;  ///< a picture of the sky, instead of the two above
 };
 
-/// Where every node stands at a time: node frame to world, one matrix per node. Channels hold their first and last
-/// values outside their keys. `seconds` >= 0. Multiplied in double.
+/// Transforms of all nodes at a time: node frame to world, one matrix per node, in double. Channels keep their first
+/// and last values outside their keys. `seconds` >= 0.
 std::vector<glm::dmat4> world_transforms(const Scene& scene, double seconds);
 
 /// Duration of the longest channel, s; 0 without animation.

@@ -1,4 +1,4 @@
-// Cars that meet something: ground boxes in plan, and blows. SPDX-License-Identifier: MIT
+// Collisions of cars: boxes in plan, and blows. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace vesper::traffic {
 
-/// Things so far above one another do not meet, as on a bridge and below it, m.
+/// Difference of height above which objects do not collide, as on and below a bridge, m.
 constexpr double kLevels = 2.5;
 
-/// What of a car that scrapes along something is lost: force along over force across.
+/// Friction of a scraping car: force along over force across.
 constexpr double kScrape = 0.3;
 
 /// A body seen from above, in the plane of VehicleState.
@@ -28,27 +28,27 @@ struct GroundBox {
 };
 GroundBox ground_box(const VehicleState&, const VehicleParameters&);
 
-/// How one lies in another.
+/// Overlap of a box with another.
 struct Overlap {
-    glm::dvec2 normal{0};  ///< unit, the shortest way out of the other, and
-    double depth = 0;      ///< how far that is, m
-    glm::dvec2 point{0};   ///< in the middle of what they share
+    glm::dvec2 normal{0};  ///< unit, the shortest way out of the other
+    double depth = 0;      ///< length of that way, m
+    glm::dvec2 point{0};   ///< middle of the common area
 };
-/// Separating axes (Gottschalk, Lin and Manocha 1996): nothing where one lies between them.
+/// The overlap by separating axes (Gottschalk, Lin and Manocha 1996); empty if there is none.
 std::optional<Overlap> overlap(const GroundBox&, const GroundBox& other);
 
-/// What a car is struck against. It gives way along `heading` and across by so much, 1/kg; 0: not at all.
+/// Opponent of a car in a collision, with its compliance along `heading` and across, 1/kg; 0: immovable.
 struct Opponent {
     glm::dvec2 velocity{0}, heading{0, -1};
     double along = 0, across = 0;
     double give(glm::dvec2 direction) const;
 };
 
-/// A blow at `arm` (m from the centre of mass) out along `normal`: what is hit and the car go on together there, with friction
-/// (kScrape) between them. Gives the impulse on the car, N s; 0 where they part anyhow.
+/// An inelastic blow at `arm` (m from the centre of mass) along `normal`, with friction (kScrape). Returns the impulse
+/// on the car, N s; 0 if the two separate already.
 glm::dvec2 strike(VehicleState&, const VehicleParameters&, glm::dvec2 arm, glm::dvec2 normal, const Opponent& = {});
 
-/// Of the car at `arm`, m/s.
+/// Velocity of the car at `arm`, m/s.
 glm::dvec2 velocity_at(const VehicleState&, glm::dvec2 arm);
 
 }  // namespace vesper::traffic

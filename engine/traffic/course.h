@@ -1,4 +1,4 @@
-// Lanes as lines that are driven along. SPDX-License-Identifier: MIT
+// Lanes as lines. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -19,14 +19,14 @@ public:
         double yaw = 0;          ///< as VehicleState
         double slope = 0;        ///< rad, up
     };
-    /// Where a point is beside a lane.
+    /// A point relative to a lane.
     struct Beside {
         double s = 0;       ///< along the lane, m; before its start negative, beyond its end more than its length
         double offset = 0;  ///< to the left, m
         double distance = 0;  ///< in plan, m
     };
 
-    /// A closed lane goes on from its last point to its first. Throws Error.
+    /// A closed lane continues from its last point to its first. `width` m, `speed` m/s. Throws Error.
     Course(std::string name, std::vector<glm::dvec3> points, double width, double speed, bool closed = false);
     /// `limits`: the speed allowed from each point to the next, m/s.
     Course(std::string name, std::vector<glm::dvec3> points, double width, const std::vector<double>& limits, bool closed = false);
@@ -36,13 +36,14 @@ public:
     double speed() const { return speed_; }  ///< allowed at its start, m/s
     bool closed() const { return closed_; }
     double length() const { return starts_.back(); }  ///< m
-    /// Straight on before the start and beyond the end. Between the points the direction turns evenly.
+    /// The place at `s`; straight on before the start and beyond the end. The direction turns evenly between points.
     Place at(double s) const;
     Beside beside(glm::dvec2 point) const;
-    /// How far ahead `to` is of `from`, m; on a closed lane at most once round, otherwise negative where it is behind.
+    /// Distance from `from` ahead to `to`, m; at most one round of a closed lane, negative on an open lane if `to` is
+    /// behind.
     double ahead(double from, double to) const;
-    /// The speed to have at a place, m/s: what is allowed, slower where the curve there takes more than kCurve across, and before
-    /// either early enough to brake with kEase.
+    /// Desired speed at a place, m/s: the limit, or less in curves of more than kCurve across, and before both so as to
+    /// brake with kEase.
     double speed_at(double s) const;
     static constexpr double kCurve = 2, kEase = 1.5;  ///< m/s^2, comfortable
 
@@ -60,9 +61,8 @@ private:
     double wrapped(double s) const;
 };
 
-/// m/s^2 of a car at `s` of a lane that wants `speed_factor` times the speed to have there: idm_acceleration, and where that speed falls
-/// ahead, no more than keeps to it. (Of a wanted speed that falls the model alone falls short: it brakes with kEase where it is a
-/// quarter too fast.)
+/// Acceleration, m/s^2, of a car at `s` of a lane that desires `speed_factor` times speed_at(): idm_acceleration, limited where
+/// that speed falls ahead (there the model alone brakes with kEase only when a quarter too fast).
 double follow_lane(const Course& lane, CarFollowing following, double s, double speed_factor, double speed, double gap, double closing);
 
 }  // namespace vesper::traffic

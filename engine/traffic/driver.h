@@ -1,4 +1,4 @@
-// What a driver does, and what others see of it. SPDX-License-Identifier: MIT
+// Input of a driver, and the lamps that result. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace vesper::traffic {
 enum class Beam : uint8_t { Off, Low, High };
 enum class Indicator : uint8_t { None, Left, Right, Both };
 
-/// What hands and feet do during one step.
+/// Input of a driver during one step.
 struct DriverInput {
     double steering = 0;  ///< of the wheel, -1 (right) .. 1 (left)
     double throttle = 0;  ///< 0 .. 1
@@ -20,7 +20,7 @@ struct DriverInput {
     bool operator==(const DriverInput&) const = default;
 };
 
-/// Which lamps of a vehicle shine now. Indicators flash: these are on for half of each period.
+/// Lit lamps of a vehicle. Flashing indicators are lit for half of each period.
 struct VehicleLamps {
     bool low = false, high = false, tail = false, brake = false, left = false, right = false;
     bool operator==(const VehicleLamps&) const = default;

@@ -1,4 +1,4 @@
-// A road with everything that moves on it: the driver's car, traffic, pedestrians. Fixed steps, seeded, the same every time.
+// The moving objects on a road: the driver's car, traffic, pedestrians. Fixed steps and a seed: every run is the same.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -25,19 +25,19 @@ struct TrafficCar {
     double s = 0;            ///< of its middle along the lane at the start, m
     double speed = 0;        ///< m/s
     double length = 4.4, width = 1.8;  ///< m
-    double speed_factor = 0;         ///< wanted speed, part of what the lane allows; 0: drawn, 0.9 .. 1.05
+    double speed_factor = 0;         ///< desired speed over the limit; 0: random, 0.9 .. 1.05
     Beam beam = Beam::Low;
 };
 
-/// Somebody who goes to and fro over the road.
+/// A pedestrian who walks to and fro over the road.
 struct Walker {
     std::string node;
     size_t path = 0;   ///< index into WorldDescription::paths
-    double wait = 5;   ///< before the first crossing, s; later waits are drawn
-    double s = 0;      ///< m of the path that are behind at the start; more than 0: under way
+    double wait = 5;   ///< before the first crossing, s; later waits are random
+    double s = 0;      ///< position on the path at the start, m; above 0: under way
 };
 
-/// Something that moves as it did when it was recorded; it is there from its first pose to its last.
+/// An object with recorded poses. It exists from its first pose to its last.
 struct RecordedMover {
     struct Pose {
         double time = 0;                     ///< s
@@ -48,15 +48,15 @@ struct RecordedMover {
     };
     std::string node;
     double length = 4.4, width = 1.8;  ///< m
-    double middle = 0;         ///< of it before the node's origin, m
+    double middle = 0;         ///< its middle, m before the node's origin
     bool person = false;       ///< does not stop a car
     std::vector<Pose> poses;   ///< times ascending, at least one
 };
 
-/// What is there before anything moves.
+/// Initial state and rules of a world.
 struct WorldDescription {
     std::vector<Course> lanes;
-    std::vector<Course> paths;         ///< of walkers, from kerb to kerb and a little beyond; their speed is that of walking
+    std::vector<Course> paths;         ///< of walkers, beyond both kerbs; their speed is the walking speed
     std::vector<Barrier> barriers;
     std::vector<TrafficCar> cars;
     std::vector<Walker> walkers;
@@ -68,7 +68,7 @@ struct WorldDescription {
     AutopilotSettings autopilot;
 };
 
-/// Something that moves, as it stands now.
+/// A moving object at the present time.
 struct Actor {
     std::string node;
     glm::dvec3 position{0};             ///< of the node's origin, m
@@ -77,11 +77,11 @@ struct Actor {
     VehicleLamps lamps;
 };
 
-/// The driver's car met something that moves.
+/// A collision of the driver's car with a moving object.
 struct Contact {
-    double seconds = 0;   ///< when
-    std::string node;     ///< whom
-    double speed = 0;     ///< at which they met, m/s
+    double seconds = 0;   ///< time
+    std::string node;     ///< node of the opponent
+    double speed = 0;     ///< closing speed, m/s
     double impulse = 0;   ///< N s
 };
 
@@ -89,17 +89,17 @@ class World {
 public:
     World(std::shared_ptr<const WorldDescription>, uint64_t seed);
 
-    /// Goes on by one step.
+    /// Advances by one step.
     void step(const DriverInput&, double seconds);
 
     double seconds() const { return seconds_; }
     uint64_t steps() const { return steps_; }
     const VehicleState& driver() const { return driver_; }
     const WorldDescription& description() const { return *description_; }
-    size_t driver_lane() const { return driver_lane_; }  ///< the one the autopilot keeps to
-    bool touched() const { return touched_; }            ///< a barrier in the last step
-    /// What the driver's car met since the start, in that order. Cars of traffic give way along their lane by their mass, what was
-    /// recorded does not, and who walks falls and stays where he is.
+    size_t driver_lane() const { return driver_lane_; }  ///< lane of the autopilot
+    bool touched() const { return touched_; }            ///< true if the car touched a barrier in the last step
+    /// Collisions of the driver's car since the start, in order of time. Cars of traffic give way along their lane by
+    /// their mass, recorded objects do not, pedestrians fall and stay.
     const std::vector<Contact>& contacts() const { return contacts_; }
     /// The driver's car first, then traffic, walkers and recordings, in the order of the description.
     std::vector<Actor> actors() const;
@@ -108,20 +108,21 @@ private:
     struct Car {
         double s = 0, speed = 0, acceleration = 0, speed_factor = 1;  // speed_factor: of the allowed speed
         size_t lane = 0, from = 0;                            // from: the lane it is leaving
-        double change = 1, offset = 0;                        // 0 .. 1: part of the way to `lane`, which began so far to its left, m
-        double patience = 0;                                  // s until it thinks of changing again
+        double change = 1, offset = 0;                        // 0 .. 1: progress of the change; offset to the left at
+                                                              // its start, m
+        double patience = 0;                                  // s until the next lane change is considered
     };
     struct Walk {
         double s = 0, wait = 0;
         bool back = false, under_way = false, fallen = false;
         double speed = 0;
     };
-    /// Whoever is next on a lane.
+    /// The next road user on a lane.
     struct Neighbour {
-        double gap;   // bumper to bumper, m; infinite: nobody
+        double gap;   // bumper to bumper, m; infinite: none
         double speed; // m/s
     };
-    struct Occupant {  // somebody on a lane, of the last step
+    struct Occupant {  // a road user on a lane, in the last step
         size_t lane;
         double s, speed, half_length;
         int who;  // index of a car, or one of these

@@ -1,4 +1,4 @@
-// Worlds to drive in, as files (docs/simulator.md). SPDX-License-Identifier: MIT
+// World files (docs/worlds.md). SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -13,26 +13,26 @@
 
 namespace vesper::traffic {
 
-/// Which lamps of vehicles are what, by the names of their rules in the photometry file.
+/// Roles of vehicle lamps, by the names of their rules in the photometry file.
 struct LampRoles {
     std::vector<std::string> low, high, tail, brake, left, right;
 };
-/// As files call them.
+/// Names of roles in files.
 constexpr std::array<std::pair<const char*, std::vector<std::string> LampRoles::*>, 6> kLampRoles{
     {{"low", &LampRoles::low}, {"high", &LampRoles::high}, {"tail", &LampRoles::tail}, {"brake", &LampRoles::brake}, {"left", &LampRoles::left}, {"right", &LampRoles::right}}};
 
 struct WorldFile {
     std::filesystem::path scene;       ///< a glTF file
     std::filesystem::path photometry;  ///< applied to it when it is loaded; empty: the scene is photometric
-    std::string camera;                ///< of the scene, in the driver's car; empty: 1.2 m above the middle of it
+    std::string camera;                ///< of the scene, in the driver's car; empty: 1.2 m above its middle
     WorldDescription world;
-    std::map<std::string, double> turns;  ///< rad about +Y that bring the front of what such a node carries to -Z; others face -Z
+    std::map<std::string, double> turns;  ///< rad about +Y from the front of a node's model to -Z; missing: 0
     LampRoles roles;
-    std::vector<std::string> by_day;   ///< names of lamps that are lit by day, too; empty: all are
+    std::vector<std::string> by_day;   ///< names of lamps that are lit by day, too; empty: all
     std::vector<Tunnel> tunnels;
 };
 
-/// Throws Error, naming file, place and reason.
+/// Reads a world file. Throws Error, naming file, place and reason.
 WorldFile read_world(const std::filesystem::path&);
 
 }  // namespace vesper::traffic

@@ -1,4 +1,4 @@
-// A display: what luminance its codes have. SPDX-License-Identifier: MIT
+// A display: luminance of its codes. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class Eotf : uint8_t {
     Table,  ///< measured
 };
 
-/// As files and commands call them.
+/// Names in files and commands.
 constexpr std::array<std::pair<const char*, Eotf>, 4> kEotfNames{{{"gamma", Eotf::Gamma}, {"srgb", Eotf::Srgb}, {"pq", Eotf::Pq}, {"table", Eotf::Table}}};
 
 /// One measurement of a display in the dark.
@@ -28,7 +28,7 @@ struct DisplaySample {
     double luminance = 0;  ///< cd/m^2
 };
 
-constexpr double kLeastBlack = 1e-6;  ///< cd/m^2: code 0 shows at least that, reflected light included
+constexpr double kLeastBlack = 1e-6;  ///< cd/m^2: least luminance of code 0, reflected light included
 
 /// A display and the light that falls on it (Mantiuk, Daly and Kerofsky 2008): it shows a code V in [0, 1] with
 /// L(V) = emitted(V) + reflection * ambient / pi.
@@ -41,7 +41,7 @@ struct Display {
     Eotf eotf = Eotf::Gamma;
     uint32_t bits = 8;         ///< of a channel's code: 8 or 10
     Primaries primaries = kRec709;
-    /// Of Eotf::Table: from code 0, of luminance `black`, to code 1, of luminance `peak`; both rise from each to the next.
+    /// Of Eotf::Table: from code 0 (luminance `black`) to code 1 (luminance `peak`); codes and luminances ascend.
     std::vector<DisplaySample> table;
 
     /// Luminance of code 0 and of code 1, cd/m^2.
@@ -50,7 +50,7 @@ struct Display {
     uint32_t largest_code() const { return (1u << bits) - 1; }
 };
 
-/// Throws Error with the reason if no display can be like that.
+/// Throws Error with the reason if a value is out of range.
 void check_display(const Display&);
 
 /// Luminance of codes, cd/m^2 in the dark. A table is interpolated by a monotone cubic (Fritsch and Carlson 1980) of
@@ -74,9 +74,9 @@ struct NamedDisplay {
     const char* description;
     Display display;
 };
-/// The displays that are known by name. The first is the default.
+/// Displays with a name. The first is the default.
 const std::vector<NamedDisplay>& known_displays();
-/// Their names, with commas between.
+/// Names of the known displays, separated by commas.
 std::string known_display_names();
 
 }  // namespace vesper

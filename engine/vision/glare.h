@@ -7,7 +7,8 @@
 
 namespace vesper {
 
-/// Whose eye scatters. Pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue (CIE 135/1-6, 1999).
+/// Age and iris of the scattering eye. Pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue (CIE
+/// 135/1-6, 1999).
 struct ScatteringEye {
     double age = 35;
     double pigmentation = 0.5;
@@ -24,27 +25,28 @@ double cie_small_angle_glare(double theta, double age = 35);
 double cie_age_adjusted_glare(double theta, double age = 35);
 
 /// The parts of Spencer, Shirley, Zimmerman and Greenberg 1995, each of which integrates to 1 over the hemisphere.
-double spencer_core(double theta);      ///< f0: what is not scattered
+double spencer_core(double theta);      ///< f0: unscattered light
 double spencer_corona(double theta);    ///< f1: the ciliary corona, seen as needles
 double spencer_bloom(double theta);     ///< f2
-double spencer_halo(double theta, double nanometres = 568);  ///< f3: lenticular halo, a ring at 3 degrees times nm / 568
+double spencer_halo(double theta, double nanometres = 568);  ///< f3: lenticular halo, a ring at 3 degrees times nm /
+                                                             ///< 568
 
-/// What the eye is adapted to: its pupil decides how much light passes the fibres at the edge of the lens.
+/// State of adaptation: the pupil limits the light through the fibres at the edge of the lens.
 enum class SpencerState : unsigned char { Photopic, Mesopic, Scotopic };
 struct SpencerWeights {
     double core, corona, bloom, halo;
 };
 SpencerWeights spencer_weights(SpencerState);
-/// The weighted parts but the halo, which has colours.
+/// Sum of the weighted parts without the halo, which has colours.
 double spencer_smooth_glare(double theta, const SpencerWeights&);
-/// The sum of the weighted parts.
+/// Sum of all weighted parts.
 double spencer_glare(double theta, SpencerState, double nanometres = 568);
 
-/// Ward Larson, Rushmeier and Piatko 1997 (their program: `pcond -v`): 0.92 stays and 0.08 is scattered as cos(theta) / theta^2 from
-/// half a degree on, the radius of the fovea, and evenly within it. Integrates to 1.
+/// Ward Larson, Rushmeier and Piatko 1997 (their program: `pcond -v`): 0.92 stays and 0.08 is scattered as cos(theta) /
+/// theta^2 from half a degree on, the radius of the fovea, and evenly within it. Integrates to 1.
 double ward_veil(double theta);
 
-/// A point spread function about its axis, scaled so that it integrates to 1 over the hemisphere: it moves light, and makes none.
+/// A point spread function about its axis, scaled to integrate to 1 over the hemisphere: it moves light and makes none.
 class EyeScatter {
 public:
     /// `psf` in sr^-1 of theta in degrees, positive, without features narrower than a sixteenth of their angle.
@@ -54,7 +56,7 @@ public:
     double operator()(double theta) const { return scale_ * psf_(theta); }
     /// Part of the light within `theta` of the source.
     double within(double theta) const { return scale_ * integral(theta); }
-    /// What the function as given integrates to.
+    /// Integral of the unscaled function over the hemisphere.
     double total() const { return 1 / scale_; }
 
 private:

@@ -1,4 +1,4 @@
-// What glare hides, in numbers: veiling luminance, threshold increment, visibility. SPDX-License-Identifier: MIT
+// Figures of glare: veiling luminance, threshold increment, visibility. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <optional>
@@ -24,8 +24,8 @@ constexpr double kSourceContrast = 100;
 struct GlareQuestion {
     ScatteringEye eye;
     glm::dvec2 gaze{0.5};          ///< the line of sight, parts of the picture from its top left
-    /// cd/m^2: a pixel brighter than this is part of a source of glare. Default: kSourceContrast times the log average of the pixels above 1e-4 cd/m^2, or
-    /// the mean of all pixels where that is less.
+    /// cd/m^2: a brighter pixel is part of a glare source. Default: kSourceContrast times the log average of the pixels
+    /// above 1e-4 cd/m^2, or the mean of all pixels where that is less.
     std::optional<double> source_luminance = {};
     std::optional<double> average_luminance;  ///< cd/m^2, of the road, for TI; default: GlareReport::background
     std::optional<MarkedTarget> target;
@@ -37,15 +37,16 @@ struct GlareReport {
     double veil = 0;         ///< cd/m^2, on the line of sight: CIE general equation (CIE 146:2002)
     double road_veil = 0;    ///< cd/m^2, likewise, with the equations of EN 13201-3
     double increment = 0;    ///< TI, %, of road_veil; infinite where the average luminance is 0 and road_veil is not
-    /// Of the marked target, looked at: its luminance and that of a frame of its own width around it, the veil there (CIE
-    /// general), and its visibility level (vision/visibility.h) with the veil over both; 0 in the dark. cd/m^2.
+    /// Of the marked target, looked at: its luminance and that of a frame of its own width around it, the veil there
+    /// (CIE general), and its visibility level (vision/visibility.h) with the veil over both; 0 in the dark. cd/m^2.
     double target = 0, around = 0, target_veil = 0, visibility = 0;
-    /// Whose needles and halo are seen: the pupil at that moment, mm, and the seed of the eye; 0 without. Filled in by whoever showed them.
+    /// Pupil, mm, and seed of the eye whose needles and halo are shown; 0 without. The caller that shows them fills
+    /// these in.
     double pupil = 0, eye_seed = 0;
 };
 
-/// Asks a picture (RGBA rows from the top, cd/m^2 RGB in linear Rec. 709) and the lights outside of it. Sources nearer than 0.1
-/// degrees to the line of sight are looked at, and count as no glare. Pixels that are not finite have no light.
+/// Computes the figures of a picture (RGBA rows from the top, cd/m^2 RGB in linear Rec. 709) and of lights outside of
+/// it. Sources within 0.1 degrees of the line of sight do not count as glare. Pixels that are not finite have no light.
 /// Throws Error for a target without a pixel in it or around it.
 GlareReport report_glare(const ImageAngles&, std::span<const float> rgba, std::span<const DazzlingLight> outside, const GlareQuestion&);
 

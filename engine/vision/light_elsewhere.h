@@ -1,4 +1,5 @@
-// Light that other pictures of the same eye scatter into one, so that their glare has no seams. SPDX-License-Identifier: MIT
+// Off-screen light: other pictures of the same eye scatter light into one, so that their glare has no seams.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@ namespace vesper {
 struct EyePicture {
     ImageAngles image;
     glm::dmat3 turn{1};   ///< from its view frame (x right, y up, along -z) to that of the eye
-    int guard = 0;        ///< px along its border that are there for the glare alone, and not shown
+    int guard = 0;        ///< px along its border that are rendered for glare and not shown
     bool operator==(const EyePicture&) const = default;
 
     /// Towards a point, px from the top left corner, in the frame of the eye; not of unit length.
@@ -26,26 +27,29 @@ struct UnseenLamp {
     glm::dvec3 illuminance{0};       ///< RGB lx, on a plane at the eye that faces it
 };
 
-/// What goes into the pyramid of glare from beyond a picture, cd/m^2 RGB.
+/// Light that enters the glare pyramid from outside a picture, cd/m^2 RGB.
 struct OffscreenLight {
-    std::vector<std::vector<glm::vec4>> levels;  ///< 0 .. the top: of each texel with its margin, row by row; none in the first two
-    std::vector<glm::vec4> veil;                 ///< of the top: what each texel that takes has of light too far for that
+    std::vector<std::vector<glm::vec4>> levels;  ///< 0 .. the top: all texels with margin, row by row; empty in the
+                                                 ///< first two
+    std::vector<glm::vec4> veil;                 ///< of the top: light from too far for a margin, by texel
 };
 
-/// Finds, for the pictures of one eye, what light of the others one of them takes, once, and then adds it up for every frame.
-/// Every direction counts once: as that picture has it, or where it does not, as the others have it, in proportion to their depths there; over its guard they
-/// take over gradually. Light falls into the margins of
-/// the pyramid at the angle it comes from, or, beyond them, veils by the angle to each texel of the top: all of it up to 90 degrees, none from 100 on.
+/// Sums, for one picture of an eye, the light of the other pictures that is scattered into it. The geometry is computed
+/// once, the sums for every frame. Every direction counts once: from the own picture, else from the others in
+/// proportion to their depths; over the guard the others take over gradually. Light enters the margins of the pyramid
+/// at its angle. Beyond the margins it veils each texel of the top by its angle: fully up to 90 degrees, not at all
+/// from 100.
 class LightElsewhere {
 public:
     LightElsewhere(const EyeScatter&, std::span<const EyePicture> pictures, size_t own);
 
-    /// `sums`: of each picture, the own one included. Their borders (EyePicture::guard) are kGuard wide: nothing is shown that light goes past.
+    /// Off-screen light of a frame. `sums`: of each picture, including the own one. Borders (EyePicture::guard) are
+    /// kGuard wide.
     OffscreenLight of(std::span<const LightSums> sums, std::span<const UnseenLamp> lamps) const;
-    /// Of the host's memory.
+    /// Bytes of host memory.
     uint64_t bytes() const;
 
-    /// px. From more than 11 px away only levels from 2 on have a say: kernels of 7 x 7 on texels of 2 px, and what these take and give.
+    /// px. Beyond 11 px only levels from 2 on contribute: kernels of 7 x 7 on texels of 2 px, with their filters.
     static constexpr int kGuard = 12;
 
 private:
@@ -63,7 +67,7 @@ private:
         uint32_t node, column;
         float weight;
     };
-    /// What one other picture gives.
+    /// Contributions of one other picture.
     struct Giver {
         size_t picture = 0;
         std::vector<Near> near;

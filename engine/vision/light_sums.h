@@ -1,4 +1,4 @@
-// Light of a picture, added up so that what is far away can be taken together. SPDX-License-Identifier: MIT
+// Sums of the light of a picture, for far away parts. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <span>
@@ -8,9 +8,10 @@
 
 namespace vesper {
 
-/// Where light is added up: nodes of level 0 are the pixels of a picture, those of level k every 2^k-th of them along either axis (the last may lie
-/// beyond the picture). Each node has what lies under a tent about it, 1 there and 0 at its neighbours: so the nodes of a level have all of the
-/// light, with its middle where it was. A tent is that of the level below at its node, and half of those beside it there.
+/// Nodes of the sums. Nodes of level 0 are the pixels of a picture; nodes of level k are every 2^k-th pixel along both
+/// axes (the last may lie beyond the picture). Each node sums the light under a tent, 1 at the node and 0 at its
+/// neighbours, so a level keeps all light and its centre. A tent is the tent of the level below at its node, plus half
+/// of its neighbours there.
 struct LightNodes {
     std::vector<glm::ivec2> sizes;  ///< of each level, columns and rows
     std::vector<uint32_t> first;    ///< of each level, among the nodes of all
@@ -27,7 +28,8 @@ class LightSums {
 public:
     explicit LightSums(const ImageAngles&);
 
-    /// RGBA, cd/m^2, rows from the top; pixels that are not finite have no light. It is looked at until the next one is taken.
+    /// RGBA, cd/m^2, rows from the top; pixels that are not finite have no light. The data must stay valid until the
+    /// next call.
     void take(std::span<const float> rgba);
     /// Of a node (LightNodes::index): RGB lx, on a plane at the eye that faces it.
     glm::vec3 at(uint32_t node) const;

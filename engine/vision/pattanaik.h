@@ -3,7 +3,7 @@
 
 namespace vesper::pattanaik {
 
-/// What the observer remembers. Adaptation luminances in cd/m^2, pigment unbleached.
+/// Pattanaik adaptation state. Luminances in cd/m^2; pigment is the unbleached part.
 struct State {
     double cones = 0, rods = 0;              ///< adaptation luminance, pattanaik
     double cone_pigment = 1, rod_pigment = 1;
@@ -24,7 +24,7 @@ State adapted(double goal, double scotopic);
 /// After `seconds` of looking at `goal`, exactly.
 State after(const State&, double goal, double scotopic, double seconds);
 
-/// What a luminance becomes for an observer in a state, on a display that another, adapted to 25 cd/m^2, looks at.
+/// Appearance of a luminance on a display whose viewer is adapted to 25 cd/m^2.
 struct Shown {
     double luminance;       ///< relative to the display's white of 125 cd/m^2; may exceed 1
     double colour_exponent; ///< of the colour's ratios
@@ -35,7 +35,8 @@ public:
     explicit Appearance(const State&, double rod_constant = kRodConstant);
     Shown operator()(double luminance, double scotopic) const;
 
-    /// Responses to a luminance, and to a scotopic luminance, as the display's observer has them: their sum and offset().
+    /// Responses of the display's viewer to a luminance and to a scotopic luminance; the total is their sum plus
+    /// offset().
     double cones(double luminance) const;
     double rods(double scotopic) const;
     double offset() const { return offset_; }

@@ -1,4 +1,4 @@
-// What levels of the glare pyramid take of a pixel, and give to one, along one axis. SPDX-License-Identifier: MIT
+// Weights between a pixel and the levels of the glare pyramid, along one axis. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ inline CascadeTaps coarser(const CascadeTaps& fine, double gain) {
     return taps;
 }
 
-/// What a pixel gives to each texel of the levels 0 .. `levels`, and what it takes of each.
+/// Weights from a pixel to the texels of levels 0 .. `levels` (given), and from these to the pixel (taken).
 inline std::vector<CascadeTaps> cascade(int pixel, int levels, double gain) {
     std::vector<CascadeTaps> all{{pixel, {1.0}}};
     for (int l = 0; l < levels; ++l) all.push_back(coarser(all.back(), gain));

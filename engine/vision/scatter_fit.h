@@ -1,5 +1,5 @@
-// How a picture is scattered in the eye by small kernels on halving resolutions. SPDX-License-Identifier: MIT
-// Everything is meant in angles: a picture on a plane has pixels of other size, shape and distance at its edges.
+// Eye scatter by small kernels on a pyramid. SPDX-License-Identifier: MIT
+// All functions use angles: pixels of a plane picture differ in size, shape and distance at its edges.
 #pragma once
 
 #include <array>
@@ -32,17 +32,19 @@ struct ImageAngles {
 double steradians_per_area(glm::dvec2 tangents);
 /// Angle between two points of the plane, degrees.
 double degrees_between(glm::dvec2 a, glm::dvec2 b);
-/// Part of the light of a point that is scattered into a rectangle of the plane about it, from `low` (below 0) to `high` beside it.
+/// Part of the light of a point that is scattered into a rectangle of the plane about it, from `low` (below 0) to
+/// `high` beside it.
 double light_within(const EyeScatter&, glm::dvec2 point, glm::dvec2 low, glm::dvec2 high);
 /// Luminance at `to` for 1 cd/m^2 in a rectangle of the plane about `from`, `half` wide to either side: sr * sr^-1.
 double light_from(const EyeScatter&, glm::dvec2 to, glm::dvec2 from, glm::dvec2 half);
 
-/// What the pyramid filters with: from a level to the one above it, texel j takes 2j - 2 .. 2j + 3 times these, over 32;
-/// on the way back it gives as many to the same. The quartic B-spline.
+/// Filter of the pyramid, a quartic B-spline: texel j of a level sums texels 2j - 2 .. 2j + 3 of the level below, over
+/// 32; on the way back it adds to the same texels.
 constexpr std::array<double, 6> kScatterFilter{1, 5, 10, 10, 5, 1};
-/// Texels that each level has beyond the picture, on every side: light of a lamp less than 6 texels outside goes into them.
+/// Texels that each level has beyond the picture, on every side: light of a lamp less than 6 texels outside goes into
+/// them.
 constexpr int kScatterMargin = 9;
-/// Texels beyond the picture that have a say in it.
+/// Texels beyond the picture that contribute to it.
 constexpr int kScatterReach = 2;
 /// Texels that kernels reach in each direction, and in wide pictures.
 constexpr int kTapReach = 2, kWideTapReach = 3;
@@ -53,15 +55,17 @@ glm::ivec2 scatter_size(const ImageAngles&, int level);
 /// The level that is the top.
 int scatter_levels(const ImageAngles&);
 
-/// Where light from beyond a picture goes into its pyramid: a level, 1 .. the top, whose margin has all of it, and its place.
+/// Entry of off-screen light into the pyramid: a level, 1 .. the top, whose margin contains it, and its place.
 struct ScatterEntry {
     int level;
     glm::dvec2 pixels, tangents;
 };
-/// Of light from a direction (view frame), at the finest level there is from `finest` on; nothing where it is too far, or behind the plane of the eye.
+/// Entry of light from a direction (view frame) at the finest possible level from `finest` on; empty if it is too far
+/// or behind the plane of the eye.
 std::optional<ScatterEntry> scatter_entry(const ImageAngles&, glm::dvec3 direction, int finest = 1);
 
-/// Neighbours of a texel that its level is filtered with, each with its opposite, and the texel itself: the rest of its row, then rows below. x right, y down.
+/// Neighbours of a texel that its level is filtered with, each with its opposite, and the texel itself: the rest of its
+/// row, then rows below. x right, y down.
 std::vector<glm::ivec2> scatter_taps(int reach);
 
 /// Texels of the top, in each direction, whose weights are fitted.
@@ -74,13 +78,14 @@ struct BetweenNodes {
 };
 BetweenNodes between_nodes(double part, int nodes);
 
-/// Rows of a level, an even number of at most `most`, over which taps may be taken as linear: no more than from node to node.
+/// Rows of a level, an even number of at most `most`, over which taps may be taken as linear: no more than from node to
+/// node.
 int scatter_strip(const ImageAngles&, glm::ivec2 nodes, int level, int most);
 
-/// What pixels near the border keep beyond what kernels say, as a part of their light: at places, row by row, and linearly between them.
-/// Along an axis these are all of the first `deep` and the last pixels, and `between` ones evenly between.
+/// Correction of the light that pixels near the border keep, as a part of their light: at places, row by row, linear
+/// between them. Along an axis the places are the first and last `deep` pixels and `between` evenly spaced ones.
 struct EdgeLight {
-    /// Pixels from the border that keep something.
+    /// Pixels from the border with a correction.
     static constexpr int kDeep = 8;
     struct Axis {
         int pixels = 1, deep = 0, between = 1;
@@ -95,14 +100,15 @@ struct EdgeLight {
 };
 
 /// The operator: seen = sum over levels 0 .. levels - 1 of U^l K_l D^l + U^levels M D^levels, with small kernels K that
-/// depend on the place and a full matrix M between the texels of the top; and each pixel near the border keeps some more of its own light,
-/// or less, so that what all of the picture has of it is right.
+/// depend on the place and a full matrix M between the texels of the top; and a correction of the own light of pixels
+/// near the border, so that the sum over the picture is right.
 struct ScatterFit {
     ImageAngles image;
     int levels = 1;                      ///< the top is this one
     int reach = kTapReach;               ///< of the kernels
     glm::ivec2 strip{1, 2};              ///< texels over which passes take taps as linear, at most (scatter_strip)
-    glm::ivec2 nodes{2};                 ///< places where kernels are given: columns, rows, evenly from edge to edge of the picture
+    glm::ivec2 nodes{2};                 ///< places where kernels are given: columns, rows, evenly from edge to edge of
+                                         ///< the picture
     std::vector<float> kernels;          ///< for each node, row by row, and each level: taps() weights
     /// For each texel of the top with kScatterReach around: the weights of all with kScatterMargin around.
     std::vector<float> top;
@@ -113,7 +119,7 @@ struct ScatterFit {
     glm::ivec2 top_columns() const { return scatter_size(image, levels) + 2 * kScatterMargin; }
 };
 
-/// Fits the kernels by least squares of relative differences to the exact function, so that what leaves a pixel arrives.
+/// Fits the kernels by least squares of relative differences to the exact function, with conservation of light.
 ScatterFit fit_scatter(const EyeScatter&, const ImageAngles&, glm::ivec2 strip);
 
 }  // namespace vesper

@@ -1,11 +1,11 @@
-// What an adapted eye can just see: thresholds over luminance, acuity, pupils. SPDX-License-Identifier: MIT
+// Vision of an adapted eye: thresholds over luminance, acuity, pupils. SPDX-License-Identifier: MIT
 // Pure functions in double, without a device. Luminance L in cd/m^2; l stands for log10 L.
 #pragma once
 
 namespace vesper {
 
-/// Where the branches of the threshold curves meet. The published ones leave steps of 0.003 (cones) and 0.012 (rods) log
-/// units; at the continuous ones the branches cross or all but touch.
+/// Break points of the threshold curves. The published ones leave steps of 0.003 (cones) and 0.012 (rods) log units;
+/// the continuous ones do not.
 struct ThresholdBreaks {
     double cones = 1.9;    ///< log10 L from which Weber's law holds
     double rods = -1.44;   ///< likewise, log10 of scotopic L
@@ -23,9 +23,9 @@ double rod_threshold(double luminance, ThresholdBreaks breaks = ThresholdBreaks:
 /// 10^-0.0184 cd/m^2, cones above; not below 1.38e-3 cd/m^2. With continuous breaks: the lower of the two.
 double human_threshold(double luminance, ThresholdBreaks breaks = ThresholdBreaks::published());
 
-/// Scotopic luminance, scotopic cd/m^2, of light of which only X, Y and Z are known, Y in cd/m^2: Y (1.33 (1 + (Y + Z) / X) -
-/// 1.68), not below 0 (Ward Larson, Rushmeier and Piatko 1997). Good for broad spectra: 2.57 of daylight white (D65), 1.29 of
-/// incandescent light (A; its spectrum has 1.41).
+/// Scotopic luminance, scotopic cd/m^2, of light of which only X, Y and Z are known, Y in cd/m^2: Y (1.33 (1 + (Y + Z)
+/// / X) - 1.68), not below 0 (Ward Larson, Rushmeier and Piatko 1997). Good for broad spectra: 2.57 of daylight white
+/// (D65), 1.29 of incandescent light (A; its spectrum has 1.41).
 double scotopic_luminance(double x, double y, double z);
 
 /// Diameter of the pupil, mm (Moon and Spencer 1944), as common programs have it.
@@ -37,10 +37,11 @@ double trolands(double luminance, double diameter);
 /// Through the pupil of Moon and Spencer, td.
 double trolands(double luminance);
 
-/// Highest frequency seen at full contrast by an eye adapted to a luminance, cycles/degree (Ward et al. 1997, after Shlaer 1937).
+/// Highest frequency seen at full contrast by an eye adapted to a luminance, cycles/degree (Ward et al. 1997, after
+/// Shlaer 1937).
 double acuity(double luminance);
 
-/// How much higher the thresholds of older eyes are (Adrian 1989): 1 up to 23 years, 1.93 at 64, 4.3 at 75 and more.
+/// Factor of age on thresholds (Adrian 1989): 1 up to 23 years, 1.93 at 64, 4.3 at 75 and more.
 double age_factor(double years);
 
 }  // namespace vesper

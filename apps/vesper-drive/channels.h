@@ -24,7 +24,7 @@ struct Channels {
     std::vector<ScreenChannel> screens;  ///< from left to right, as they are put together
     size_t gaze = 0;                     ///< the one that the eye looks at (RenderSettings: tone.gaze)
 };
-/// Reads a file of channels (docs/simulator.md). Throws Error, naming file, place and reason.
+/// Reads a file of channels (docs/channels.md). Throws Error, naming file, place and reason.
 Channels read_channels(const std::filesystem::path&);
 
 /// What a channel of the driver's view sees.

@@ -39,7 +39,7 @@ struct ControllerMapping {
 
 /// Standard gamepads: left stick, triggers, buttons.
 const ControllerMapping& gamepad_mapping();
-/// Reads a file of mappings (docs/simulator.md). Throws Error with file, place and reason.
+/// Reads a file of mappings (docs/controllers.md). Throws Error with file, place and reason.
 std::vector<ControllerMapping> read_controllers(const std::filesystem::path&);
 /// The first that fits a device; nothing if none does.
 const ControllerMapping* find_mapping(std::span<const ControllerMapping>, const std::string& device, bool is_gamepad);

@@ -1,4 +1,4 @@
-// Drives as files: what was done, step by step, to be driven again (docs/simulator.md). SPDX-License-Identifier: MIT
+// Drives as files: what was done, step by step, to be driven again (docs/drives.md). SPDX-License-Identifier: MIT
 #pragma once
 
 #include <filesystem>

@@ -78,7 +78,7 @@ public:
     /// Goes on with another device, as after one was lost; the eye remembers.
     void use(Device&);
 
-    // Recording (docs/simulator.md).
+    // Recording (docs/drives.md).
     /// Records the drive from its start, whenever that was, and goes on with it: FILE.part has every event as soon as it happened.
     /// `size`: of the pictures, px, which a replay then has, too.
     void record(const std::filesystem::path& file, std::optional<glm::uvec2> size = {});

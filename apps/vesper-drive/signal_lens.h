@@ -24,7 +24,7 @@ struct SignalLens {
     bool shines(double seconds) const;
 };
 
-/// What the lenses of a signal, whose colours from the top these are, show in a state of it (docs/roads.md has the words): one word for
+/// What the lenses of a signal, whose colours from the top these are, show in a state of it (docs/esmini.md has the words): one word for
 /// each by its place ("on;off;off"), or words that name what shines ("red", "flashing yellow"; "off"). Nothing where it is none of that.
 std::optional<std::vector<SignalLens::Mode>> lenses_in(const std::string& state, const std::vector<std::string>& colours);
 

@@ -17,11 +17,11 @@
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kSource = VESPER_SOURCE_DIR;
+const fs::path kRepository = VESPER_SOURCE_DIR;
 constexpr size_t kMaxWords = 1500, kMaxColumns = 120;
 const std::regex kLink(R"(\]\(([^)\s]+)\))");
 
-std::string text_of(const fs::path& file) {
+std::string document_text(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -36,8 +36,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 /// The documents of the project, relative to the source folder.
 std::vector<fs::path> documents() {
     std::vector<fs::path> found{"README.md", "CONTRIBUTING.md", "CHANGELOG.md"};
-    for (const auto& entry : fs::recursive_directory_iterator(kSource / "docs"))
-        if (entry.path().extension() == ".md") found.push_back(fs::relative(entry.path(), kSource));
+    for (const auto& entry : fs::recursive_directory_iterator(kRepository / "docs"))
+        if (entry.path().extension() == ".md") found.push_back(fs::relative(entry.path(), kRepository));
     std::sort(found.begin(), found.end());
     return found;
 }
@@ -72,10 +72,10 @@ std::set<std::string> anchors_of(const std::string& text) {
 std::string objection_to_link(const fs::path& document, const std::string& link) {
     const size_t hash = link.find('#');
     const std::string path = link.substr(0, hash);
-    const fs::path target = path.empty() ? kSource / document : kSource / document.parent_path() / path;
+    const fs::path target = path.empty() ? kRepository / document : kRepository / document.parent_path() / path;
     if (!fs::exists(target)) return "no such file";
     if (hash == link.npos) return {};
-    return anchors_of(text_of(target)).contains(link.substr(hash + 1)) ? "" : "no such heading";
+    return anchors_of(document_text(target)).contains(link.substr(hash + 1)) ? "" : "no such heading";
 }
 
 /// Characters of a line, of UTF-8.
@@ -101,7 +101,7 @@ size_t words_of(const std::string& text) {
 TEST(Documents, LinksLeadToFilesAndHeadings) {
     size_t links = 0;
     for (const fs::path& document : documents()) {
-        for (const std::string& link : links_of(text_of(kSource / document))) {
+        for (const std::string& link : links_of(document_text(kRepository / document))) {
             EXPECT_EQ(objection_to_link(document, link), "") << document << " links to " << link;
             ++links;
         }
@@ -120,13 +120,13 @@ TEST(Documents, ABrokenLinkIsSeen) {
 
 TEST(Documents, PagesAreShort) {
     for (const fs::path& document : documents())
-        EXPECT_LE(words_of(text_of(kSource / document)), kMaxWords) << document;
+        EXPECT_LE(words_of(document_text(kRepository / document)), kMaxWords) << document;
     EXPECT_EQ(words_of("one two\nthree"), 3u);
 }
 
 TEST(Documents, LinesFit) {
     for (const fs::path& document : documents())
-        EXPECT_EQ(long_lines(text_of(kSource / document)), std::vector<size_t>{}) << document;
+        EXPECT_EQ(long_lines(document_text(kRepository / document)), std::vector<size_t>{}) << document;
     EXPECT_EQ(long_lines("short\n" + std::string(121, 'x') + "\n|" + std::string(200, 'x')), std::vector<size_t>{2});
     std::string accents;
     for (size_t i = 0; i < kMaxColumns; ++i) accents += "é";
@@ -137,7 +137,7 @@ TEST(Documents, EveryPageIsInAnIndex) {
     for (const fs::path& document : documents()) {
         const fs::path folder = document.parent_path();
         if (folder.empty() || document.filename() == "README.md") continue;
-        const auto indexed = links_of(text_of(kSource / folder / "README.md"));
+        const auto indexed = links_of(document_text(kRepository / folder / "README.md"));
         EXPECT_NE(std::find(indexed.begin(), indexed.end(), document.filename().string()), indexed.end()) << document;
     }
 }

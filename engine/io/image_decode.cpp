@@ -22,7 +22,6 @@ struct Job {
     std::span<const uint8_t> bytes;
     uint32_t max_side;
     uint64_t max_texels;
-    bool header_only = false;
     size_t read = 0;
     Image image;
     std::vector<uint8_t> row;
@@ -91,7 +90,6 @@ bool decode_png(Job& job, const PngReading& reading) {
     const png_uint_32 width = png_get_image_width(png, header), height = png_get_image_height(png, header);
     // Deflate packs at most 1032 : 1, and a texel may be a single bit.
     if (!acceptable(job, width, height, 1040 * 8)) return false;
-    if (job.header_only) return true;
     png_set_expand(png);
     png_set_scale_16(png);
     png_set_gray_to_rgb(png);
@@ -170,7 +168,6 @@ bool decode_jpeg(Job& job, JpegReading& reading) {
     jpeg_read_header(&jpeg, TRUE);
     // At least one bit for each block of 64 texels, of which subsampling may make sixteen.
     if (!acceptable(job, jpeg.image_width, jpeg.image_height, 64 * 16 * 8)) return false;
-    if (job.header_only) return true;
     // Four inks come as CMYK (libjpeg undoes YCCK); Adobe's files hold them inverted.
     jpeg.out_color_space = jpeg.num_components == 4 ? JCS_CMYK : JCS_RGB;
     jpeg_start_decompress(&jpeg);
@@ -232,11 +229,6 @@ void run(Job& job) {
 }
 
 }  // namespace
-
-void check_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels) {
-    Job job{.bytes = bytes, .max_side = max_side, .max_texels = max_texels, .header_only = true};
-    run(job);
-}
 
 Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels) {
     Job job{.bytes = bytes, .max_side = max_side, .max_texels = max_texels};

@@ -17,9 +17,6 @@ namespace vesper {
 /// CMYK files are converted; colour profiles and gamma chunks are ignored, as glTF demands.
 Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels = UINT64_MAX);
 
-/// Throws Error as decode_image() does for what the header of a picture says, without its pixels.
-void check_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels = UINT64_MAX);
-
 /// The media type of a PNG or JPEG ("image/png"), or of another picture format we know but do not read; "" otherwise.
 std::string media_type(std::span<const uint8_t> bytes);
 

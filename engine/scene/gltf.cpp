@@ -63,7 +63,6 @@ void read_all(GltfReader& reader) {
     read_animations(reader);
     check_world(reader);
     check_unused(reader);
-    note_broken_rules(reader);
 }
 
 LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limits) {

@@ -156,13 +156,13 @@ uint64_t accessor_count(GltfDocument& document, const JsonValue& reference) {
 }
 
 Floats read_floats(GltfDocument& document, const JsonValue& reference, std::initializer_list<std::string_view> types,
-                   uint64_t max_count, Numbers numbers) {
+                   uint64_t max_count) {
     const JsonValue accessor = document.element("accessors", reference);
     const JsonValue type = accessor.at("type");
     if (std::find(types.begin(), types.end(), type.text()) == types.end())
         type.fail("type " + type.text() + " does not fit this use");
     const Component component = component_of(accessor);
-    const bool normalized = accessor.boolean_or("normalized", false) && numbers == Numbers::Meant;
+    const bool normalized = accessor.boolean_or("normalized", false);
     Floats floats;
     floats.components = components_of(type);
     floats.count = static_cast<uint32_t>(bounded_count(accessor, max_count));

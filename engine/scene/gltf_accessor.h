@@ -19,13 +19,10 @@ struct Floats {
 /// Element count an accessor states, without reading it.
 uint64_t accessor_count(GltfDocument& document, const JsonValue& reference);
 
-/// Of accessors that are normalized: the numbers that are meant, up to 1, or those that stand in the file.
-enum class Numbers : uint8_t { Meant, Stored };
-
 /// Reads any component type, normalized or not, strided, sparse. `types`: those allowed, as "VEC3". At most
 /// `max_count` elements. Values may be non-finite: the caller knows whether that is a fault. Throws Error.
 Floats read_floats(GltfDocument& document, const JsonValue& reference, std::initializer_list<std::string_view> types,
-                   uint64_t max_count, Numbers numbers = Numbers::Meant);
+                   uint64_t max_count);
 
 /// Reads unsigned scalars, all less than `end`. Throws Error.
 std::vector<uint32_t> read_indices(GltfDocument& document, const JsonValue& reference, uint64_t max_count,

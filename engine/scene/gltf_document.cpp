@@ -35,7 +35,7 @@ struct Chunks {
 };
 
 /// The chunks of a binary glTF (specification 2.0, chapter 4). Unknown chunks are skipped, as it demands.
-Chunks split_glb(std::span<const uint8_t> file, const std::string& name, std::vector<std::string>& broken_rules) {
+Chunks split_glb(std::span<const uint8_t> file, const std::string& name) {
     const auto fail = [&](size_t offset, const std::string& reason) -> Error {
         return Error(name + ": byte " + std::to_string(offset) + ": " + reason);
     };
@@ -58,10 +58,6 @@ Chunks split_glb(std::span<const uint8_t> file, const std::string& name, std::ve
             throw fail(at, "chunk of " + std::to_string(size) + " bytes does not fit into the file");
         const auto bytes = file.subspan(at + 8, size);
         if (number == 0 && type != kJsonChunk) throw fail(at + 4, "the first chunk must be JSON");
-        const auto breaks = [&](const char* what) { broken_rules.push_back("byte " + std::to_string(at) + ": " + what); };
-        if (size % 4 != 0) breaks("a chunk ends beside a multiple of four");
-        if (number > 0 && type == kJsonChunk) breaks("a second JSON chunk");
-        if (number > 1 && type == kBinaryChunk) breaks(chunks.binary ? "a second binary chunk" : "a binary chunk that is not the second");
         if (number == 0) chunks.json = bytes;
         if (number == 1 && type == kBinaryChunk) chunks.binary = bytes;
         at += 8 + size + (4 - size % 4) % 4;
@@ -91,17 +87,14 @@ GltfDocument::GltfDocument(const std::filesystem::path& file, const SceneLimits&
     const std::vector<uint8_t> bytes = read_file(file, limits.file_bytes);
     if (bytes.empty()) throw Error(name + ": is empty");
     if (bytes.size() >= 4 && word_at(bytes, 0) == kMagic) {
-        const Chunks chunks = split_glb(bytes, name, broken_rules_);
+        const Chunks chunks = split_glb(bytes, name);
         json_ = parse_json(chunks.json, name);
         has_binary_chunk_ = chunks.binary.has_value();
         if (chunks.binary) binary_chunk_.assign(chunks.binary->begin(), chunks.binary->end());
-        if (!chunks.binary && !list("buffers").empty() && !list("buffers")[0].find("uri")) broken_rules_.push_back("/buffers/0: has neither a uri nor a binary chunk");
     } else {
         json_ = parse_json(bytes, name);
     }
     check_format();
-    const auto text = bytes.size() >= 4 && word_at(bytes, 0) == kMagic ? std::span(bytes).subspan(std::min<size_t>(bytes.size(), 20)) : std::span(bytes);
-    if (text.size() >= 3 && text[0] == 0xef && text[1] == 0xbb && text[2] == 0xbf) broken_rules_.push_back("its JSON begins with a byte order mark");
     buffers_.resize(list("buffers").size());
 }
 

@@ -44,9 +44,6 @@ public:
     /// Counts elements that an accessor makes of no bytes; throws where all of them are over the limit.
     void take_unwritten(const JsonValue& accessor, uint64_t count);
 
-    /// What is wrong with the file around its JSON, without harm.
-    const std::vector<std::string>& broken_rules() const { return broken_rules_; }
-
     /// For the converter. Whatever was obtained above is invalid after a change.
     nlohmann::json& edit();
 
@@ -60,7 +57,6 @@ private:
     std::vector<uint8_t> binary_chunk_;
     bool has_binary_chunk_ = false;
     uint64_t bytes_read_ = 0, unwritten_ = 0;
-    std::vector<std::string> broken_rules_;
     std::vector<std::pair<std::string, std::vector<JsonValue>>> lists_;
     std::vector<std::optional<std::vector<uint8_t>>> buffers_;
 };

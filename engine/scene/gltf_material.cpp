@@ -16,7 +16,7 @@ uint32_t read_image(GltfReader& reader, const JsonValue& reference) {
     const uint32_t index = reference.index(UINT32_MAX, "images");
     if (reader.image_of[index] != kUnread) return reader.image_of[index];
     const std::vector<uint8_t> bytes = reader.document.image(index);
-    const std::string type = reader.image_types[index] = media_type(bytes);
+    const std::string type = media_type(bytes);
     if (!type.empty() && type != "image/png" && type != "image/jpeg") {
         reader.notes.add("a picture of type " + type + " is not read: its texture is left out");
         return reader.image_of[index] = kNone;

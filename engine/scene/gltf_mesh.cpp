@@ -47,9 +47,9 @@ std::vector<uint32_t> triangles(GltfReader& reader, const std::vector<uint32_t>&
 }
 
 /// Normals from the file; those of no direction are made from the triangles around.
-void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normals, const JsonValue& reference, bool as_read) {
+void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normals) {
     std::vector<char> missing(primitive.vertices.size(), 0);
-    bool any = false, scaled = false;
+    bool any = false;
     for (size_t i = 0; i < primitive.vertices.size(); ++i) {
         const auto n = normals[i];
         const glm::dvec3 normal(n[0], n[1], n[2]);
@@ -58,19 +58,10 @@ void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normal
         primitive.vertices[i].normal = usable ? glm::vec3(normal / length) : glm::vec3(0);
         missing[i] = !usable;
         any = any || !usable;
-        scaled = scaled || !(std::abs(length - 1) <= kUnitTolerance);
     }
-    if (as_read && scaled && reader.document.element("accessors", reference).find("bufferView")) reader.scaled_normals.insert(reference.index(UINT32_MAX, "accessors"));
     if (!any) return;
     reader.notes.add("a primitive with normals of no direction: those are made from its triangles");
     fill_normals(primitive, missing);
-}
-
-/// Morphed normals need not be of length 1.
-bool moves_normals(const JsonValue& primitive, const Pose& pose) {
-    if (pose.weights.empty()) return false;
-    const std::vector<JsonValue> targets = primitive.elements_of("targets");
-    return std::any_of(targets.begin(), targets.end(), [](const JsonValue& target) { return target.find("NORMAL").has_value(); });
 }
 
 void take_uv(GltfReader& reader, Primitive& primitive, const Floats& coordinates) {
@@ -180,7 +171,7 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& sou
     auto normals = read_attribute(reader, attributes, "NORMAL", count, {"VEC3"});
     if (normals) {
         add_targets(reader, source, "NORMAL", pose.weights, *normals);
-        take_normals(reader, made, *normals, attributes.at("NORMAL"), !moves_normals(source, pose));
+        take_normals(reader, made, *normals);
     }
     if (pose.skin) bend(reader, attributes, *pose.skin, made);
     if (normals) {

@@ -35,9 +35,6 @@ struct UvMapping {
     bool operator==(const UvMapping&) const = default;
 };
 
-/// How far directions may be from length 1: half a step of a signed byte in each component.
-constexpr double kUnitTolerance = 0.0069;
-
 /// In `image_of`: not looked at. kNone there: a format we do not read.
 constexpr uint32_t kUnread = kNone - 1;
 
@@ -66,8 +63,6 @@ struct GltfReader {
     std::map<std::tuple<uint32_t, uint32_t, std::vector<float>>, uint32_t> meshes{};
     std::map<uint32_t, bool> jointed{};  ///< see hangs_on_joints
     std::set<uint32_t> skinned{};        ///< nodes of the file whose mesh a skin puts in place
-    std::map<uint32_t, std::string> image_types{};  ///< of the pictures read: what their bytes are
-    std::set<uint32_t> scaled_normals{};            ///< accessors whose normals are not of length 1
     bool photometric = false;  ///< there is an extras block
     uint32_t default_material = kNone;
     std::map<uint32_t, glm::dvec4> specular_means{};  ///< of pictures that specularGlossinessTextures name
@@ -129,9 +124,6 @@ void read_luminance_pictures(GltfReader& reader, const JsonValue& block);
 void check_needs_no_uv(const GltfReader& reader, uint32_t material, const JsonValue& attributes, const std::string& set);
 /// "environment".
 void read_environment(GltfReader& reader, const JsonValue& source);
-
-/// What the file breaks of glTF 2.0 without harm to the scene. After all else.
-void note_broken_rules(GltfReader& reader);
 
 /// All of the above in order, and the checks that need the whole scene.
 void read_all(GltfReader& reader);

@@ -140,7 +140,11 @@ void add_targets(GltfReader& reader, const JsonValue& primitive, const char* att
     take_decoded(reader, primitive, targets.size());
     for (size_t t = 0; t < std::min(weights.size(), targets.size()); ++t) {
         const auto reference = weights[t] == 0 ? std::nullopt : targets[t].find(attribute);
-        if (!reference || reader.document.element("accessors", *reference).text_or("type", "") != "VEC3") continue;  // of what else it is there is a note
+        if (!reference) continue;
+        if (reader.document.element("accessors", *reference).text_or("type", "") != "VEC3") {
+            reader.notes.add("a morph target that is not of type VEC3 is left out");
+            continue;
+        }
         const Floats moves = read_floats(reader.document, *reference, {"VEC3"}, reader.limits.vertices);
         take_decoded(reader, *reference, moves.count);
         if (moves.count != values.count)

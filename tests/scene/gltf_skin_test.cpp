@@ -225,6 +225,8 @@ TEST(GltfMorph, TargetsCountByTheirWeights) {
     expect_near(seen(scene, "c", 0).position, {0, 0, 0});
     file.root["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = file.vec3({1, 0, 0});
     EXPECT_TRUE(contains(file.complaint(), "/targets/0/POSITION: has 1 elements"));
+    file.root["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = file.vec2({1, 0, 1, 0, 1, 0});
+    EXPECT_TRUE(mentions(file.read().notes, "a morph target that is not of type VEC3 is left out"));
 }
 
 TEST(GltfMorph, FlatNormalsAreThoseOfWhatIsShown) {

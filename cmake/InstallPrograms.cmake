@@ -11,7 +11,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/examples/ DESTINATION ${documents}/examples PATTERN __pycache__ EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)
 # Parts of these are in the programs; where the system says under which licences, that goes along.
-foreach(package libimgui-dev libcli11-dev nlohmann-json3-dev libglm-dev libeigen3-dev)
+foreach(package libimgui-dev libcli11-dev nlohmann-json3-dev libglm-dev libeigen3-dev libtinygltf-dev)
     if(EXISTS /usr/share/doc/${package}/copyright)
         install(FILES /usr/share/doc/${package}/copyright DESTINATION ${documents}/parts RENAME ${package}.txt)
     endif()

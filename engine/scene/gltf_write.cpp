@@ -161,13 +161,4 @@ std::vector<uint8_t> encode_gltf(GltfDocument& document, bool binary, std::vecto
     return binary ? encode_binary(root, parts, document.name()) : encode_text(root, parts);
 }
 
-std::vector<uint8_t> encode_gltf(nlohmann::json& root, std::span<const uint8_t> buffer, const std::string& name, bool binary) {
-    Parts parts;
-    if (!buffer.empty()) {
-        root["buffers"] = json::array({{{"byteLength", buffer.size()}}});
-        parts.buffers.emplace_back(buffer);
-    }
-    return binary ? encode_binary(root, parts, name) : encode_text(root, parts);
-}
-
 }  // namespace vesper

@@ -13,7 +13,4 @@ namespace vesper {
 /// Changes the document's JSON. Throws Error.
 std::vector<uint8_t> encode_gltf(GltfDocument& document, bool binary, std::vector<std::string>& warnings);
 
-/// The same of JSON made here, whose only bytes are those of one buffer; its "buffers" are added. Changes the JSON.
-std::vector<uint8_t> encode_gltf(nlohmann::json& root, std::span<const uint8_t> buffer, const std::string& name, bool binary);
-
 }  // namespace vesper

@@ -135,6 +135,23 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, GltfSave, testing::Values("scene.gltf", "scene.glb"));
 
+TEST(GltfSaveNames, MayBeMissingOrNoUtf8) {
+    const test::TempFolder folder;
+    Scene scene;
+    for (const char* name : {"scene.gltf", "scene.glb"}) {
+        save_gltf(scene, "test", folder / name);
+        EXPECT_TRUE(read_gltf(folder / name).scene.nodes.empty());
+    }
+    scene.nodes.resize(2);
+    scene.nodes[1].name = "M\xfcller";
+    save_gltf(scene, "K\xf6ln.xodr", folder / "scene.gltf");
+    const Scene got = read_gltf(folder / "scene.gltf").scene;
+    ASSERT_EQ(got.nodes.size(), 2u);
+    EXPECT_EQ(got.nodes[0].name, "");
+    EXPECT_EQ(got.nodes[0].scale, glm::vec3(1));
+    EXPECT_EQ(got.nodes[1].name, "M\xef\xbf\xbdller");  // the replacement character
+}
+
 TEST(GltfSaveErrors, RefusesWhatItCannotHold) {
     const test::TempFolder folder;
     Scene scene = example();

@@ -33,7 +33,7 @@ void check_unused(GltfReader& reader) {
             document.view(i);
     for (uint32_t i = 0; i < document.list("meshes").size(); ++i)
         if (const auto read = reader.meshes.lower_bound({i, 0, {}}); read == reader.meshes.end() || std::get<0>(read->first) != i)
-            check_mesh(reader, document.list("meshes")[i]);
+            check_mesh(reader, i);
 }
 
 void note_extensions(GltfReader& reader) {

@@ -7,47 +7,16 @@
 namespace vesper {
 namespace {
 
-enum class Component : uint16_t { Byte = 5120, UByte = 5121, Short = 5122, UShort = 5123, UInt = 5125, Float = 5126 };
-
-Component component_of(const JsonValue& holder) {
-    const JsonValue type = holder.at("componentType");
-    switch (type.integer()) {
-        case 5120:
-            return Component::Byte;
-        case 5121:
-            return Component::UByte;
-        case 5122:
-            return Component::Short;
-        case 5123:
-            return Component::UShort;
-        case 5125:
-            return Component::UInt;
-        case 5126:
-            return Component::Float;
-        default:
-            type.fail("is no component type of glTF");
-    }
+/// A component type that glTF has, or its refusal. `holder` states it.
+int checked_component(const JsonValue& holder, int type) {
+    if (type < TINYGLTF_COMPONENT_TYPE_BYTE || type > TINYGLTF_COMPONENT_TYPE_FLOAT ||
+        type == TINYGLTF_COMPONENT_TYPE_INT)
+        holder.at("componentType").fail("is no component type of glTF");
+    return type;
 }
 
-uint32_t size_of(Component component) {
-    switch (component) {
-        case Component::Byte:
-        case Component::UByte:
-            return 1;
-        case Component::Short:
-        case Component::UShort:
-            return 2;
-        default:
-            return 4;
-    }
-}
-
-uint32_t components_of(const JsonValue& type) {
-    static constexpr std::pair<std::string_view, uint32_t> kTypes[] = {
-        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
-    for (const auto& [name, count] : kTypes)
-        if (type.text() == name) return count;
-    type.fail("is no accessor type of glTF");
+uint32_t size_of(int component) {
+    return static_cast<uint32_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(component)));
 }
 
 /// Elements lying in a buffer view: checked, so that any of `count` may be read. Addresses need not be aligned.
@@ -57,11 +26,11 @@ struct Elements {
     const uint8_t* at(uint64_t i) const { return bytes + i * stride; }
 };
 
-Elements elements_in(GltfDocument& document, const JsonValue& holder, uint64_t count, uint32_t element_size) {
-    const JsonValue reference = holder.at("bufferView");
-    const JsonValue view = document.element("bufferViews", reference);
-    const auto bytes = document.view(reference.index(UINT32_MAX, "bufferViews"));
-    const uint64_t offset = holder.integer_or("byteOffset", 0);
+/// `holder` is what names the buffer view: an accessor or a part of a sparse one.
+Elements elements_in(GltfDocument& document, const JsonValue& holder, int number, uint64_t offset, uint64_t count,
+                     uint32_t element_size) {
+    const JsonValue view = document.list("bufferViews")[static_cast<size_t>(number)];
+    const auto bytes = document.view(static_cast<uint32_t>(number));
     const uint64_t stride = view.integer_or("byteStride", element_size, 1u << 16);
     if (stride < element_size)
         view.fail("byteStride " + std::to_string(stride) + " is less than the " + std::to_string(element_size) +
@@ -80,123 +49,122 @@ T load(const uint8_t* bytes) {
     return value;
 }
 
-float load_float(const uint8_t* bytes, Component component, bool normalized) {
+float load_float(const uint8_t* bytes, int component, bool normalized) {
     switch (component) {
-        case Component::Byte: {
+        case TINYGLTF_COMPONENT_TYPE_BYTE: {
             const float value = load<int8_t>(bytes);
             return normalized ? std::max(value / 127.f, -1.f) : value;
         }
-        case Component::UByte:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
             return static_cast<float>(*bytes) / (normalized ? 255.f : 1.f);
-        case Component::Short: {
+        case TINYGLTF_COMPONENT_TYPE_SHORT: {
             const float value = load<int16_t>(bytes);
             return normalized ? std::max(value / 32767.f, -1.f) : value;
         }
-        case Component::UShort:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
             return static_cast<float>(load<uint16_t>(bytes)) / (normalized ? 65535.f : 1.f);
-        case Component::UInt: {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: {
             const double value = load<uint32_t>(bytes);
             return static_cast<float>(normalized ? value / 4294967295.0 : value);
         }
-        case Component::Float:
+        default:
             return load<float>(bytes);
     }
-    return 0;
 }
 
-uint32_t load_unsigned(const uint8_t* bytes, Component component) {
-    if (component == Component::UByte) return *bytes;
-    return component == Component::UShort ? load<uint16_t>(bytes) : load<uint32_t>(bytes);
+uint32_t load_unsigned(const uint8_t* bytes, int component) {
+    if (component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return *bytes;
+    return component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? load<uint16_t>(bytes) : load<uint32_t>(bytes);
 }
 
-Component index_component_of(const JsonValue& holder) {
-    const Component component = component_of(holder);
-    if (component != Component::UByte && component != Component::UShort && component != Component::UInt)
+int index_component(const JsonValue& holder, int type) {
+    const int component = checked_component(holder, type);
+    if (component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         holder.at("componentType").fail("indices must be of an unsigned integer type");
     return component;
 }
 
+/// Checks ranges before memory is taken for the elements. Zeros, as specified, where there is no buffer view.
+void check_range(GltfDocument& document, const GltfPart<tinygltf::Accessor>& accessor, uint32_t size) {
+    if (accessor->bufferView >= 0)
+        elements_in(document, accessor.json, accessor->bufferView, accessor->byteOffset, accessor->count, size);
+    else
+        document.take_unwritten(accessor.json, accessor->count);
+}
+
 /// What dense and sparse accessors, of numbers and of indices, have in common: `store(element, bytes)` for each.
 template <class Store>
-void for_each_element(GltfDocument& document, const JsonValue& accessor, uint64_t count, uint32_t size, Store store) {
-    if (accessor.find("bufferView")) {
-        const Elements dense = elements_in(document, accessor, count, size);
+void for_each_element(GltfDocument& document, const GltfPart<tinygltf::Accessor>& accessor, uint32_t size,
+                      Store store) {
+    const uint64_t count = accessor->count;
+    if (accessor->bufferView >= 0) {
+        const Elements dense =
+            elements_in(document, accessor.json, accessor->bufferView, accessor->byteOffset, count, size);
         for (uint64_t i = 0; i < count; ++i) store(i, dense.at(i));
     }
-    const auto sparse = accessor.find("sparse");
-    if (!sparse) return;
-    const uint64_t changed = sparse->at("count").integer();
-    if (changed > count) sparse->fail("changes more elements than the accessor has");
-    const JsonValue where = sparse->at("indices"), what = sparse->at("values");
-    const Component type = index_component_of(where);
-    const Elements indices = elements_in(document, where, changed, size_of(type));
-    const Elements values = elements_in(document, what, changed, size);
-    for (uint64_t i = 0; i < changed; ++i) {
+    if (!accessor->sparse.isSparse) return;
+    const auto& [changed, is_sparse, where, what] = accessor->sparse;
+    const JsonValue sparse = accessor.json.at("sparse");
+    if (static_cast<uint64_t>(changed) > count) sparse.fail("changes more elements than the accessor has");
+    const int type = index_component(sparse.at("indices"), where.componentType);
+    const auto elements = static_cast<uint64_t>(changed);
+    const Elements indices = elements_in(document, sparse.at("indices"), where.bufferView,
+                                         static_cast<uint64_t>(where.byteOffset), elements, size_of(type));
+    const Elements values = elements_in(document, sparse.at("values"), what.bufferView,
+                                        static_cast<uint64_t>(what.byteOffset), elements, size);
+    for (uint64_t i = 0; i < elements; ++i) {
         const uint32_t element = load_unsigned(indices.at(i), type);
         if (element >= count)
-            sparse->fail("changes element " + std::to_string(element) + " of " + std::to_string(count));
+            sparse.fail("changes element " + std::to_string(element) + " of " + std::to_string(count));
         store(element, values.at(i));
     }
 }
 
-uint64_t bounded_count(const JsonValue& accessor, uint64_t max_count) {
-    const JsonValue stated = accessor.at("count");
-    const uint64_t count = stated.integer();
-    if (count == 0) stated.fail("must be at least 1");
+void check_count(const GltfPart<tinygltf::Accessor>& accessor, uint64_t max_count) {
+    const uint64_t count = accessor->count;
+    if (count == 0) accessor.json.at("count").fail("must be at least 1");
     if (count > max_count || count >= UINT32_MAX)
-        stated.fail(std::to_string(count) + " elements are more than the limit of " + std::to_string(max_count) +
-                    " allows");
-    return count;
+        accessor.json.at("count").fail(std::to_string(count) + " elements are more than the limit of " +
+                                       std::to_string(max_count) + " allows");
 }
 
 }  // namespace
 
-uint64_t accessor_count(GltfDocument& document, const JsonValue& reference) {
-    return document.element("accessors", reference).at("count").integer();
-}
-
-Floats read_floats(GltfDocument& document, const JsonValue& reference, std::initializer_list<std::string_view> types,
-                   uint64_t max_count) {
-    const JsonValue accessor = document.element("accessors", reference);
-    const JsonValue type = accessor.at("type");
-    if (std::find(types.begin(), types.end(), type.text()) == types.end())
+Floats read_floats(GltfDocument& document, int index, std::initializer_list<int> types, uint64_t max_count) {
+    const auto accessor = document.accessor(static_cast<size_t>(index));
+    if (std::find(types.begin(), types.end(), accessor->type) == types.end()) {
+        const JsonValue type = accessor.json.at("type");
         type.fail("type " + type.text() + " does not fit this use");
-    const Component component = component_of(accessor);
-    const bool normalized = accessor.boolean_or("normalized", false);
+    }
+    const int component = checked_component(accessor.json, accessor->componentType);
+    check_count(accessor, max_count);
     Floats floats;
-    floats.components = components_of(type);
-    floats.count = static_cast<uint32_t>(bounded_count(accessor, max_count));
+    floats.components = static_cast<uint32_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor->type)));
+    floats.count = static_cast<uint32_t>(accessor->count);
     const uint32_t step = size_of(component), size = step * floats.components;
-    // Zeros, as specified, where there is no buffer view. Ranges are checked before memory is taken for them.
-    if (accessor.find("bufferView"))
-        elements_in(document, accessor, floats.count, size);
-    else
-        document.take_unwritten(accessor, floats.count);
+    check_range(document, accessor, size);
     floats.values.resize(static_cast<size_t>(floats.count) * floats.components);
-    for_each_element(document, accessor, floats.count, size, [&](uint64_t i, const uint8_t* bytes) {
+    for_each_element(document, accessor, size, [&](uint64_t i, const uint8_t* bytes) {
         for (uint32_t c = 0; c < floats.components; ++c)
-            floats.values[i * floats.components + c] = load_float(bytes + c * step, component, normalized);
+            floats.values[i * floats.components + c] = load_float(bytes + c * step, component, accessor->normalized);
     });
     return floats;
 }
 
-std::vector<uint32_t> read_indices(GltfDocument& document, const JsonValue& reference, uint64_t max_count,
-                                   uint64_t end) {
-    const JsonValue accessor = document.element("accessors", reference);
-    if (accessor.at("type").text() != "SCALAR") accessor.at("type").fail("indices must be of type SCALAR");
-    const Component component = index_component_of(accessor);
-    const uint64_t count = bounded_count(accessor, max_count);
-    if (accessor.find("bufferView"))
-        elements_in(document, accessor, count, size_of(component));
-    else
-        document.take_unwritten(accessor, count);
-    std::vector<uint32_t> indices(count);
-    for_each_element(document, accessor, count, size_of(component),
+std::vector<uint32_t> read_indices(GltfDocument& document, int index, uint64_t max_count, uint64_t end) {
+    const auto accessor = document.accessor(static_cast<size_t>(index));
+    if (accessor->type != TINYGLTF_TYPE_SCALAR) accessor.json.at("type").fail("indices must be of type SCALAR");
+    const int component = index_component(accessor.json, accessor->componentType);
+    check_count(accessor, max_count);
+    check_range(document, accessor, size_of(component));
+    std::vector<uint32_t> indices(accessor->count);
+    for_each_element(document, accessor, size_of(component),
                      [&](uint64_t i, const uint8_t* bytes) { indices[i] = load_unsigned(bytes, component); });
-    for (uint64_t i = 0; i < count; ++i)
+    for (uint64_t i = 0; i < indices.size(); ++i)
         if (indices[i] >= end)
-            accessor.fail("index " + std::to_string(indices[i]) + " at position " + std::to_string(i) +
-                          ": there are only " + std::to_string(end) + " vertices");
+            accessor.json.fail("index " + std::to_string(indices[i]) + " at position " + std::to_string(i) +
+                               ": there are only " + std::to_string(end) + " vertices");
     return indices;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <initializer_list>
-#include <string_view>
 
 #include "scene/gltf_document.h"
 
@@ -16,16 +15,12 @@ struct Floats {
     std::span<const float> operator[](size_t i) const { return std::span(values).subspan(i * components, components); }
 };
 
-/// Element count an accessor states, without reading it.
-uint64_t accessor_count(GltfDocument& document, const JsonValue& reference);
-
-/// Reads any component type, normalized or not, strided, sparse. `types`: those allowed, as "VEC3". At most
-/// `max_count` elements. Values may be non-finite: the caller knows whether that is a fault. Throws Error.
-Floats read_floats(GltfDocument& document, const JsonValue& reference, std::initializer_list<std::string_view> types,
-                   uint64_t max_count);
+/// Reads the accessor `index`, of any component type, normalized or not, strided, sparse. `types`: those allowed, as
+/// TINYGLTF_TYPE_VEC3. At most `max_count` elements. Values may be non-finite: the caller knows whether that is a
+/// fault. Throws Error.
+Floats read_floats(GltfDocument& document, int index, std::initializer_list<int> types, uint64_t max_count);
 
 /// Reads unsigned scalars, all less than `end`. Throws Error.
-std::vector<uint32_t> read_indices(GltfDocument& document, const JsonValue& reference, uint64_t max_count,
-                                   uint64_t end);
+std::vector<uint32_t> read_indices(GltfDocument& document, int index, uint64_t max_count, uint64_t end);
 
 }  // namespace vesper

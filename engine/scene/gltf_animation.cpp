@@ -6,8 +6,7 @@
 namespace vesper {
 namespace {
 
-std::optional<Channel::Path> path_of(GltfReader& reader, const JsonValue& target) {
-    const std::string& path = target.at("path").text();
+std::optional<Channel::Path> path_of(GltfReader& reader, const std::string& path) {
     if (path == "translation") return Channel::Path::Translation;
     if (path == "rotation") return Channel::Path::Rotation;
     if (path == "scale") return Channel::Path::Scale;
@@ -15,8 +14,7 @@ std::optional<Channel::Path> path_of(GltfReader& reader, const JsonValue& target
     return std::nullopt;
 }
 
-Channel::Interpolation interpolation_of(GltfReader& reader, const JsonValue& sampler) {
-    const std::string mode = sampler.text_or("interpolation", "LINEAR");
+Channel::Interpolation interpolation_of(GltfReader& reader, const std::string& mode) {
     if (mode == "LINEAR") return Channel::Interpolation::Linear;
     if (mode == "STEP") return Channel::Interpolation::Step;
     if (mode == "CUBICSPLINE") return Channel::Interpolation::Cubic;
@@ -24,18 +22,23 @@ Channel::Interpolation interpolation_of(GltfReader& reader, const JsonValue& sam
     return Channel::Interpolation::Linear;
 }
 
-void read_times(GltfReader& reader, Channel& channel, const JsonValue& input) {
-    channel.times = read_floats(reader.document, input, {"SCALAR"}, reader.limits.vertices - reader.keys).values;
+void read_times(GltfReader& reader, Channel& channel, const GltfPart<tinygltf::AnimationSampler>& sampler) {
+    channel.times =
+        read_floats(reader.document, sampler->input, {TINYGLTF_TYPE_SCALAR}, reader.limits.vertices - reader.keys)
+            .values;
     reader.keys += channel.times.size();
+    const JsonValue input = sampler.json.at("input");
     for (size_t i = 0; i < channel.times.size(); ++i)
         if (!std::isfinite(channel.times[i]) || channel.times[i] < (i == 0 ? 0 : channel.times[i - 1]))
             input.fail("key " + std::to_string(i) + ": times must be finite, from 0 and ascending");
 }
 
-void read_values(GltfReader& reader, Channel& channel, const JsonValue& output) {
+void read_values(GltfReader& reader, Channel& channel, const GltfPart<tinygltf::AnimationSampler>& sampler) {
     const bool rotation = channel.path == Channel::Path::Rotation,
                cubic = channel.interpolation == Channel::Interpolation::Cubic;
-    const Floats values = read_floats(reader.document, output, {rotation ? "VEC4" : "VEC3"}, reader.limits.vertices);
+    const Floats values = read_floats(reader.document, sampler->output,
+                                      {rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3}, reader.limits.vertices);
+    const JsonValue output = sampler.json.at("output");
     const size_t wanted = channel.times.size() * (cubic ? 3 : 1);
     if (values.count != wanted)
         output.fail("has " + std::to_string(values.count) + " values for " + std::to_string(channel.times.size()) +
@@ -50,34 +53,40 @@ void read_values(GltfReader& reader, Channel& channel, const JsonValue& output) 
     }
 }
 
-void read_channel(GltfReader& reader, const JsonValue& animation, const JsonValue& source) {
-    const JsonValue target = source.at("target");
-    const auto node = target.find("node");
-    const auto path = path_of(reader, target);
-    if (!node || !path) return;
-    const uint32_t index = node->index(reader.node_of.size(), "nodes"), moved = reader.node_of[index];
+void read_channel(GltfReader& reader, const GltfPart<tinygltf::Animation>& animation,
+                  const tinygltf::AnimationChannel& source) {
+    const auto path = path_of(reader, source.target_path);
+    if (!path) return;
+    const auto index = static_cast<uint32_t>(source.target_node), moved = reader.node_of[index];
     if (moved == kNone) return;  // not in this scene
     if (reader.skinned.contains(index) && reader.scene.nodes[moved].mesh != kNone) return;  // its joints say where it is
     if (reader.scene.nodes[moved].matrix) {
         reader.notes.add("the animation of a node that has a matrix is left out");
         return;
     }
-    const auto samplers = animation.at("samplers");
-    const JsonValue sampler = samplers.element_at(source.at("sampler"), "samplers");
+    const auto number = static_cast<size_t>(source.sampler);
+    const GltfPart<tinygltf::AnimationSampler> sampler{&animation->samplers[number],
+                                                       animation.json.at("samplers").elements()[number]};
     Channel channel;
     channel.node = moved;
     channel.path = *path;
-    channel.interpolation = interpolation_of(reader, sampler);
-    read_times(reader, channel, sampler.at("input"));
-    read_values(reader, channel, sampler.at("output"));
+    channel.interpolation = interpolation_of(reader, sampler->interpolation);
+    read_times(reader, channel, sampler);
+    read_values(reader, channel, sampler);
     reader.scene.channels.push_back(std::move(channel));
 }
 
 }  // namespace
 
 void read_animations(GltfReader& reader) {
-    for (const JsonValue& animation : reader.document.list("animations"))
-        for (const JsonValue& channel : animation.at("channels").elements()) read_channel(reader, animation, channel);
+    const auto& animations = reader.document.model().animations;
+    for (size_t i = 0; i < animations.size(); ++i) {
+        const GltfPart<tinygltf::Animation> animation{&animations[i], reader.document.list("animations")[i]};
+        // tinygltf leaves out those without a node, which extensions have.
+        if (animation.json.at("channels").json().size() > animation->channels.size())
+            reader.notes.add("an animation of no node is left out");
+        for (const tinygltf::AnimationChannel& channel : animation->channels) read_channel(reader, animation, channel);
+    }
 }
 
 }  // namespace vesper

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "scene/gltf_model.h"
 #include "scene/uri.h"
 
 namespace vesper {
@@ -195,8 +196,14 @@ std::vector<uint8_t> GltfDocument::file_of(const JsonValue& holder) {
     holder.fail("has neither uri nor bufferView");
 }
 
+const tinygltf::Model& GltfDocument::model() {
+    if (!model_) model_ = read_model(*this);
+    return *model_;
+}
+
 nlohmann::json& GltfDocument::edit() {
     lists_.clear();
+    model_.reset();
     return json_.root;
 }
 

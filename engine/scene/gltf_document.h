@@ -1,7 +1,9 @@
-// A glTF file as it stands on disk: its JSON, and the bytes that JSON names. SPDX-License-Identifier: MIT
+// A glTF file as it stands on disk: its JSON, the parts that tinygltf reads from it, and its bytes.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,8 +13,18 @@
 
 #include "scene/gltf.h"
 #include "scene/json_value.h"
+#include "scene/tinygltf.h"
 
 namespace vesper {
+
+/// A part of a file as tinygltf reads it, and the JSON that it is read from, for messages and extensions.
+template <class T>
+struct GltfPart {
+    const T* part;
+    JsonValue json;
+
+    const T* operator->() const { return part; }
+};
 
 /// JSON and binary parts of a .gltf or .glb file. Format, version, required extensions and every range it hands out
 /// are checked; everything else is for the reader.
@@ -30,6 +42,15 @@ public:
     std::span<const JsonValue> list(const char* key);
     /// The element an index names. `reference` is the value that holds the index.
     JsonValue element(const char* key, const JsonValue& reference);
+
+    /// The lists of the file as tinygltf reads them, with types, lengths and references checked, but for cameras,
+    /// images, buffers, strides, extensions and extras: of those there is the JSON. Throws Error.
+    const tinygltf::Model& model();
+    GltfPart<tinygltf::Accessor> accessor(size_t i) { return {&model().accessors[i], list("accessors")[i]}; }
+    GltfPart<tinygltf::Material> material(size_t i) { return {&model().materials[i], list("materials")[i]}; }
+    GltfPart<tinygltf::Mesh> mesh(size_t i) { return {&model().meshes[i], list("meshes")[i]}; }
+    GltfPart<tinygltf::Node> node(size_t i) { return {&model().nodes[i], list("nodes")[i]}; }
+    GltfPart<tinygltf::Skin> skin(size_t i) { return {&model().skins[i], list("skins")[i]}; }
 
     /// Whether a buffer has bytes at all: one without uri is a placeholder that some extension was to fill.
     bool has_bytes(uint32_t buffer);
@@ -59,6 +80,7 @@ private:
     uint64_t bytes_read_ = 0, unwritten_ = 0;
     std::vector<std::pair<std::string, std::vector<JsonValue>>> lists_;
     std::vector<std::optional<std::vector<uint8_t>>> buffers_;
+    std::unique_ptr<const tinygltf::Model> model_;
 };
 
 /// Whether we read, or may ignore, a glTF extension that a file requires.

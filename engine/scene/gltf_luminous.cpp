@@ -37,7 +37,8 @@ void read_luminous(GltfReader& reader, const JsonValue& use) {
     if (material.emission_picture.image != kNone) use.at("material").fail("has a luminance picture already");
     TextureUse picture;
     picture.image = use.at("picture").index(reader.scene.luminance_pictures.size(), "luminance_pictures");
-    if (const auto sampler = use.find("sampler")) read_sampler(reader, *sampler, picture);
+    if (const auto sampler = use.find("sampler"))
+        read_sampler(reader, sampler->index(reader.document.list("samplers").size(), "samplers"), picture);
     const JsonValue scale = use.at("scale");
     const std::vector<float>& rgb = reader.scene.luminance_pictures[picture.image].rgb;
     const auto factor = static_cast<float>(scale.number(0));

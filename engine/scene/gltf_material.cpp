@@ -11,9 +11,8 @@
 namespace vesper {
 namespace {
 
-uint32_t read_image(GltfReader& reader, const JsonValue& reference) {
-    const JsonValue entry = reader.document.element("images", reference);
-    const uint32_t index = reference.index(UINT32_MAX, "images");
+uint32_t read_image(GltfReader& reader, uint32_t index) {
+    const JsonValue entry = reader.document.list("images")[index];
     if (reader.image_of[index] != kUnread) return reader.image_of[index];
     const std::vector<uint8_t> bytes = reader.document.image(index);
     const std::string type = media_type(bytes);
@@ -36,15 +35,13 @@ uint32_t read_image(GltfReader& reader, const JsonValue& reference) {
     return reader.image_of[index] = static_cast<uint32_t>(reader.scene.images.size() - 1);
 }
 
-Wrap wrap_of(GltfReader& reader, const JsonValue& sampler, const char* key) {
-    const auto mode = sampler.find(key);
-    if (!mode) return Wrap::Repeat;
-    switch (mode->integer()) {
-        case 10497:
+Wrap wrap_of(GltfReader& reader, int mode) {
+    switch (mode) {
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
             return Wrap::Repeat;
-        case 33648:
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
             return Wrap::Mirror;
-        case 33071:
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
             return Wrap::Clamp;
         default:
             reader.notes.add("a wrapping mode that glTF does not have is read as REPEAT");
@@ -74,11 +71,11 @@ UvMapping read_uv_mapping(const JsonValue& info) {
     return mapping;
 }
 
-void read_sampler(GltfReader& reader, const JsonValue& index, TextureUse& use) {
-    const JsonValue sampler = reader.document.element("samplers", index);
-    use.wrap_u = wrap_of(reader, sampler, "wrapS");
-    use.wrap_v = wrap_of(reader, sampler, "wrapT");
-    use.nearest = sampler.integer_or("magFilter", 9729) == 9728;
+void read_sampler(GltfReader& reader, uint32_t index, TextureUse& use) {
+    const tinygltf::Sampler& sampler = reader.document.model().samplers[index];
+    use.wrap_u = wrap_of(reader, sampler.wrapS);
+    use.wrap_v = wrap_of(reader, sampler.wrapT);
+    use.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
 }
 
 namespace {
@@ -86,52 +83,42 @@ namespace {
 /// A textureInfo object: which image, sampled how, and where its uv come from.
 TextureUse read_texture(GltfReader& reader, const JsonValue& info, UvMapping& mapping) {
     mapping = read_uv_mapping(info);
-    const JsonValue texture = reader.document.element("textures", info.at("index"));
+    const auto& textures = reader.document.model().textures;
+    const tinygltf::Texture& texture = textures[info.at("index").index(textures.size(), "textures")];
     TextureUse use;
-    if (const auto sampler = texture.find("sampler")) read_sampler(reader, *sampler, use);
-    if (const auto source = texture.find("source"))
-        use.image = read_image(reader, *source);
+    if (texture.sampler >= 0) read_sampler(reader, static_cast<uint32_t>(texture.sampler), use);
+    if (texture.source >= 0)
+        use.image = read_image(reader, static_cast<uint32_t>(texture.source));
     else
         reader.notes.add("a texture without a PNG or JPEG source is left out");
     return use;
 }
 
 struct Properties {
-    JsonValue material;
+    GltfPart<tinygltf::Material> material;
     Material& made;
     UvMapping base_uv, roughness_uv, emission_uv;
 };
 
-/// Numbers in [0, 1]; what lies outside is moved to the nearest end, said so.
-template <size_t N>
-std::array<float, N> unit_numbers(GltfReader& reader, const JsonValue& value) {
-    auto numbers = value.numbers<N>();
-    for (float& number : numbers) {
-        if (number < 0 || number > 1) reader.notes.add("a material factor outside [0, 1] is limited to it");
-        number = std::clamp(number, 0.0f, 1.0f);
-    }
-    return numbers;
-}
-
-float unit_number(GltfReader& reader, const JsonValue& holder, const char* key, float fallback) {
-    const auto value = holder.find(key);
-    if (!value) return fallback;
-    const auto number = static_cast<float>(value->number());
+/// A number in [0, 1]; one outside is moved to the nearest end, with a note.
+float unit_number(GltfReader& reader, double stated) {
+    const auto number = static_cast<float>(stated);
     if (number < 0 || number > 1) reader.notes.add("a material factor outside [0, 1] is limited to it");
     return std::clamp(number, 0.0f, 1.0f);
 }
 
-glm::vec4 vec4_of(const std::array<float, 4>& v) { return {v[0], v[1], v[2], v[3]}; }
+template <class Numbers>
+glm::vec4 unit_vec4(GltfReader& reader, const Numbers& v) {
+    return {unit_number(reader, v[0]), unit_number(reader, v[1]), unit_number(reader, v[2]), unit_number(reader, v[3])};
+}
 
 void read_metallic_roughness(GltfReader& reader, Properties& p) {
-    p.made.metallic = 1;
-    p.made.roughness = 1;
-    const auto pbr = p.material.find("pbrMetallicRoughness");
+    const tinygltf::PbrMetallicRoughness& factors = p.material->pbrMetallicRoughness;
+    p.made.base_colour = unit_vec4(reader, factors.baseColorFactor);
+    p.made.metallic = unit_number(reader, factors.metallicFactor);
+    p.made.roughness = unit_number(reader, factors.roughnessFactor);
+    const auto pbr = p.material.json.find("pbrMetallicRoughness");
     if (!pbr) return;
-    if (const auto factor = pbr->find("baseColorFactor"))
-        p.made.base_colour = vec4_of(unit_numbers<4>(reader, *factor));
-    p.made.metallic = unit_number(reader, *pbr, "metallicFactor", 1);
-    p.made.roughness = unit_number(reader, *pbr, "roughnessFactor", 1);
     if (const auto texture = pbr->find("baseColorTexture"))
         p.made.base_colour_texture = read_texture(reader, *texture, p.base_uv);
     if (const auto texture = pbr->find("metallicRoughnessTexture"))
@@ -144,11 +131,11 @@ void read_specular_glossiness(GltfReader& reader, const JsonValue& model, Proper
     p.made.base_colour_texture = p.made.metallic_roughness_texture = {};
     p.base_uv = p.roughness_uv = {};
     p.made.metallic = 0;
-    double glossiness = unit_number(reader, model, "glossinessFactor", 1);
+    double glossiness = unit_number(reader, model.number_or("glossinessFactor", 1));
     glm::dvec3 specular(1);
     if (const auto factor = model.find("specularFactor")) {
-        const auto rgb = unit_numbers<3>(reader, *factor);
-        specular = {rgb[0], rgb[1], rgb[2]};
+        const auto rgb = factor->numbers<3>();
+        specular = {unit_number(reader, rgb[0]), unit_number(reader, rgb[1]), unit_number(reader, rgb[2])};
     }
     if (const auto texture = model.find("specularGlossinessTexture")) {
         UvMapping unused;
@@ -163,7 +150,7 @@ void read_specular_glossiness(GltfReader& reader, const JsonValue& model, Proper
         reader.notes.add("a specularGlossinessTexture counts as its mean: how it varies is left out");
     }
     p.made.roughness = static_cast<float>(1 - glossiness);
-    if (const auto factor = model.find("diffuseFactor")) p.made.base_colour = vec4_of(unit_numbers<4>(reader, *factor));
+    if (const auto factor = model.find("diffuseFactor")) p.made.base_colour = unit_vec4(reader, factor->numbers<4>());
     if (const auto texture = model.find("diffuseTexture"))
         p.made.base_colour_texture = read_texture(reader, *texture, p.base_uv);
     const auto rest = static_cast<float>(1 - std::max({specular.r, specular.g, specular.b}));
@@ -173,24 +160,23 @@ void read_specular_glossiness(GltfReader& reader, const JsonValue& model, Proper
 
 void read_emission(GltfReader& reader, Properties& p) {
     double strength = 1;
-    if (const auto extensions = p.material.find("extensions"))
+    if (const auto extensions = p.material.json.find("extensions"))
         if (const auto emission = extensions->find("KHR_materials_emissive_strength"))
             strength = emission->number_or("emissiveStrength", 1, 0);
-    if (const auto factor = p.material.find("emissiveFactor")) {
-        const auto rgb = factor->numbers<3>(0);
-        for (int c = 0; c < 3; ++c) {
-            p.made.emission[c] = static_cast<float>(rgb[static_cast<size_t>(c)] * strength);
-            if (!std::isfinite(p.made.emission[c])) factor->fail("times the emissive strength is not finite");
-        }
+    for (int c = 0; c < 3; ++c) {
+        const auto factor = static_cast<float>(p.material->emissiveFactor[static_cast<size_t>(c)]);
+        p.made.emission[c] = static_cast<float>(factor * strength);
+        if (factor < 0 || !std::isfinite(p.made.emission[c]))
+            p.material.json.at("emissiveFactor").fail("is negative, or not finite times the emissive strength");
     }
     if (p.made.emission == glm::vec3(0)) return;  // its texture need not be read
-    if (const auto texture = p.material.find("emissiveTexture"))
+    if (const auto texture = p.material.json.find("emissiveTexture"))
         p.made.emission_texture = read_texture(reader, *texture, p.emission_uv);
 }
 
 void read_alpha(GltfReader& reader, Properties& p) {
-    const std::string mode = p.material.text_or("alphaMode", "OPAQUE");
-    p.made.double_sided = p.material.boolean_or("doubleSided", false);
+    const std::string mode = p.material->alphaMode;
+    p.made.double_sided = p.material->doubleSided;
     if (mode == "OPAQUE") return;
     if (mode != "MASK" && mode != "BLEND") return reader.notes.add("an alpha mode that glTF does not have is read as OPAQUE");
     if (mode == "BLEND" && p.made.emission != glm::vec3(0)) {
@@ -200,7 +186,7 @@ void read_alpha(GltfReader& reader, Properties& p) {
     }
     p.made.alpha = Material::Alpha::Mask;
     if (mode == "MASK")
-        p.made.alpha_cutoff = static_cast<float>(p.material.number_or("alphaCutoff", 0.5, 0));
+        p.made.alpha_cutoff = static_cast<float>(p.material.json.number_or("alphaCutoff", 0.5, 0));
     else
         reader.notes.add(
             "a material of alpha mode BLEND is drawn as MASK: opaque from half opacity on, invisible below");
@@ -216,11 +202,11 @@ UvMapping common_uv(GltfReader& reader, const Properties& p) {
     return chosen;
 }
 
-void read_material(GltfReader& reader, const JsonValue& material) {
+void read_material(GltfReader& reader, const GltfPart<tinygltf::Material>& material) {
     Material made;
-    made.name = material.text_or("name", "");
+    made.name = material->name;
     Properties p{material, made, {}, {}, {}};
-    const auto extensions = material.find("extensions");
+    const auto extensions = material.json.find("extensions");
     const auto model = extensions ? extensions->find("KHR_materials_pbrSpecularGlossiness") : std::nullopt;
     if (model)
         read_specular_glossiness(reader, *model, p);
@@ -234,8 +220,8 @@ void read_material(GltfReader& reader, const JsonValue& material) {
     }
     read_emission(reader, p);
     read_alpha(reader, p);
-    if (material.find("normalTexture")) reader.notes.add("a normal texture is not read");
-    if (material.find("occlusionTexture")) reader.notes.add("an occlusion texture is not read");
+    if (material.json.find("normalTexture")) reader.notes.add("a normal texture is not read");
+    if (material.json.find("occlusionTexture")) reader.notes.add("an occlusion texture is not read");
     reader.uv_mappings.push_back(common_uv(reader, p));
     reader.scene.materials.push_back(std::move(made));
 }
@@ -251,7 +237,8 @@ glm::vec2 UvMapping::apply(glm::vec2 uv) const {
 
 void read_materials(GltfReader& reader) {
     reader.image_of.assign(reader.document.list("images").size(), kUnread);
-    for (const JsonValue& material : reader.document.list("materials")) read_material(reader, material);
+    for (size_t i = 0; i < reader.document.model().materials.size(); ++i)
+        read_material(reader, reader.document.material(i));
 }
 
 }  // namespace vesper

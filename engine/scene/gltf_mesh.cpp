@@ -103,33 +103,27 @@ void drop_unused(Primitive& primitive) {
     primitive.vertices = std::move(used);
 }
 
-/// Where the data is compressed, accessors may be empty shells: to be told from those that mean zeros.
-void refuse_compressed(GltfReader& reader, const JsonValue& primitive, const JsonValue& position) {
-    const auto extensions = primitive.find("extensions");
-    if (extensions && extensions->find("KHR_draco_mesh_compression") &&
-        !reader.document.element("accessors", position).find("bufferView"))
-        primitive.fail("is compressed with KHR_draco_mesh_compression, which is not supported");
-}
-
-std::vector<Vertex> read_positions(GltfReader& reader, const JsonValue& primitive, const JsonValue& reference, const std::vector<float>& weights) {
-    Floats positions = read_floats(reader.document, reference, {"VEC3"}, reader.limits.vertices);
-    take_decoded(reader, reference, positions.count);
+std::vector<Vertex> read_positions(GltfReader& reader, const GltfPart<tinygltf::Primitive>& primitive, int accessor,
+                                   const std::vector<float>& weights) {
+    Floats positions = read_floats(reader.document, accessor, {TINYGLTF_TYPE_VEC3}, reader.limits.vertices);
+    take_decoded(reader, primitive.json, positions.count);
     add_targets(reader, primitive, "POSITION", weights, positions);
     std::vector<Vertex> vertices(positions.count);
     for (size_t i = 0; i < vertices.size(); ++i) {
         const auto p = positions[i];
         if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-            reader.document.element("accessors", reference).fail("position " + std::to_string(i) + " is not finite");
+            reader.document.list("accessors")[static_cast<size_t>(accessor)].fail("position " + std::to_string(i) +
+                                                                                  " is not finite");
         vertices[i].position = {p[0], p[1], p[2]};
     }
     return vertices;
 }
 
-std::vector<uint32_t> read_corners(GltfReader& reader, const JsonValue& primitive, size_t vertices) {
+std::vector<uint32_t> read_corners(GltfReader& reader, const GltfPart<tinygltf::Primitive>& primitive,
+                                   size_t vertices) {
     const uint64_t left = reader.limits.indices - reader.indices;
-    if (const auto reference = primitive.find("indices"))
-        return read_indices(reader.document, *reference, left, vertices);
-    if (vertices > left) primitive.fail("takes the meshes over the limit of indices");
+    if (primitive->indices >= 0) return read_indices(reader.document, primitive->indices, left, vertices);
+    if (vertices > left) primitive.json.fail("takes the meshes over the limit of indices");
     std::vector<uint32_t> corners(vertices);
     for (uint32_t i = 0; i < corners.size(); ++i) corners[i] = i;
     return corners;
@@ -141,74 +135,79 @@ void spend(const JsonValue& primitive, uint64_t& used, uint64_t more, uint64_t l
 }
 
 /// Nothing for what is not made of triangles.
-std::optional<Primitive> read_primitive(GltfReader& reader, const JsonValue& source, const Pose& pose) {
-    const auto mode = static_cast<Mode>(source.integer_or("mode", 4, 6));
-    const JsonValue attributes = source.at("attributes");
-    const auto position = attributes.find("POSITION");
-    if (mode < Mode::Triangles || !position) {
-        reader.notes.add(position ? "a primitive of points or lines is left out"
-                                  : "a primitive without positions is left out");
+std::optional<Primitive> read_primitive(GltfReader& reader, const GltfPart<tinygltf::Primitive>& source,
+                                        const Pose& pose) {
+    const auto mode = static_cast<Mode>(source->mode);
+    const auto position = source->attributes.find("POSITION");
+    const bool has_position = position != source->attributes.end();
+    if (mode < Mode::Triangles || !has_position) {
+        reader.notes.add(has_position ? "a primitive of points or lines is left out"
+                                      : "a primitive without positions is left out");
         return std::nullopt;
     }
-    refuse_compressed(reader, source, *position);
     Primitive made;
-    if (const auto material = source.find("material"))
-        made.material = material->index(reader.document.list("materials").size(), "materials");
+    if (source->material >= 0)
+        made.material = static_cast<uint32_t>(source->material);
     else
         made.material = default_material(reader), reader.notes.add("a primitive without material is shown matt grey, of reflectance 0.5");
-    made.vertices = read_positions(reader, source, *position, pose.weights);
+    made.vertices = read_positions(reader, source, position->second, pose.weights);
     const size_t count = made.vertices.size();
     made.indices = triangles(reader, read_corners(reader, source, count), mode);
-    spend(source, reader.indices, made.indices.size(), reader.limits.indices, "indices");
+    spend(source.json, reader.indices, made.indices.size(), reader.limits.indices, "indices");
 
     const std::string uv_set = "TEXCOORD_" + std::to_string(reader.uv_mappings[made.material].set);
-    if (const auto uv = read_attribute(reader, attributes, uv_set, count, {"VEC2"}))
+    if (const auto uv = read_attribute(reader, source, uv_set, count, {TINYGLTF_TYPE_VEC2}))
         take_uv(reader, made, *uv);
     else
-        check_needs_no_uv(reader, made.material, attributes, uv_set);
-    if (const auto colours = read_attribute(reader, attributes, "COLOR_0", count, {"VEC3", "VEC4"}))
+        check_needs_no_uv(reader, made.material, source.json.at("attributes"), uv_set);
+    if (const auto colours = read_attribute(reader, source, "COLOR_0", count, {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}))
         take_colours(reader, made, *colours);
-    auto normals = read_attribute(reader, attributes, "NORMAL", count, {"VEC3"});
+    auto normals = read_attribute(reader, source, "NORMAL", count, {TINYGLTF_TYPE_VEC3});
     if (normals) {
         add_targets(reader, source, "NORMAL", pose.weights, *normals);
         take_normals(reader, made, *normals);
     }
-    if (pose.skin) bend(reader, attributes, *pose.skin, made);
+    if (pose.skin) bend(reader, source, *pose.skin, made);
     if (normals) {
         drop_unused(made);
-        spend(source, reader.vertices, made.vertices.size(), reader.limits.vertices, "vertices");
+        spend(source.json, reader.vertices, made.vertices.size(), reader.limits.vertices, "vertices");
     } else {
-        spend(source, reader.vertices, made.indices.size(), reader.limits.vertices, "vertices");
+        spend(source.json, reader.vertices, made.indices.size(), reader.limits.vertices, "vertices");
         make_flat(made);
     }
 
-    if (source.find("targets")) reader.notes.add("a primitive with morph targets is shown at rest");
+    if (!source->targets.empty()) reader.notes.add("a primitive with morph targets is shown at rest");
     for (const Vertex& vertex : made.vertices) made.bounds.add(vertex.position);
     if (made.indices.empty()) return std::nullopt;
     return made;
 }
 
-Mesh make_mesh(GltfReader& reader, const JsonValue& source, Pose pose) {
+Mesh make_mesh(GltfReader& reader, uint32_t index, Pose pose) {
+    const auto source = reader.document.mesh(index);
     Mesh mesh;
-    mesh.name = source.text_or("name", "");
-    if (pose.weights.empty()) pose.weights = morph_weights(source);
-    take_decoded(reader, source, pose.weights.size());
-    for (const JsonValue& primitive : source.at("primitives").elements())
-        if (auto made = read_primitive(reader, primitive, pose)) mesh.primitives.push_back(std::move(*made));
+    mesh.name = source->name;
+    if (pose.weights.empty()) pose.weights.assign(source->weights.begin(), source->weights.end());
+    take_decoded(reader, source.json, pose.weights.size());
+    const std::vector<JsonValue> primitives = source.json.at("primitives").elements();
+    for (size_t i = 0; i < source->primitives.size(); ++i)
+        if (auto made = read_primitive(reader, {&source->primitives[i], primitives[i]}, pose))
+            mesh.primitives.push_back(std::move(*made));
     return mesh;
 }
 
 }  // namespace
 
-void check_mesh(GltfReader& reader, const JsonValue& mesh) { make_mesh(reader, mesh, {}); }
+void check_mesh(GltfReader& reader, uint32_t mesh) { make_mesh(reader, mesh, {}); }
 
-std::optional<Floats> read_attribute(GltfReader& reader, const JsonValue& attributes, const std::string& name, size_t count,
-                                     std::initializer_list<std::string_view> types) {
-    const auto reference = attributes.find(name.c_str());
-    if (!reference) return std::nullopt;
-    Floats floats = read_floats(reader.document, *reference, types, reader.limits.vertices);
+std::optional<Floats> read_attribute(GltfReader& reader, const GltfPart<tinygltf::Primitive>& primitive,
+                                     const std::string& name, size_t count, std::initializer_list<int> types) {
+    const auto found = primitive->attributes.find(name);
+    if (found == primitive->attributes.end()) return std::nullopt;
+    Floats floats = read_floats(reader.document, found->second, types, reader.limits.vertices);
     if (floats.count != count)
-        reference->fail(name + " has " + std::to_string(floats.count) + " elements, POSITION " + std::to_string(count));
+        primitive.json.at("attributes")
+            .at(name.c_str())
+            .fail(name + " has " + std::to_string(floats.count) + " elements, POSITION " + std::to_string(count));
     return floats;
 }
 
@@ -218,11 +217,10 @@ void take_decoded(GltfReader& reader, const JsonValue& at, uint64_t count) {
     if (reader.decoded / 8 > reader.limits.vertices) at.fail("the primitives together read their vertices too often");
 }
 
-uint32_t read_mesh(GltfReader& reader, const JsonValue& reference, const Pose& pose) {
-    const JsonValue source = reader.document.element("meshes", reference);
-    const auto [place, is_new] = reader.meshes.try_emplace({reference.index(UINT32_MAX, "meshes"), pose.skin_index, pose.weights}, kNone);
+uint32_t read_mesh(GltfReader& reader, uint32_t index, const Pose& pose) {
+    const auto [place, is_new] = reader.meshes.try_emplace({index, pose.skin_index, pose.weights}, kNone);
     if (!is_new) return place->second;
-    reader.scene.meshes.push_back(make_mesh(reader, source, pose));
+    reader.scene.meshes.push_back(make_mesh(reader, index, pose));
     return place->second = static_cast<uint32_t>(reader.scene.meshes.size() - 1);
 }
 

@@ -11,28 +11,34 @@ namespace vesper {
 namespace {
 
 /// The parent of every node; a node with two, or above itself, is refused.
-std::vector<uint32_t> read_parents(std::span<const JsonValue> nodes, std::vector<std::vector<uint32_t>>& children) {
+std::vector<uint32_t> read_parents(GltfDocument& document) {
+    const std::vector<tinygltf::Node>& nodes = document.model().nodes;
     std::vector<uint32_t> parents(nodes.size(), kNone);
-    children.resize(nodes.size());
     for (uint32_t i = 0; i < nodes.size(); ++i) {
-        for (const JsonValue& reference : nodes[i].elements_of("children")) {
-            const uint32_t child = reference.index(nodes.size(), "nodes");
-            if (parents[child] != kNone) reference.fail("node " + std::to_string(child) + " has more than one parent");
-            parents[child] = i;
-            children[i].push_back(child);
+        const std::vector<int>& children = nodes[i].children;
+        for (size_t c = 0; c < children.size(); ++c) {
+            uint32_t& parent = parents[static_cast<size_t>(children[c])];
+            if (parent != kNone)
+                document.list("nodes")[i]
+                    .at("children")
+                    .elements()[c]
+                    .fail("node " + std::to_string(children[c]) + " has more than one parent");
+            parent = i;
         }
     }
     // With one parent each, nodes not reached from a root go round in circles.
     std::vector<uint32_t> reached;
     for (uint32_t i = 0; i < nodes.size(); ++i)
         if (parents[i] == kNone) reached.push_back(i);
-    for (size_t i = 0; i < reached.size(); ++i)
-        reached.insert(reached.end(), children[reached[i]].begin(), children[reached[i]].end());
+    for (size_t i = 0; i < reached.size(); ++i) {
+        const std::vector<int>& children = nodes[reached[i]].children;
+        reached.insert(reached.end(), children.begin(), children.end());
+    }
     if (reached.size() != nodes.size()) {
         std::vector<bool> seen(nodes.size());
         for (const uint32_t i : reached) seen[i] = true;
         const auto lost = static_cast<size_t>(std::find(seen.begin(), seen.end(), false) - seen.begin());
-        nodes[lost].fail("is its own ancestor");
+        document.list("nodes")[lost].fail("is its own ancestor");
     }
     return parents;
 }
@@ -41,7 +47,7 @@ std::vector<uint32_t> read_parents(std::span<const JsonValue> nodes, std::vector
 /// last, to be read as roots when their parents have not brought them in.
 std::vector<uint32_t> read_roots(GltfReader& reader, const std::vector<uint32_t>& parents) {
     GltfDocument& document = reader.document;
-    const auto scenes = document.list("scenes");
+    const auto& scenes = document.model().scenes;
     const auto chosen = document.root().find("scene");
     std::vector<uint32_t> roots;
     if (!chosen && scenes.empty()) {
@@ -49,13 +55,13 @@ std::vector<uint32_t> read_roots(GltfReader& reader, const std::vector<uint32_t>
             if (parents[i] == kNone) roots.push_back(i);
         return roots;
     }
-    const JsonValue scene = chosen ? document.element("scenes", *chosen) : scenes[0];
+    const tinygltf::Scene& scene = scenes[chosen ? chosen->index(scenes.size(), "scenes") : 0];
     if (!chosen && scenes.size() > 1)
         reader.notes.add("the file has several scenes and no default: the first one is read");
-    reader.scene.name = scene.text_or("name", "");
+    reader.scene.name = scene.name;
     std::vector<uint32_t> others;
-    for (const JsonValue& reference : scene.elements_of("nodes")) {
-        const uint32_t root = reference.index(parents.size(), "nodes");
+    for (const int node : scene.nodes) {
+        const auto root = static_cast<uint32_t>(node);
         (parents[root] == kNone ? roots : others).push_back(root);
     }
     if (!others.empty()) reader.notes.add("the scene lists nodes that have parents");
@@ -63,41 +69,33 @@ std::vector<uint32_t> read_roots(GltfReader& reader, const std::vector<uint32_t>
     return roots;
 }
 
-glm::quat rotation_of(const JsonValue& holder, float x, float y, float z, float w) {
-    const glm::dvec4 q(x, y, z, w);
+/// `xyzw` as floats, which need not be of length 1.
+glm::quat rotation_of(const JsonValue& holder, glm::vec4 xyzw) {
+    const glm::dvec4 q(xyzw);
     const double length = glm::length(q);
     if (!(length > 1e-6) || !std::isfinite(length)) holder.fail("is no rotation");
-    return glm::quat(static_cast<float>(w / length), static_cast<float>(x / length), static_cast<float>(y / length),
-                     static_cast<float>(z / length));
+    return glm::quat(static_cast<float>(q.w / length), static_cast<float>(q.x / length),
+                     static_cast<float>(q.y / length), static_cast<float>(q.z / length));
 }
 
-void read_transform(Node& node, const JsonValue& source) {
-    if (const auto matrix = source.find("matrix")) {
-        const auto m = matrix->numbers<16, double>();
-        if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) matrix->fail("must have 0 0 0 1 as its last row");
+void read_transform(Node& node, const GltfPart<tinygltf::Node>& source) {
+    if (const std::vector<double>& m = source->matrix; !m.empty()) {
+        if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+            source.json.at("matrix").fail("must have 0 0 0 1 as its last row");
         glm::dmat4 made(1);
         for (int c = 0; c < 4; ++c)
             for (int r = 0; r < 4; ++r) made[c][r] = m[static_cast<size_t>(4 * c + r)];
         node.matrix = made;
         return;
     }
-    if (const auto translation = source.find("translation")) {
-        const auto t = translation->numbers<3, double>();
-        node.translation = {t[0], t[1], t[2]};
-    }
-    if (const auto rotation = source.find("rotation")) {
-        const auto q = rotation->numbers<4>();
-        node.rotation = rotation_of(*rotation, q[0], q[1], q[2], q[3]);
-    }
-    if (const auto scale = source.find("scale")) {
-        const auto s = scale->numbers<3>();
-        node.scale = {s[0], s[1], s[2]};
-    }
+    if (const auto& t = source->translation; !t.empty()) node.translation = {t[0], t[1], t[2]};
+    if (const auto& q = source->rotation; !q.empty())
+        node.rotation = rotation_of(source.json.at("rotation"), glm::dvec4(q[0], q[1], q[2], q[3]));
+    if (const auto& s = source->scale; !s.empty()) node.scale = {s[0], s[1], s[2]};
 }
 
 /// Cameras are kept once per node that has one, so that each can have a name of its own.
-uint32_t read_camera(GltfReader& reader, const JsonValue& reference, const std::string& node_name, bool shared) {
-    const JsonValue source = reader.document.element("cameras", reference);
+uint32_t read_camera(GltfReader& reader, const JsonValue& source, const std::string& node_name, bool shared) {
     const std::string& type = source.at("type").text();
     if (type == "orthographic") {
         reader.notes.add("an orthographic camera is left out");
@@ -126,13 +124,14 @@ uint32_t read_camera(GltfReader& reader, const JsonValue& reference, const std::
 /// EXT_mesh_gpu_instancing: a child with the mesh for each instance.
 void read_instances(GltfReader& reader, const JsonValue& instancing, uint32_t parent) {
     const JsonValue attributes = instancing.at("attributes");
-    const auto read = [&](const char* name, const char* type) -> std::optional<Floats> {
+    const auto read = [&](const char* name, int type) -> std::optional<Floats> {
         const auto reference = attributes.find(name);
         if (!reference) return std::nullopt;
-        return read_floats(reader.document, *reference, {type}, reader.limits.nodes);
+        const uint32_t accessor = reference->index(reader.document.list("accessors").size(), "accessors");
+        return read_floats(reader.document, static_cast<int>(accessor), {type}, reader.limits.nodes);
     };
-    const auto translations = read("TRANSLATION", "VEC3"), rotations = read("ROTATION", "VEC4"),
-               scales = read("SCALE", "VEC3");
+    const auto translations = read("TRANSLATION", TINYGLTF_TYPE_VEC3), rotations = read("ROTATION", TINYGLTF_TYPE_VEC4),
+               scales = read("SCALE", TINYGLTF_TYPE_VEC3);
     uint32_t count = 0;
     for (const auto* floats : {&translations, &rotations, &scales}) {
         if (!*floats) continue;
@@ -152,29 +151,34 @@ void read_instances(GltfReader& reader, const JsonValue& instancing, uint32_t pa
         if (scales) instance.scale = {(*scales)[i][0], (*scales)[i][1], (*scales)[i][2]};
         if (rotations) {
             const auto q = (*rotations)[i];
-            instance.rotation = rotation_of(attributes, q[0], q[1], q[2], q[3]);
+            instance.rotation = rotation_of(attributes, {q[0], q[1], q[2], q[3]});
         }
         add_node(reader, instancing, std::move(instance));
     }
 }
 
-void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint32_t parent, bool camera_shared) {
+void read_node(GltfReader& reader, uint32_t index, uint32_t parent, const std::vector<uint32_t>& camera_uses) {
+    const auto source = reader.document.node(index);
     Node node;
-    node.name = source.text_or("name", "");
+    node.name = source->name;
     node.parent = parent;
     read_transform(node, source);
-    const auto extensions = source.find("extensions");
+    const auto extensions = source.json.find("extensions");
     const auto instancing = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
-    const auto mesh = source.find("mesh");
-    const bool has_skin = mesh && source.find("skin"), skinned = has_skin && !instancing && hangs_on_joints(reader, *mesh);
+    const auto mesh = static_cast<uint32_t>(source->mesh);  // of a node without one kNone, as it is -1
+    const bool has_skin = mesh != kNone && source->skin >= 0,
+               skinned = has_skin && !instancing && hangs_on_joints(reader, mesh);
     if (has_skin) reader.notes.add(skinned ? "a node with a skin is shown at rest" : "a node with a skin, but instances or a mesh without joints, is shown as it is modelled");
     if (skinned)
         reader.skinned.insert(index);
-    else if (mesh)
-        node.mesh = read_mesh(reader, *mesh, {morph_weights(source)});
-    if (const auto camera = source.find("camera"))
-        node.camera = read_camera(reader, *camera, node.name.empty() ? "node " + std::to_string(index) : node.name,
-                                  camera_shared);
+    else if (mesh != kNone)
+        node.mesh = read_mesh(reader, mesh, {{source->weights.begin(), source->weights.end()}});
+    if (source->camera >= 0) {
+        const auto camera = static_cast<size_t>(source->camera);
+        node.camera =
+            read_camera(reader, reader.document.list("cameras")[camera],
+                        node.name.empty() ? "node " + std::to_string(index) : node.name, camera_uses[camera] > 1);
+    }
     Node second;  // a node has one light: a measured one beside another becomes a child's
     if (extensions) {
         if (const auto lamp = extensions->find("KHR_lights_punctual"))
@@ -184,13 +188,14 @@ void read_node(GltfReader& reader, const JsonValue& source, uint32_t index, uint
     }
     const bool has_mesh = node.mesh != kNone;
     // Where nothing else hangs on it, the node with the mesh in place, which follows, takes its place and name.
-    if (skinned && node.camera == kNone && node.lamp == kNone && second.lamp == kNone && !source.find("children")) return;
-    const uint32_t made = add_node(reader, source, std::move(node));
+    if (skinned && node.camera == kNone && node.lamp == kNone && second.lamp == kNone && source->children.empty())
+        return;
+    const uint32_t made = add_node(reader, source.json, std::move(node));
     reader.node_of[index] = made;
     if (second.lamp != kNone) {
         second.name = reader.scene.nodes[made].name;
         second.parent = made;
-        add_node(reader, source, std::move(second));
+        add_node(reader, source.json, std::move(second));
     }
     if (instancing && has_mesh) read_instances(reader, *instancing, made);
 }
@@ -209,7 +214,7 @@ void check_drawn(const GltfReader& reader) {
 
 }  // namespace
 
-Node read_placed(const JsonValue& source) {
+Node read_placed(const GltfPart<tinygltf::Node>& source) {
     Node node;
     read_transform(node, source);
     return node;
@@ -223,16 +228,16 @@ uint32_t add_node(GltfReader& reader, const JsonValue& source, Node node) {
 }
 
 void read_nodes(GltfReader& reader) {
-    const auto nodes = reader.document.list("nodes");
-    if (nodes.size() > reader.limits.nodes)
+    const size_t count = reader.document.list("nodes").size();
+    if (count > reader.limits.nodes)
         reader.document.root().at("nodes").fail("more nodes than the limit of " + std::to_string(reader.limits.nodes));
-    reader.node_of.assign(nodes.size(), kNone);
-    std::vector<std::vector<uint32_t>> children;
-    const std::vector<uint32_t> parents = read_parents(nodes, children);
+    reader.node_of.assign(count, kNone);
+    const std::vector<uint32_t> parents = read_parents(reader.document);
+    const std::vector<tinygltf::Node>& nodes = reader.document.model().nodes;
 
-    std::vector<uint32_t> cameras(reader.document.list("cameras").size());
-    for (const JsonValue& node : nodes)
-        if (const auto camera = node.find("camera")) ++cameras[camera->index(cameras.size(), "cameras")];
+    std::vector<uint32_t> camera_uses(reader.document.list("cameras").size());
+    for (const tinygltf::Node& node : nodes)
+        if (node.camera >= 0) ++camera_uses[static_cast<size_t>(node.camera)];
 
     std::vector<uint32_t> waiting = read_roots(reader, parents);
     std::reverse(waiting.begin(), waiting.end());
@@ -240,10 +245,8 @@ void read_nodes(GltfReader& reader) {
         const uint32_t index = waiting.back();
         waiting.pop_back();
         if (reader.node_of[index] != kNone || reader.skinned.contains(index)) continue;
-        const auto camera = nodes[index].find("camera");
-        read_node(reader, nodes[index], index, parents[index] == kNone ? kNone : reader.node_of[parents[index]],
-                  camera && cameras[camera->index(cameras.size(), "cameras")] > 1);
-        waiting.insert(waiting.end(), children[index].rbegin(), children[index].rend());
+        read_node(reader, index, parents[index] == kNone ? kNone : reader.node_of[parents[index]], camera_uses);
+        waiting.insert(waiting.end(), nodes[index].children.rbegin(), nodes[index].children.rend());
     }
     read_skinned(reader, parents);
 

@@ -77,30 +77,29 @@ struct GltfReader {
 
 /// How the uv of a textureInfo object are mapped: texCoord and KHR_texture_transform.
 UvMapping read_uv_mapping(const JsonValue& info);
-/// Wrapping and magnification of a sampler that an index names.
-void read_sampler(GltfReader& reader, const JsonValue& index, TextureUse& use);
+/// Wrapping and magnification of a sampler of the file.
+void read_sampler(GltfReader& reader, uint32_t index, TextureUse& use);
 void read_materials(GltfReader& reader);
-/// The mesh a node refers to, read when first needed.
-uint32_t read_mesh(GltfReader& reader, const JsonValue& reference, const Pose& pose = {});
+/// The scene's mesh for a mesh of the file, read when first needed.
+uint32_t read_mesh(GltfReader& reader, uint32_t index, const Pose& pose = {});
 /// An attribute beside POSITION, of `count` elements as that has.
-std::optional<Floats> read_attribute(GltfReader& reader, const JsonValue& attributes, const std::string& name, size_t count,
-                                     std::initializer_list<std::string_view> types);
+std::optional<Floats> read_attribute(GltfReader& reader, const GltfPart<tinygltf::Primitive>& primitive,
+                                     const std::string& name, size_t count, std::initializer_list<int> types);
 /// Counts elements read; throws where all of them are over eight times the limit of vertices.
 void take_decoded(GltfReader& reader, const JsonValue& at, uint64_t count);
 
 /// Whether every primitive of a mesh says on which joints its vertices hang.
-bool hangs_on_joints(GltfReader& reader, const JsonValue& mesh);
+bool hangs_on_joints(GltfReader& reader, uint32_t mesh);
 /// Draws the meshes of `skinned`, each on a node of its own. Nodes have been read.
 void read_skinned(GltfReader& reader, const std::vector<uint32_t>& parents);
-/// Weights of morph targets that a node or a mesh states.
-std::vector<float> morph_weights(const JsonValue& holder);
 /// Adds the morph targets of an attribute to it.
-void add_targets(GltfReader& reader, const JsonValue& primitive, const char* attribute, const std::vector<float>& weights, Floats& values);
+void add_targets(GltfReader& reader, const GltfPart<tinygltf::Primitive>& primitive, const char* attribute,
+                 const std::vector<float>& weights, Floats& values);
 /// Puts vertices where their joints are.
-void bend(GltfReader& reader, const JsonValue& attributes, const Skin& skin, Primitive& primitive);
+void bend(GltfReader& reader, const GltfPart<tinygltf::Primitive>& source, const Skin& skin, Primitive& primitive);
 
 /// Reads a mesh that nothing refers to and forgets it.
-void check_mesh(GltfReader& reader, const JsonValue& mesh);
+void check_mesh(GltfReader& reader, uint32_t mesh);
 void read_lights(GltfReader& reader);
 /// Distributions of EXT_lights_ies.
 void read_distributions(GltfReader& reader);
@@ -108,7 +107,7 @@ void read_distributions(GltfReader& reader);
 uint32_t read_measured_light(GltfReader& reader, const JsonValue& use);
 void read_nodes(GltfReader& reader);
 /// The transform of a node of the file, on a node of nothing else.
-Node read_placed(const JsonValue& source);
+Node read_placed(const GltfPart<tinygltf::Node>& source);
 uint32_t add_node(GltfReader& reader, const JsonValue& source, Node node);
 void read_animations(GltfReader& reader);
 /// The extras block of a converted file (docs/photometry.md).

@@ -191,8 +191,9 @@ std::vector<LampUse> write_lamps(Writer& writer, json& block) {
                                 {"bufferView", writer.view(text.data(), text.size())},
                                 {"mimeType", "application/x-ies-lm-63"}});
             add_opening(openings, "profile", profiles.size() - 1, lamp.opening);
-            uses.push_back({"EXT_lights_ies",
-                            value_of({{"light", profiles.size() - 1}, {"multiplier", intensity}, {"color", json_of(colour)}})});
+            uses.push_back(
+                {"EXT_lights_ies",
+                 value_of({{"light", profiles.size() - 1}, {"multiplier", intensity}, {"color", json_of(colour)}})});
             continue;
         }
         const size_t index = writer.model.lights.size();

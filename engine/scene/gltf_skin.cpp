@@ -37,7 +37,7 @@ public:
         for (; at != frame && !known.contains(at); at = parents_[at]) step(skin), way.push_back(at);
         glm::dmat4 placed = at == frame ? glm::dmat4(1) : known.at(at);
         for (auto next = way.rbegin(); next != way.rend(); ++next)
-            placed = known[*next] = placed * local_transform(read_placed(reader_.document.list("nodes")[*next]));
+            placed = known[*next] = placed * local_transform(read_placed(reader_.document.node(*next)));
         return placed;
     }
 
@@ -61,35 +61,36 @@ private:
 };
 
 /// Inverse bind matrices; identities where the file has none.
-std::vector<glm::dmat4> inverse_bind(GltfReader& reader, const JsonValue& skin, size_t joints) {
+std::vector<glm::dmat4> inverse_bind(GltfReader& reader, const GltfPart<tinygltf::Skin>& skin) {
+    const size_t joints = skin->joints.size();
     std::vector<glm::dmat4> made(joints, glm::dmat4(1));
-    const auto reference = skin.find("inverseBindMatrices");
-    if (!reference) return made;
-    const Floats matrices = read_floats(reader.document, *reference, {"MAT4"}, reader.limits.vertices);
-    take_decoded(reader, *reference, matrices.count);
+    if (skin->inverseBindMatrices < 0) return made;
+    const JsonValue reference = skin.json.at("inverseBindMatrices");
+    const Floats matrices =
+        read_floats(reader.document, skin->inverseBindMatrices, {TINYGLTF_TYPE_MAT4}, reader.limits.vertices);
+    take_decoded(reader, reference, matrices.count);
     if (matrices.count < joints)
-        reference->fail("has " + std::to_string(matrices.count) + " matrices for " + std::to_string(joints) + " joints");
+        reference.fail("has " + std::to_string(matrices.count) + " matrices for " + std::to_string(joints) + " joints");
     for (size_t i = 0; i < joints; ++i)
         for (size_t k = 0; k < 16; ++k) {
             const double value = matrices[i][k];
-            if (!std::isfinite(value)) reference->fail("matrix " + std::to_string(i) + " is not finite");
+            if (!std::isfinite(value)) reference.fail("matrix " + std::to_string(i) + " is not finite");
             if (k % 4 != 3) made[i][static_cast<int>(k / 4)][static_cast<int>(k % 4)] = value;  // the last row is 0 0 0 1
         }
     return made;
 }
 
 /// The frame is that of the deepest node above all joints: what moves it, by name or by keys, moves the mesh; what moves joints does not.
-Skin read_skin(GltfReader& reader, const JsonValue& source, JointTree& tree) {
-    const size_t nodes = reader.node_of.size();
-    std::vector<uint32_t> joints;
-    for (const JsonValue& joint : source.elements_of("joints")) joints.push_back(joint.index(nodes, "nodes"));
-    if (joints.empty()) source.fail("has no joints for the mesh that it is to put in place");
-    Skin skin{.frame = joints.front(), .joints = inverse_bind(reader, source, joints.size())};
-    for (const uint32_t joint : joints) skin.frame = tree.common(source, skin.frame, joint);
+Skin read_skin(GltfReader& reader, const GltfPart<tinygltf::Skin>& source, JointTree& tree) {
+    const std::vector<uint32_t> joints(source->joints.begin(), source->joints.end());
+    if (joints.empty()) source.json.fail("has no joints for the mesh that it is to put in place");
+    Skin skin{.frame = joints.front(), .joints = inverse_bind(reader, source)};
+    for (const uint32_t joint : joints) skin.frame = tree.common(source.json, skin.frame, joint);
     const std::set<uint32_t> all(joints.begin(), joints.end());
     while (skin.frame != kNone && (all.contains(skin.frame) || reader.node_of[skin.frame] == kNone)) skin.frame = tree.parent(skin.frame);
     std::map<uint32_t, glm::dmat4> known;
-    for (size_t i = 0; i < joints.size(); ++i) skin.joints[i] = tree.relative(source, joints[i], skin.frame, known) * skin.joints[i];
+    for (size_t i = 0; i < joints.size(); ++i)
+        skin.joints[i] = tree.relative(source.json, joints[i], skin.frame, known) * skin.joints[i];
     return skin;
 }
 
@@ -99,67 +100,64 @@ struct Weighed {
 
 }  // namespace
 
-bool hangs_on_joints(GltfReader& reader, const JsonValue& mesh) {
-    const auto [place, is_new] = reader.jointed.try_emplace(mesh.index(UINT32_MAX, "meshes"), true);
+bool hangs_on_joints(GltfReader& reader, uint32_t mesh) {
+    const auto [place, is_new] = reader.jointed.try_emplace(mesh, true);
     if (!is_new) return place->second;
-    for (const JsonValue& primitive : reader.document.element("meshes", mesh).at("primitives").elements())
+    for (const tinygltf::Primitive& primitive : reader.document.model().meshes[mesh].primitives)
         for (const char* name : {"JOINTS_0", "WEIGHTS_0"})
-            place->second = place->second && primitive.at("attributes").find(name);
+            place->second = place->second && primitive.attributes.contains(name);
     return place->second;
 }
 
 void read_skinned(GltfReader& reader, const std::vector<uint32_t>& parents) {
     std::map<uint32_t, std::vector<uint32_t>> holders;  // one skin in memory at a time
-    const auto nodes = reader.document.list("nodes");
     for (const uint32_t node : reader.skinned)
-        holders[nodes[node].at("skin").index(reader.document.list("skins").size(), "skins")].push_back(node);
+        holders[static_cast<uint32_t>(reader.document.node(node)->skin)].push_back(node);
     JointTree tree(reader, parents);
     for (const auto& [index, held] : holders) {
-        const Skin skin = read_skin(reader, reader.document.list("skins")[index], tree);
+        const Skin skin = read_skin(reader, reader.document.skin(index), tree);
         for (const uint32_t holder : held) {
-            const JsonValue& source = nodes[holder];
+            const auto source = reader.document.node(holder);
             Node drawn;
-            drawn.name = source.text_or("name", "");
+            drawn.name = source->name;
             drawn.parent = skin.frame == kNone ? kNone : reader.node_of[skin.frame];
-            drawn.mesh = read_mesh(reader, source.at("mesh"), {morph_weights(source), index, &skin});
-            const uint32_t made = add_node(reader, source, std::move(drawn));
+            const std::vector<float> weights(source->weights.begin(), source->weights.end());
+            drawn.mesh = read_mesh(reader, static_cast<uint32_t>(source->mesh), {weights, index, &skin});
+            const uint32_t made = add_node(reader, source.json, std::move(drawn));
             if (reader.node_of[holder] == kNone) reader.node_of[holder] = made;
         }
     }
 }
 
-std::vector<float> morph_weights(const JsonValue& holder) {
-    std::vector<float> weights;
-    for (const JsonValue& weight : holder.elements_of("weights")) weights.push_back(static_cast<float>(weight.number()));
-    return weights;
-}
-
-void add_targets(GltfReader& reader, const JsonValue& primitive, const char* attribute, const std::vector<float>& weights, Floats& values) {
+void add_targets(GltfReader& reader, const GltfPart<tinygltf::Primitive>& primitive, const char* attribute,
+                 const std::vector<float>& weights, Floats& values) {
     if (std::all_of(weights.begin(), weights.end(), [](float w) { return w == 0; })) return;
-    const std::vector<JsonValue> targets = primitive.elements_of("targets");
-    take_decoded(reader, primitive, targets.size());
+    const auto& targets = primitive->targets;
+    take_decoded(reader, primitive.json, targets.size());
     for (size_t t = 0; t < std::min(weights.size(), targets.size()); ++t) {
-        const auto reference = weights[t] == 0 ? std::nullopt : targets[t].find(attribute);
-        if (!reference) continue;
-        if (reader.document.element("accessors", *reference).text_or("type", "") != "VEC3") {
+        const auto found = targets[t].find(attribute);
+        if (weights[t] == 0 || found == targets[t].end()) continue;
+        if (reader.document.model().accessors[static_cast<size_t>(found->second)].type != TINYGLTF_TYPE_VEC3) {
             reader.notes.add("a morph target that is not of type VEC3 is left out");
             continue;
         }
-        const Floats moves = read_floats(reader.document, *reference, {"VEC3"}, reader.limits.vertices);
-        take_decoded(reader, *reference, moves.count);
+        const Floats moves = read_floats(reader.document, found->second, {TINYGLTF_TYPE_VEC3}, reader.limits.vertices);
+        take_decoded(reader, primitive.json, moves.count);
         if (moves.count != values.count)
-            reference->fail("has " + std::to_string(moves.count) + " elements, " + attribute + " " + std::to_string(values.count));
+            primitive.json.at("targets").elements()[t].at(attribute).fail(
+                "has " + std::to_string(moves.count) + " elements, " + attribute + " " + std::to_string(values.count));
         for (size_t i = 0; i < values.values.size(); ++i) values.values[i] += weights[t] * moves.values[i];
     }
 }
 
-void bend(GltfReader& reader, const JsonValue& attributes, const Skin& skin, Primitive& primitive) {
+void bend(GltfReader& reader, const GltfPart<tinygltf::Primitive>& source, const Skin& skin, Primitive& primitive) {
+    const JsonValue attributes = source.json.at("attributes");
     std::vector<Weighed> sets;
     for (uint32_t n = 0; n < kMostSets; ++n) {
         const std::string number = std::to_string(n);
         const size_t count = primitive.vertices.size();
-        auto joints = read_attribute(reader, attributes, "JOINTS_" + number, count, {"VEC4"});
-        auto weights = read_attribute(reader, attributes, "WEIGHTS_" + number, count, {"VEC4"});
+        auto joints = read_attribute(reader, source, "JOINTS_" + number, count, {TINYGLTF_TYPE_VEC4});
+        auto weights = read_attribute(reader, source, "WEIGHTS_" + number, count, {TINYGLTF_TYPE_VEC4});
         if (!joints || !weights) break;
         take_decoded(reader, attributes, 2 * count);
         sets.push_back({std::move(*joints), std::move(*weights)});

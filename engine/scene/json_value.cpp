@@ -73,6 +73,13 @@ void JsonValue::allow_only(std::initializer_list<const char*> keys) const {
             JsonValue(*file_, item.value()).fail("unknown key");
 }
 
+std::vector<JsonValue> JsonValue::members() const {
+    if (!value_->is_object()) fail("must be an object");
+    std::vector<JsonValue> result;
+    for (const nlohmann::json& member : *value_) result.emplace_back(*file_, member);
+    return result;
+}
+
 std::vector<JsonValue> JsonValue::elements(size_t count) const {
     if (!value_->is_array()) fail("must be an array");
     if (count != 0 && value_->size() != count)

@@ -46,6 +46,9 @@ public:
     /// Refuses members other than these.
     void allow_only(std::initializer_list<const char*> keys) const;
 
+    /// Values of all members of this object.
+    std::vector<JsonValue> members() const;
+
     /// Array elements; `count` elements exactly where that is not 0.
     std::vector<JsonValue> elements(size_t count = 0) const;
     /// The element of this array that an index names.

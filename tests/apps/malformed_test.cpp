@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 
 class MalformedFiles : public ProgramTest {
 protected:
-    /// Runs the program with the arguments that `command` makes of each file below a folder of the shared set, "" for those to be passed
-    /// by: how many files there were, and how many were refused.
+    /// Runs the program with the arguments that `command` makes of each file below a folder of the shared set, "" for
+    /// those to be passed by: how many files there were, and how many were refused.
     template <class Command>
     std::pair<size_t, size_t> give(const std::string& below, const Command& command) {
         size_t files = 0, refused = 0;

@@ -33,6 +33,16 @@ TEST(GltfMalformed, NamesThePlaceOfWhatIsWrong) {
         {"/nodes/0/mesh", 1, "/nodes/0/mesh"},
         {"/nodes/0/mesh", -1, "/nodes/0/mesh"},
         {"/nodes/0/mesh", "0", "/nodes/0/mesh"},
+        {"/nodes/0/mesh", 1ull << 32, "/nodes/0/mesh"},
+        {"/nodes/0/mesh", 0.5, "/nodes/0/mesh"},
+        {"/nodes/0/weights", {1, "1"}, "/nodes/0/weights/1"},
+        {"/meshes/0/primitives/0/attributes", {0}, "/meshes/0/primitives/0/attributes"},
+        {"/meshes/0/primitives/0/targets", {{{"POSITION", 2}}}, "/meshes/0/primitives/0/targets/0/POSITION"},
+        {"/materials",
+         {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}},
+         "/materials/0/pbrMetallicRoughness/baseColorFactor"},
+        {"/materials", {{{"emissiveTexture", {{"index", 0}}}}}, "/materials/0/emissiveTexture/index"},
+        {"/accessors/0/sparse", {{"count", 1ull << 31}}, "/accessors/0/sparse/count"},
         {"/nodes/0", nullptr, "/nodes/0"},
         {"/nodes", json::object(), "/nodes"},
         {"/nodes/0/children", {0}, "/nodes/0"},
@@ -86,6 +96,36 @@ TEST(GltfMalformed, NamesThePlaceOfWhatIsWrong) {
         }
         return complaint;
     });
+}
+
+// tinygltf reads 0.0 as no index at all.
+TEST(GltfMalformed, WholeNumbersMayHaveAPoint) {
+    GltfFile file = triangle();
+    file.root["nodes"][0]["mesh"] = 0.0;
+    file.root["meshes"][0]["primitives"][0]["indices"] = 1.0;
+    file.root["accessors"][0]["count"] = 3.0;
+    const Scene scene = file.read().scene;
+    EXPECT_EQ(scene.nodes.at(0).mesh, 0u);
+    EXPECT_EQ(scene.meshes.at(0).primitives.at(0).indices.size(), 3u);
+}
+
+// tinygltf cuts the names of attributes there.
+TEST(GltfMalformed, NamesOfAttributesMayHoldNul) {
+    GltfFile file = triangle();
+    file.root["meshes"][0]["primitives"][0]["attributes"][std::string("NORMAL\0", 7)] = 99;
+    EXPECT_TRUE(contains(file.complaint(), "names number 99 of the accessors"));
+}
+
+// An element of tinygltf takes up to 2 kB, its text two bytes.
+TEST(GltfMalformed, RefusesListsOfEmptyElements) {
+    GltfFile file;
+    file.root["materials"] = json(1000, json::object());
+    EXPECT_EQ(file.complaint(), "");
+    file.root["materials"] = json(200'000, json::object());
+    EXPECT_TRUE(contains(file.complaint(), "lists of empty elements"));
+    file.root["materials"] = json::array();
+    file.root["nodes"] = json(900'000, json::object());
+    EXPECT_TRUE(contains(file.complaint(), "lists of empty elements"));
 }
 
 TEST(GltfMalformed, RefusesCyclesAndSecondParents) {

@@ -55,7 +55,7 @@ constexpr std::array kLayouts{VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_PREINIT
                               VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
                               VK_IMAGE_LAYOUT_ATTACHMENT_FEEDBACK_LOOP_OPTIMAL_EXT};
 
-ForeignImage image_of(const VesperImage* given) {
+ExternalImage image_of(const VesperImage* given) {
     const VesperImage i = known(given, "an image without its size");
     require(i.image != VK_NULL_HANDLE, "no image");
     for (const VkImageLayout layout : {i.layout_before, i.layout_after}) require(std::ranges::find(kLayouts, layout) != kLayouts.end(), "colours have no such layout");
@@ -172,22 +172,22 @@ shared::EyeState eye_of(const void* bytes, size_t size) {
     return kept.eye;
 }
 
-ForeignImage picture_image(const VesperImage* given) {
-    const ForeignImage image = image_of(given);
+ExternalImage picture_image(const VesperImage* given) {
+    const ExternalImage image = image_of(given);
     constexpr VkFormat formats[] = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32, VK_FORMAT_E5B9G9R9_UFLOAT_PACK32};
     require(std::ranges::find(formats, image.format) != std::end(formats), "a picture is of rgba32f, rgba16f, b10g11r11 or e5b9g9r9");
     require(image.before != VK_IMAGE_LAYOUT_UNDEFINED, "a picture has a layout before the call");
     return image;
 }
 
-ForeignImage shown_image(const VesperImage* given, VkExtent2D extent) {
-    const ForeignImage image = image_of(given);
+ExternalImage shown_image(const VesperImage* given, VkExtent2D extent) {
+    const ExternalImage image = image_of(given);
     require(image.extent.width == extent.width && image.extent.height == extent.height, "what is shown has the extent of the image it is shown in");
     require(shown_format(image.format).has_value(), "pictures are shown in images of RGBA or BGRA, of 8 bits (UNORM or SRGB) or 10 bits");
     return image;
 }
 
-Handover handover_of(const VesperHandover* given) {
+SubmitSemaphores semaphores_of(const VesperHandover* given) {
     if (!given) return {};
     const VesperHandover h = known(given, "a handover without its size");
     require((h.wait_count == 0 || h.waits) && (h.signal_count == 0 || h.signals), "a list of semaphores is missing");

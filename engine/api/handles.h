@@ -129,7 +129,7 @@ void finish(Handle& handle) {
 constexpr const char* kBorrowed = "images are those of a host's device (vesper_device_borrow)";
 /// Hands over a frame: where its settings look back, the one before is waited for.
 template <class Handle, class... Arguments>
-void hand_over(Handle& handle, const RenderSettings& settings, const Arguments&... arguments) {
+void submit_frame(Handle& handle, const RenderSettings& settings, const Arguments&... arguments) {
     require(handle.device.borrowed(), kBorrowed);
     if (EyeKeeper::looks_back(settings)) finish(handle);
     handle.engine.submit(settings, arguments...);
@@ -178,8 +178,8 @@ VesperResult set_eye(Handle* handle, const void* bytes, size_t size, VesperError
 }
 
 /// Images of the host's.
-ForeignImage picture_image(const VesperImage* given);
-ForeignImage shown_image(const VesperImage* given, VkExtent2D extent);
-Handover handover_of(const VesperHandover* given);
+ExternalImage picture_image(const VesperImage* given);
+ExternalImage shown_image(const VesperImage* given, VkExtent2D extent);
+SubmitSemaphores semaphores_of(const VesperHandover* given);
 
 }  // namespace vesper::api

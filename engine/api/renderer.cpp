@@ -107,12 +107,12 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
         require(renderer, VesperRenderer::kNone);
         const RenderSettings how = settings_of(settings);
         const float passed = seconds_of(seconds);
-        const Handover semaphores = handover_of(handover);
+        const SubmitSemaphores semaphores = semaphores_of(handover);
         const Seen seen = see(*renderer, view);
         require(renderer->device.borrowed(), kBorrowed);
         const Outputs to{.display = false, .shown = shown_image(shown, seen.view.extent)};
         take_over_scene(*renderer);
-        hand_over(*renderer, how, seen.view, seen.frame, passed, to, semaphores);
+        submit_frame(*renderer, how, seen.view, seen.frame, passed, to, semaphores);
     });
 }
 

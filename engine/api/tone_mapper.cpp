@@ -46,13 +46,13 @@ VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSet
     return guarded(error, [&] {
         require(mapper, VesperToneMapper::kNone);
         const VesperImagePicture p = known(picture, "a picture without its size");
-        const ForeignImage from = picture_image(p.image);
+        const ExternalImage from = picture_image(p.image);
         const auto angles = angles_of(p.edges, from.extent);
         check_picture(p.scale, p.vertical_fov, angles.has_value());
         const DevicePicture given{from, p.scale, double(p.vertical_fov), angles ? &*angles : nullptr};
-        const ForeignImage to = shown_image(shown, given.image.extent);
+        const ExternalImage to = shown_image(shown, given.image.extent);
         require(to.image != given.image.image, "a picture is shown in another image");
-        hand_over(*mapper, settings_of(settings), given, to, seconds_of(seconds), handover_of(handover));
+        submit_frame(*mapper, settings_of(settings), given, to, seconds_of(seconds), semaphores_of(handover));
     });
 }
 

@@ -64,7 +64,7 @@ struct DeviceOptions {
     std::optional<Presentation> presentation;  ///< for windows (window/swapchain.h); a device that shows none needs none
 };
 
-/// A device that somebody else made, goes on using, and destroys.
+/// An external device: its owner made it, goes on using it, and destroys it.
 struct BorrowedDevice {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;

@@ -202,7 +202,7 @@ std::vector<State> start_of_frame(const FrameGraph& graph, const std::vector<Lif
     std::vector<State> states(lives.size());
     for (uint32_t i = 0; i < states.size(); ++i) {
         const ResourceInfo& r = graph.resources()[i];
-        if (r.foreign.image) states[i].layout = VK_IMAGE_LAYOUT_GENERAL;  // the border of the frame sees to that
+        if (r.external_image.image) states[i].layout = VK_IMAGE_LAYOUT_GENERAL;  // the border of the frame sees to that
         if (r.origin != Origin::HistoryPrevious && r.origin != Origin::HistoryCurrent) continue;
         // The other half was in this memory last frame; if it went untouched, this one the frame before.
         const AccessSet other = lives[r.partner].accesses;

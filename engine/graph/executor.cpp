@@ -116,10 +116,10 @@ void Executor::run(const FrameGraph& graph) {
     finish();
 }
 
-void Executor::submit(const FrameGraph& graph, const Handover& handover) {
+void Executor::submit(const FrameGraph& graph, const SubmitSemaphores& semaphores) {
     Stopwatch watch;
-    const bool foreign = std::ranges::any_of(graph.resources(), [](const auto& r) { return r.foreign.image != VK_NULL_HANDLE; });
-    const bool among_others = foreign || !handover.wait.empty() || !handover.signal.empty() || std::ranges::any_of(slots_, &FrameSlot::under_way);
+    const bool has_external_images = std::ranges::any_of(graph.resources(), [](const auto& r) { return r.external_image.image != VK_NULL_HANDLE; });
+    const bool among_others = has_external_images || !semaphores.wait.empty() || !semaphores.signal.empty() || std::ranges::any_of(slots_, &FrameSlot::under_way);
     FrameSlot* const last = slot_;
     HostTimes times;
     Plan before = std::move(plan_);
@@ -130,13 +130,13 @@ void Executor::submit(const FrameGraph& graph, const Handover& handover) {
         realize_histories(graph);
         realize_uploads(graph);
         realize_externals(graph);
-        realize_foreign_images(graph);
+        realize_external_images(graph);
         realize_readbacks(graph);
         times.plan = watch.lap();
         record(graph, among_others);
         find_turning(graph);
         times.record = watch.lap();
-        slot_->submit(handover);
+        slot_->submit(semaphores);
     } catch (...) {
         slot_ = last;  // what that frame left can be read
         plan_ = std::move(before);
@@ -287,19 +287,19 @@ void Executor::realize_uploads(const FrameGraph& graph) {
 void Executor::realize_externals(const FrameGraph& graph) {
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
-        if (info.origin != FrameGraph::Origin::External || info.foreign.image) continue;
+        if (info.origin != FrameGraph::Origin::External || info.external_image.image) continue;
         Realized& r = resources_[i];
         r.buffer = info.buffer, r.offset = 0, r.bytes = info.shape.bytes;
         view_borrowed(r, info.shape.format, plan_.usage[i]);
     }
 }
 
-void Executor::realize_foreign_images(const FrameGraph& graph) {
+void Executor::realize_external_images(const FrameGraph& graph) {
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
-        if (!info.foreign.image) continue;
+        if (!info.external_image.image) continue;
         Realized& r = resources_[i];
-        r.image = info.foreign.image;
+        r.image = info.external_image.image;
         const bool copied_only = !(plan_.usage[i] & ~uint32_t(VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
         if (!copied_only) r.view = slot_->views.emplace_back(make_view(device_, r.image, info.shape.format, 1)).get();
     }

@@ -38,7 +38,7 @@ public:
     void run(const FrameGraph& graph);
     /// Hands the frame to the queue, behind all that is there already, and returns. Waits where it is declared unlike the frame before, or where
     /// kFramesUnderWay are on their way.
-    void submit(const FrameGraph& graph, const Handover& handover);
+    void submit(const FrameGraph& graph, const SubmitSemaphores& semaphores);
     static constexpr size_t kFramesUnderWay = 3;
     /// Waits for every frame that was submitted. What the last of them left can be read, and stays until another one is submitted.
     void wait();
@@ -71,7 +71,7 @@ private:
     void realize_histories(const FrameGraph& graph);
     void realize_uploads(const FrameGraph& graph);
     void realize_externals(const FrameGraph& graph);
-    void realize_foreign_images(const FrameGraph& graph);
+    void realize_external_images(const FrameGraph& graph);
     void realize_readbacks(const FrameGraph& graph);
     void record(const FrameGraph& graph, bool among_others);
     enum class Border { Enter, Leave };

@@ -90,7 +90,7 @@ void check_use(const PassInfo& pass, const Use& use, const ResourceInfo& r) {
         fail(pass, "writes " + in_quotes(r.name) + ", which the last frame left; write its current");
     if (writes(use.access) && r.origin == Origin::Upload) fail(pass, "writes the upload " + in_quotes(r.name));
     if (writes(use.access) && r.origin == Origin::External)
-        fail(pass, "writes " + in_quotes(r.name) + ", which belongs to somebody else");
+        fail(pass, "writes " + in_quotes(r.name) + ", which is external");
     if (use.access == Access::Vertices && r.shape.is_image())
         fail(pass, "reads vertices from the image " + in_quotes(r.name));
     if (!is_target(use.access)) return;
@@ -218,15 +218,15 @@ Resource FrameGraph::external(std::string_view name, VkBuffer buffer, uint64_t b
     return resource;
 }
 
-Resource FrameGraph::external(std::string_view name, const ForeignImage& image) {
+Resource FrameGraph::external(std::string_view name, const ExternalImage& image) {
     const Resource resource = add(name, image_shape(image.format, image.extent), Origin::External);
-    resources_.back().foreign = image;
+    resources_.back().external_image = image;
     return resource;
 }
 
-Resource FrameGraph::target(std::string_view name, const ForeignImage& image) {
+Resource FrameGraph::target(std::string_view name, const ExternalImage& image) {
     const Resource resource = add(name, image_shape(image.format, image.extent), Origin::Target);
-    resources_.back().foreign = image;
+    resources_.back().external_image = image;
     keep(resource);
     return resource;
 }

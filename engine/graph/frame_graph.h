@@ -45,9 +45,9 @@ uint64_t packed_bytes(const Shape& shape);
 inline Shape image_shape(VkFormat format, VkExtent2D extent) { return {format, extent, 0}; }
 inline Shape buffer_shape(uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED) { return {texel, {0, 0}, bytes}; }
 
-/// An image of somebody else's, of which the first level of the first layer is used. A frame with such images waits for all that was handed to the
-/// queue before it, and what comes after it waits for the frame.
-struct ForeignImage {
+/// An image that the engine does not own; its first level of the first layer is used. A frame with such images waits
+/// for all work that was submitted to the queue before it, and later work waits for the frame.
+struct ExternalImage {
     VkImage image = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D extent{0, 0};  ///< px
@@ -107,7 +107,7 @@ public:
         uint32_t partner = ~0u;               ///< of a history: the other half
         std::vector<std::byte> contents;      ///< of an upload
         VkBuffer buffer = VK_NULL_HANDLE;     ///< of an external buffer
-        ForeignImage foreign;                 ///< of an external image or a target
+        ExternalImage external_image;                 ///< of an external image or a target
         bool kept = false;
     };
     /// Whether a resource of this origin holds something before any pass of the frame has written it.
@@ -135,12 +135,12 @@ public:
     Resource upload(std::string_view name, const std::vector<T>& values, VkFormat texel = VK_FORMAT_UNDEFINED) {
         return upload(name, std::as_bytes(std::span(values)), texel);
     }
-    /// A buffer that belongs to somebody else and was filled long before the frame; passes may only read it.
+    /// A buffer that the engine does not own and that was filled before the frame; passes may only read it.
     Resource external(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED);
     /// The same for an image, filled by what was handed to the queue earlier.
-    Resource external(std::string_view name, const ForeignImage& image);
-    /// An image of somebody else's that passes write; it is kept. What was in it is lost.
-    Resource target(std::string_view name, const ForeignImage& image);
+    Resource external(std::string_view name, const ExternalImage& image);
+    /// An external image that passes write; it is kept. Its former content is lost.
+    Resource target(std::string_view name, const ExternalImage& image);
     /// A buffer the host can read when the frame is done. It is kept.
     Resource readback(std::string_view name, uint64_t bytes);
     /// A resource kept from frame to frame under its name; zero before the first frame.

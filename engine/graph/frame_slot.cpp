@@ -17,16 +17,16 @@ void FrameSlot::begin(uint32_t timestamps) {
     if (timestamps) vkCmdResetQueryPool(commands, queries.get(), 0, timestamps);
 }
 
-void FrameSlot::submit(const Handover& handover) {
+void FrameSlot::submit(const SubmitSemaphores& semaphores) {
     check(vkEndCommandBuffer(commands), "recording");
     const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = commands};
     const VkSubmitInfo2 work{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                             .waitSemaphoreInfoCount = uint32_t(handover.wait.size()),
-                             .pWaitSemaphoreInfos = handover.wait.data(),
+                             .waitSemaphoreInfoCount = uint32_t(semaphores.wait.size()),
+                             .pWaitSemaphoreInfos = semaphores.wait.data(),
                              .commandBufferInfoCount = 1,
                              .pCommandBufferInfos = &submitted,
-                             .signalSemaphoreInfoCount = uint32_t(handover.signal.size()),
-                             .pSignalSemaphoreInfos = handover.signal.data()};
+                             .signalSemaphoreInfoCount = uint32_t(semaphores.signal.size()),
+                             .pSignalSemaphoreInfos = semaphores.signal.data()};
     const VkFence done = fence.get();
     check(vkResetFences(device.handle(), 1, &done), "submitting a frame");
     device.submit(work, done, "submitting a frame");

@@ -12,8 +12,8 @@
 
 namespace vesper {
 
-/// Semaphores of others around a frame.
-struct Handover {
+/// Semaphores that a submitted frame waits for, and those that it signals.
+struct SubmitSemaphores {
     std::span<const VkSemaphoreSubmitInfo> wait, signal;
 };
 
@@ -29,7 +29,7 @@ struct FrameSlot {
     explicit FrameSlot(const Device& device);
 
     void begin(uint32_t timestamps);  ///< recording; `timestamps`: how many it writes
-    void submit(const Handover& handover);
+    void submit(const SubmitSemaphores& semaphores);
     void wait();  ///< until its frame, if it has one, is done; then there are its timings
     void settle() noexcept;  ///< likewise, without them: only so that nothing uses what goes
 

@@ -55,7 +55,7 @@ void Executor::record_border(const FrameGraph& graph, Border border) const {
     constexpr Touch before{kWholeBarrier.srcStageMask, kWholeBarrier.srcAccessMask}, after{kWholeBarrier.dstStageMask, kWholeBarrier.dstAccessMask};
     std::vector<VkImageMemoryBarrier2> images;
     for (const auto& info : graph.resources()) {
-        const ForeignImage& image = info.foreign;
+        const ExternalImage& image = info.external_image;
         const VkImageLayout from = border == Border::Enter ? image.before : VK_IMAGE_LAYOUT_GENERAL;
         const VkImageLayout to = border == Border::Enter ? VK_IMAGE_LAYOUT_GENERAL : image.after;
         if (image.image && from != to)

@@ -67,7 +67,7 @@ Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& se
     }
     scene = add_luminaires(graph, kernels_, scene, surfaces.surface, luminaires, view);
     return {.chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs),
-            .clusters = bring_back(graph, "cluster report", clusters.report, sizeof(shared::ClusterReport)),
+            .clusters = add_readback(graph, "cluster report", clusters.report, sizeof(shared::ClusterReport)),
             .far = clusters.push.far};
 }
 
@@ -76,7 +76,7 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
     return *finish();
 }
 
-void Renderer::submit(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs, const Handover& handover) {
+void Renderer::submit(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs, const SubmitSemaphores& semaphores) {
     if (EyeKeeper::looks_back(settings)) finish();
     Pending pending{};
     const bool ldr = settings.tone_operator == Operator::Ldr;
@@ -105,7 +105,7 @@ void Renderer::submit(const RenderSettings& settings, const View& view, const Sc
     if (!ldr) result.glare_sources = std::move(luminaires.glare_sources);
     result.outside = std::move(given.outside);
 
-    executor_.submit(graph, handover);
+    executor_.submit(graph, semaphores);
     // Nothing fails from here on.
     eye_.submitted();
     graph_ = std::move(graph);

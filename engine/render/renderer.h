@@ -43,7 +43,7 @@ public:
     Frame render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs);
 
     /// The same, handed to the queue between semaphores of others, without waiting; best with Outputs::shown.
-    void submit(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs, const Handover& handover);
+    void submit(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs, const SubmitSemaphores& semaphores);
     /// Waits for all of them, and gives what the last one left; nothing where there was none.
     std::optional<Frame> finish();
     /// Takes another scene, or the same after a change. The eye goes on.

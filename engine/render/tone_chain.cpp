@@ -13,7 +13,7 @@ void read_all(const Executor& executor, Resource readback, std::vector<T>& to) {
 
 }  // namespace
 
-Resource bring_back(FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes) {
+Resource add_readback(FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes) {
     const Resource to = graph.readback(name + " on the host", bytes);
     graph.copy("read " + name, from, to);
     return to;
@@ -30,8 +30,8 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
     if (outputs.retina) {
         ToneChain chain;
-        chain.retina = bring_back(graph, "retina", scene, pixels * 16);
-        if (outputs.scene) chain.scene = bring_back(graph, "scene", rendered, pixels * 16);
+        chain.retina = add_readback(graph, "retina", scene, pixels * 16);
+        if (outputs.scene) chain.scene = add_readback(graph, "scene", rendered, pixels * 16);
         return chain;
     }
     const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent, settings.tone.log_epsilon);
@@ -61,16 +61,16 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     if (shown) graph.copy("show", display, graph.target("shown", *outputs.shown));
 
     ToneChain chain{.display = {}, .scene = {}, .retina = {}, .display_light = {},
-                    .curve = bring_back(graph, "tone curve", adaptation.curve, sizeof(shared::ToneCurve)),
-                    .histogram = bring_back(graph, "histogram", histogram, sizeof(shared::Histogram)),
-                    .eye = bring_back(graph, "eye", adaptation.eye.current, sizeof(shared::EyeState)),
+                    .curve = add_readback(graph, "tone curve", adaptation.curve, sizeof(shared::ToneCurve)),
+                    .histogram = add_readback(graph, "histogram", histogram, sizeof(shared::Histogram)),
+                    .eye = add_readback(graph, "eye", adaptation.eye.current, sizeof(shared::EyeState)),
                     .foveal_level = level};
-    if (outputs.display) chain.display = bring_back(graph, "display", display, pixels * 4);
+    if (outputs.display) chain.display = add_readback(graph, "display", display, pixels * 4);
     if (outputs.display_light) {
         const Resource display_light = add_display_light(graph, kernels, inputs, tone, view, settings.display, settings.bloom.gain);
-        chain.display_light = bring_back(graph, "display light", display_light, pixels * 16);
+        chain.display_light = add_readback(graph, "display light", display_light, pixels * 16);
     }
-    if (outputs.scene) chain.scene = bring_back(graph, "scene", rendered, pixels * 16);
+    if (outputs.scene) chain.scene = add_readback(graph, "scene", rendered, pixels * 16);
     return chain;
 }
 

@@ -34,8 +34,8 @@ struct Outputs {
     /// What falls on the retina, with what the eye scatters, and beside it at most `scene`: no eye adapts and nothing is shown. For
     /// several pictures of one eye.
     bool retina = false;
-    /// An image of somebody else's that gets the codes, too, in the order and with the bits that its format has (shown_format).
-    std::optional<ForeignImage> shown = {};
+    /// An external image that gets the codes, too, in the order and with the bits of its format (shown_format).
+    std::optional<ExternalImage> shown = {};
 };
 
 /// How codes lie in an image of a format.
@@ -86,7 +86,7 @@ struct ToneMapped {
 };
 
 /// A readback of a resource, to be kept: what passes are run for.
-Resource bring_back(FrameGraph&, const std::string& name, Resource from, uint64_t bytes);
+Resource add_readback(FrameGraph&, const std::string& name, Resource from, uint64_t bytes);
 
 /// The value that the last frame left in a readback.
 template <class T>

@@ -42,16 +42,16 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
     return *finish();
 }
 
-void ToneMapper::submit(const ToneChainSettings& settings, const DevicePicture& picture, const ForeignImage& shown, float seconds, const Handover& handover) {
+void ToneMapper::submit(const ToneChainSettings& settings, const DevicePicture& picture, const ExternalImage& shown, float seconds, const SubmitSemaphores& semaphores) {
     const Stopwatch watch;
     const View view = view_of(picture.image.extent, picture.vertical_fov, picture.angles);
     FrameGraph graph;
     const Resource scene = add_picture(graph, kernels_, graph.external("picture", picture.image), picture.image.extent, picture.scale);
-    submit(graph, scene, settings, view, seconds, {}, nullptr, {.display = false, .shown = shown}, handover, watch);
+    submit(graph, scene, settings, view, seconds, {}, nullptr, {.display = false, .shown = shown}, semaphores, watch);
 }
 
 void ToneMapper::submit(FrameGraph& graph, Resource scene, const ToneChainSettings& settings, const View& view, float seconds, const std::vector<OffscreenLamp>& outside,
-                        const OffscreenLight* beyond, const Outputs& outputs, const Handover& handover, Stopwatch watch) {
+                        const OffscreenLight* beyond, const Outputs& outputs, const SubmitSemaphores& semaphores, Stopwatch watch) {
     if (EyeKeeper::looks_back(settings)) finish();
     ChainInputs given = eye_.inputs(executor_, settings, view, seconds);
     given.outside = outside, given.beyond = beyond;
@@ -60,7 +60,7 @@ void ToneMapper::submit(FrameGraph& graph, Resource scene, const ToneChainSettin
     pending.result.extent = view.extent;
     if (given.corona) pending.result.pupil = given.corona->pupil, pending.result.pattern_milliseconds = given.corona->milliseconds;
     pending.result.host_times.declare = watch.milliseconds();
-    executor_.submit(graph, handover);
+    executor_.submit(graph, semaphores);
     // Nothing fails from here on.
     eye_.submitted();
     graph_ = std::move(graph);

@@ -22,9 +22,9 @@ struct HostPicture {
     const OffscreenLight* beyond = nullptr;    ///< that other pictures of the eye scatter into it
 };
 
-/// A picture on the device, in an image of somebody else's that can be sampled.
+/// A picture on the device, in an external image that can be sampled.
 struct DevicePicture {
-    ForeignImage image;             ///< RGB in linear Rec. 709, rows from the top
+    ExternalImage image;             ///< RGB in linear Rec. 709, rows from the top
     float scale = 1;                ///< cd/m^2 per unit
     double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
     const ImageAngles* angles = nullptr;  ///< as of HostPicture
@@ -41,7 +41,7 @@ public:
     ToneMapped map(const ToneChainSettings&, const HostPicture&, float seconds, Outputs outputs = {});
 
     /// The same for a picture on the device, shown in an image there: handed to the queue between semaphores of others, without waiting.
-    void submit(const ToneChainSettings&, const DevicePicture&, const ForeignImage& shown, float seconds, const Handover&);
+    void submit(const ToneChainSettings&, const DevicePicture&, const ExternalImage& shown, float seconds, const SubmitSemaphores&);
     /// Waits for all of them, and gives what the last one left; nothing where there was none.
     std::optional<ToneMapped> finish();
 
@@ -60,7 +60,7 @@ private:
         ToneChain chain;
     };
     void submit(FrameGraph&, Resource scene, const ToneChainSettings&, const View&, float seconds, const std::vector<OffscreenLamp>&, const OffscreenLight*, const Outputs&,
-                const Handover&, Stopwatch);
+                const SubmitSemaphores&, Stopwatch);
 
     Device& device_;
     Kernels kernels_;

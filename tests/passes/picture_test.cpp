@@ -1,4 +1,4 @@
-// Pictures in images of somebody else's, on the device, against their reference; and what such images are to the executor.
+// Pictures in external images on the device, against their reference; and the contract of the executor for such images.
 // SPDX-License-Identifier: MIT
 #include "passes/picture_reference.h"
 
@@ -19,14 +19,14 @@ struct Stranger {
           described{image.get(), format, extent, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL} {
         arena.bind(image.get());
     }
-    ForeignImage filled() const {
-        ForeignImage f = described;
+    ExternalImage filled() const {
+        ExternalImage f = described;
         f.before = f.after;
         return f;
     }
     Arena arena;
     OwnedImage image;
-    ForeignImage described;
+    ExternalImage described;
 };
 
 template <class T>
@@ -109,7 +109,7 @@ TEST(Picture, FramesFollowOneAnother) {
 
 TEST(Picture, ImagesOfOthersAreReadOrWrittenNotBoth) {
     FrameGraph graph;
-    const ForeignImage described{VK_NULL_HANDLE, VK_FORMAT_R32G32B32A32_SFLOAT, {2, 2}, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL};
+    const ExternalImage described{VK_NULL_HANDLE, VK_FORMAT_R32G32B32A32_SFLOAT, {2, 2}, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL};
     const Resource read = graph.external("read", described), texels = graph.upload("texels", std::vector<float>(16));
     EXPECT_THROW(graph.copy("write", texels, read), Error);
     const Resource written = graph.target("written", described);

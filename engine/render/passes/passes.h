@@ -126,7 +126,7 @@ Resource add_daylight(FrameGraph&, const Kernels&, const GBuffer&, Resource scen
 /// over the image of luminance times solid angle is I / d^2. Without anything to see there is no pass.
 Resource add_luminaires(FrameGraph&, const Kernels&, Resource scene, Resource surface, const LuminaireList& list, const View&);
 
-/// A picture that somebody else rendered as scene luminance: its RGB times `scale`, rgba32f, cd/m^2 (alpha 1).
+/// An external picture as scene luminance: its RGB times `scale`, rgba32f, cd/m^2 (alpha 1).
 Resource add_picture(FrameGraph&, const Kernels&, Resource picture, VkExtent2D extent, float scale);
 
 /// Luminance at halving resolutions, see shared::PyramidPush. Level 0 is the scene image itself and is not stored.

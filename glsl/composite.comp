@@ -3,15 +3,15 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 
-// Composite: scene luminance (and light scattered in the eye) through the tone curve, LDR glare, display codes.
+// Composite: scene luminance through the tone curve, LDR glare, display codes.
 
 #include "encode.glsl"
 #include "show.glsl"
 
-layout(constant_id = 5) const uint kBlueFirst = 0u;  // codes begin with blue
+layout(constant_id = 4) const uint kBlueFirst = 0u;  // codes begin with blue
 
-layout(binding = 4) uniform samplerBuffer cells;
-layout(binding = 5, r32ui) writeonly uniform uimage2D display_image;
+layout(binding = 3) uniform samplerBuffer cells;
+layout(binding = 4, r32ui) writeonly uniform uimage2D display_image;
 
 void main() {
     const Tone tone = read_tone(curve);

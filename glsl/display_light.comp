@@ -7,7 +7,7 @@
 
 #include "show.glsl"
 
-layout(binding = 4, rgba32f) writeonly uniform image2D light_image;
+layout(binding = 3, rgba32f) writeonly uniform image2D light_image;
 
 void main() {
     const Tone tone = read_tone(curve);

@@ -1,17 +1,15 @@
-// A pixel of the scene (and light scattered in the eye) as displayed light, for composite.comp and display_light.comp.
+// A pixel of the scene as displayed light, for composite.comp and display_light.comp.
 
 #include "tone.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 1) const uint kLuminanceGlare = 0u;
-layout(constant_id = 2) const uint kLdrGlare = 0u;
-layout(constant_id = 3) const uint kRows = 1u;       // pixels of a column that one invocation does
-layout(constant_id = 4) const uint kPrimaries = 0u;  // the display has others than Rec. 709
+layout(constant_id = 1) const uint kLdrGlare = 0u;
+layout(constant_id = 2) const uint kRows = 1u;       // pixels of a column that one invocation does
+layout(constant_id = 3) const uint kPrimaries = 0u;  // the display has others than Rec. 709
 
 layout(binding = 0, rgba32f) readonly uniform image2D scene_image;
 layout(binding = 1) uniform samplerBuffer curve;
-layout(binding = 2, rgba32f) readonly uniform image2D luminance_glare;  // cd/m^2; the scene itself where there is none
-layout(binding = 3) uniform sampler2D bloom;                        // displayed light; likewise
+layout(binding = 2) uniform sampler2D bloom;  // displayed light; the scene itself where there is none
 layout(push_constant, scalar) uniform Push { CompositePush push; };
 
 vec3 of_the_display(vec3 rgb) {
@@ -24,10 +22,7 @@ Gamut gamut_of_the_display() {
     return Gamut(push.luminance, cones, inverse(cones));
 }
 
-vec3 scene_light(uvec2 at) {
-    const vec3 rgb = imageLoad(scene_image, ivec2(at)).rgb;
-    return kLuminanceGlare == 0u ? rgb : rgb + imageLoad(luminance_glare, ivec2(at)).rgb;
-}
+vec3 scene_light(uvec2 at) { return imageLoad(scene_image, ivec2(at)).rgb; }
 
 vec3 glare_light(uvec2 at) {
     // The glare texture covers whole blocks: its last row and column may reach beyond the image.

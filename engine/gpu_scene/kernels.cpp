@@ -112,7 +112,7 @@ const Kernel& Kernels::bands(const BandsVariant& variant) const {
 
 const Kernel& Kernels::composite(const CompositeVariant& variant) const {
     return once(composite_, variant, [&] {
-        const std::initializer_list<uint32_t> constants{variant.tone, variant.luminance_glare, variant.bloom, composite_rows, variant.primaries, variant.blue_first};
+        const std::initializer_list<uint32_t> constants{variant.tone, variant.bloom, composite_rows, variant.primaries, variant.blue_first};
         return variant.light ? Kernel(device_, "display_light.comp", display_light_comp, constants) : Kernel(device_, "composite.comp", composite_comp, constants);
     });
 }

@@ -52,7 +52,7 @@ struct Kernels {
     /// What the composite and display_light.comp have code for. Made when first asked for.
     struct CompositeVariant {
         uint32_t tone = 0;  ///< shared::kTone*
-        bool luminance_glare = false, bloom = false;
+        bool bloom = false;
         bool primaries = false;  ///< others than Rec. 709
         bool light = false;     ///< display_light.comp
         bool blue_first = false; ///< of the composite

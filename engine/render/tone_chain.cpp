@@ -56,7 +56,7 @@ ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource ren
     if (outputs.shown && !shown) throw Error("codes cannot be shown in an image of Vulkan format " + std::to_string(outputs.shown->format));
     Display screen = settings.display;
     if (shown) screen.bits = shown->bits;
-    const CompositeInputs inputs{.scene = seen, .curve = adaptation.curve, .luminance_glare = {}, .bloom = glare, .blue_first = shown && shown->blue_first};
+    const CompositeInputs inputs{.scene = seen, .curve = adaptation.curve, .bloom = glare, .blue_first = shown && shown->blue_first};
     const Resource display = add_composite(graph, kernels, inputs, tone, view, screen, settings.bloom.gain);
     if (shown) graph.copy("show", display, graph.target("shown", *outputs.shown));
 

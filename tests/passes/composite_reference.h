@@ -186,26 +186,21 @@ inline dvec3 code(dvec3 shown, const Display& display) {
     return codes;
 }
 
-/// What the composite needs beside the scene. The glares may be absent.
+/// What the composite needs beside the scene. The bloom may be absent.
 template <class Rgb>
 struct CompositeFrame {
-    std::span<const Rgb> scene;            ///< cd/m^2
-    std::span<const Rgb> luminance_glare;  ///< cd/m^2, full size
-    std::span<const Rgb> bloom;        ///< displayed light, a quarter of the size
-    shared::uvec2 size;                    ///< px
-    double gain = 1;                       ///< of the LDR glare
+    std::span<const Rgb> scene;  ///< cd/m^2
+    std::span<const Rgb> bloom;  ///< displayed light, a quarter of the size
+    shared::uvec2 size;          ///< px
+    double gain = 1;             ///< of the bloom
 };
 
 /// Displayed light of one pixel.
 template <class Rgb>
 dvec3 composite_light(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t tone, const shared::ToneCurve& curve,
                 const Display& display) {
-    const auto load = [&](std::span<const Rgb> image) {
-        const auto& t = image[size_t(pixel.y) * frame.size.x + pixel.x];
-        return dvec3(t.x, t.y, t.z);
-    };
-    dvec3 light = load(frame.scene);
-    if (!frame.luminance_glare.empty()) light += load(frame.luminance_glare);
+    const auto& texel = frame.scene[size_t(pixel.y) * frame.size.x + pixel.x];
+    const dvec3 light(texel.x, texel.y, texel.z);
     const glm::dmat3 to_own = from_rec709(display.primaries);
     dvec3 shown = displayed(light, tone, curve, double(display.low()), double(display.high()), to_own);
     if (!frame.bloom.empty()) {

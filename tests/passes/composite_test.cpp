@@ -19,7 +19,7 @@ constexpr double kCancelled = 3e-6;
 
 struct Inputs {
     VkExtent2D extent;
-    std::vector<glm::vec4> scene, veil, glare;  ///< veil, glare: empty for none
+    std::vector<glm::vec4> scene, glare;  ///< glare: empty for none
     shared::ToneCurve curve;
     Display display;
     float gain = 1;
@@ -29,10 +29,7 @@ VkExtent2D quarter(VkExtent2D e) { return {(e.width + 3) / 4, (e.height + 3) / 4
 
 CompositeInputs inputs_of(PassRig& rig, FrameGraph& graph, const Inputs& in) {
     CompositeInputs inputs{rig.image(graph, "scene", kSceneFormat, in.extent, in.scene),
-                           graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT),
-                           {},
-                           {}};
-    if (!in.veil.empty()) inputs.luminance_glare = rig.image(graph, "veil", kSceneFormat, in.extent, in.veil);
+                           graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT)};
     if (!in.glare.empty())
         inputs.bloom = rig.image(graph, "glare", kGlareFormat, quarter(in.extent), to_halves(in.glare));
     return inputs;
@@ -61,7 +58,7 @@ std::vector<uint16_t> composite(PassRig& rig, const Inputs& in, uint32_t tone) {
 
 void expect_reference(const std::vector<uint16_t>& got, const Inputs& in, uint32_t tone) {
     const auto [w, h] = in.extent;
-    const reference::CompositeFrame<glm::vec4> frame{in.scene, in.veil, in.glare, {w, h}, double(in.gain)};
+    const reference::CompositeFrame<glm::vec4> frame{in.scene, in.glare, {w, h}, double(in.gain)};
     Picture got_codes(w, h, 3), want(w, h, 3), rounding(w, h, 3);
     for (uint32_t y = 0; y < h; ++y)
         for (uint32_t x = 0; x < w; ++x) {
@@ -84,7 +81,7 @@ TEST(Composite, MatchesTheReferenceForEveryOperatorAndSize) {
     PassRig rig;
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {65, 3}, {131, 67}})
         for (uint32_t tone : kEveryTone) {
-            const Inputs in{extent, night_pixels(extent, extent.width), {}, {}, crooked_curve_of(tone, {}), {}};
+            const Inputs in{extent, night_pixels(extent, extent.width), {}, crooked_curve_of(tone, {}), {}};
             expect_reference(composite(rig, in, tone), in, tone);
         }
     EXPECT_EQ(rig.complaints(), "");
@@ -93,24 +90,19 @@ TEST(Composite, MatchesTheReferenceForEveryOperatorAndSize) {
 TEST(Composite, MatchesTheReferenceOfAWholeFrame) {
     PassRig rig;
     const VkExtent2D extent{1680, 1050};
-    const Inputs in{extent, night_pixels(extent, 1), {}, {}, crooked_curve({}), {}};
+    const Inputs in{extent, night_pixels(extent, 1), {}, crooked_curve({}), {}};
     expect_reference(composite(rig, in, shared::kToneCurve), in, shared::kToneCurve);
     EXPECT_EQ(rig.complaints(), "");
 }
 
-TEST(Composite, AddsBothKindsOfGlare) {
+TEST(Composite, AddsBloom) {
     PassRig rig;
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {66, 35}})
-        for (uint32_t tone : kEveryTone)
-            for (uint32_t which : {1u, 2u, 3u}) {
-                Inputs in{extent, night_pixels(extent, which), {}, {}, crooked_curve_of(tone, {}), {}, 0.7f};
-                if (which & 1) in.veil = night_pixels(extent, 20, -3, 2);
-                if (which & 2) {
-                    in.glare = night_pixels(quarter(extent), 21, -3, 0);
-                    for (auto& g : in.glare) g = glm::round(g * 1024.0f) / 1024.0f;  // exact in a 16-bit float
-                }
-                expect_reference(composite(rig, in, tone), in, tone);
-            }
+        for (uint32_t tone : kEveryTone) {
+            Inputs in{extent, night_pixels(extent, 2), night_pixels(quarter(extent), 21, -3, 0), crooked_curve_of(tone, {}), {}, 0.7f};
+            for (auto& g : in.glare) g = glm::round(g * 1024.0f) / 1024.0f;  // exact in a 16-bit float
+            expect_reference(composite(rig, in, tone), in, tone);
+        }
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -120,11 +112,11 @@ TEST(Composite, OtherDisplaysAndTables) {
     for (const Display& display :
          {Display{10, 0.01f, 2.2f, 0, 0}, Display{1000, 0.5f, 1.8f, 300, 0.02f}, Display{80, 1, 1, 0, 0}})
         for (uint32_t bins : {1u, 17u, 256u}) {
-            const Inputs in{extent, night_pixels(extent, bins), {}, {}, crooked_curve(display, bins), display};
+            const Inputs in{extent, night_pixels(extent, bins), {}, crooked_curve(display, bins), display};
             expect_reference(composite(rig, in, shared::kToneCurve), in, shared::kToneCurve);
         }
     // A table that begins below the floor of the logarithm.
-    Inputs in{extent, night_pixels(extent, 2, -8, 2), {}, {}, crooked_curve({}), {}};
+    Inputs in{extent, night_pixels(extent, 2, -8, 2), {}, crooked_curve({}), {}};
     in.curve.ln_low = std::log(1e-7f);
     expect_reference(composite(rig, in, shared::kToneCurve), in, shared::kToneCurve);
     EXPECT_EQ(rig.complaints(), "");
@@ -133,7 +125,7 @@ TEST(Composite, OtherDisplaysAndTables) {
 TEST(Composite, WhatIsNotFiniteIsBlack) {
     PassRig rig;
     const VkExtent2D extent{4, 3};
-    Inputs in{extent, std::vector<glm::vec4>(12, glm::vec4(50, 50, 50, 1)), {}, {}, crooked_curve({}), {}};
+    Inputs in{extent, std::vector<glm::vec4>(12, glm::vec4(50, 50, 50, 1)), {}, crooked_curve({}), {}};
     in.scene[0] = {kNan, 1, 1, 1}, in.scene[1] = {1, kInf, 1, 1}, in.scene[2] = {1, 1, -kInf, 1},
     in.scene[3] = {kInf, -kInf, kNan, 1};
     in.scene[4] = {-5, -5, -5, 1}, in.scene[5] = {90, -1, 20, 1}, in.scene[6] = {-1, -1, 40, 1};
@@ -151,7 +143,7 @@ TEST(Composite, WhatIsNotFiniteIsBlack) {
 TEST(Composite, SweepsOfHueAndLuminance) {
     PassRig rig;
     const VkExtent2D extent{121, 75};
-    Inputs in{extent, {}, {}, {}, crooked_curve({}), {}};
+    Inputs in{extent, {}, {}, crooked_curve({}), {}};
     in.curve.linear_low = 0, in.curve.linear_gain = 1;
     for (uint32_t y = 0; y < extent.height; ++y)
         for (uint32_t x = 0; x < extent.width; ++x) {
@@ -182,7 +174,7 @@ TEST(Composite, EveryKindOfDisplay) {
     displays.push_back({.primaries = {{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}});
     for (const Display& display : displays)
         for (uint32_t tone : kEveryTone) {
-            Inputs in{extent, night_pixels(extent, tone), {}, {}, crooked_curve_of(tone, display), display};
+            Inputs in{extent, night_pixels(extent, tone), {}, crooked_curve_of(tone, display), display};
             expect_reference(composite(rig, in, tone), in, tone);
             in.glare = night_pixels(quarter(extent), 5, -3, 0);
             for (auto& g : in.glare) g = glm::round(g * 1024.0f) / 1024.0f;
@@ -206,7 +198,7 @@ TEST(Composite, CodesAreTheNearest) {
             for (float light : {std::nextafter(at, 0.0f), at, std::nextafter(at, 1.0f)}) lamps.push_back(light);
         }
         lamps.resize((lamps.size() + 63) / 64 * 64, 0.5f);
-        Inputs in{{64, uint32_t(lamps.size() / 64)}, {}, {}, {}, crooked_curve(display), display};
+        Inputs in{{64, uint32_t(lamps.size() / 64)}, {}, {}, crooked_curve(display), display};
         for (float light : lamps) in.scene.emplace_back(light, light, light, 1);
         const auto got = composite(rig, in, shared::kToneLdr);
         size_t wrong = 0;
@@ -225,7 +217,7 @@ TEST(Composite, LightOfTheDisplayWithoutItsLimits) {
     PassRig rig;
     const VkExtent2D extent{37, 21};
     for (uint32_t tone : kEveryTone) {
-        Inputs in{extent, night_pixels(extent, tone), {}, {}, crooked_curve_of(tone, {}), {}};
+        Inputs in{extent, night_pixels(extent, tone), {}, crooked_curve_of(tone, {}), {}};
         in.scene[5] = {kNan, 1, 1, 1}, in.scene[6] = {1, kInf, 1, 1}, in.scene[7] = {-5, -5, -5, 1}, in.scene[8] = {90, -1, 20, 1};
         FrameGraph graph;
         const CompositeInputs inputs = inputs_of(rig, graph, in);
@@ -248,7 +240,7 @@ TEST(Composite, LightOfTheDisplayWithoutItsLimits) {
 TEST(Composite, GreyStaysGreyAndRampsStayMonotone) {
     PassRig rig;
     const VkExtent2D extent{512, 1};
-    Inputs in{extent, {}, {}, {}, crooked_curve({}), {}};
+    Inputs in{extent, {}, {}, crooked_curve({}), {}};
     for (int i = 0; i < 512; ++i) in.scene.emplace_back(glm::vec3(std::pow(10.0f, -5 + float(i) / 40)), 1);
     for (uint32_t tone : kEveryTone) {
         in.curve = crooked_curve_of(tone, {});

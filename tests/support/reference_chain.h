@@ -42,7 +42,7 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
             if (reference::finite(glm::dvec3(scene[i]))) banded[i] = glm::vec4(glm::vec3(reference::banded(glm::dvec3(scene[i]), std::exp(bands.shown[i]), tone, adapted.tone)), 1);
         tone = shared::kToneLinear | (tone & shared::kGamutMask);
     }
-    const reference::CompositeFrame<glm::vec4> frame{banded, {}, {}, {extent.width, extent.height}};
+    const reference::CompositeFrame<glm::vec4> frame{banded, {}, {extent.width, extent.height}};
     std::vector<glm::dvec3> codes;
     for (uint32_t y = 0; y < extent.height; ++y)
         for (uint32_t x = 0; x < extent.width; ++x) codes.push_back(reference::composite(frame, {x, y}, tone, adapted.tone, display));

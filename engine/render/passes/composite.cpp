@@ -22,20 +22,19 @@ Cones cones_of(const Primaries& primaries) {
 struct Show {
     const Kernel& kernel;
     shared::CompositePush push;
-    Resource luminance_glare, bloom;  // a binding that the variant does not read still has to be bound: the scene stands in
+    Resource bloom;  // a binding that the variant does not read still has to be bound: the scene stands in
     Groups groups;
 };
 
 Show show(const Kernels& kernels, const CompositeInputs& in, uint32_t tone, const View& view, const Display& display, float ldr_glare_gain, bool light) {
     const bool primaries = !light && display.primaries != kRec709;
-    const Kernel& kernel = kernels.composite({tone, bool(in.luminance_glare), bool(in.bloom), primaries, light, !light && in.blue_first});
+    const Kernel& kernel = kernels.composite({tone, bool(in.bloom), primaries, light, !light && in.blue_first});
     const auto [width, height] = view.extent;
     const glm::mat3 rows(glm::transpose(glm::inverse(to_rec709(display.primaries))));
     const Cones cones = cones_of(display.primaries);
     return {kernel,
             {{width, height}, display.low(), display.high(), ldr_glare_gain, {}, rows[0], rows[1], rows[2],
              cones.luminance, cones.rows[0], cones.rows[1], cones.rows[2]},
-            in.luminance_glare ? in.luminance_glare : in.scene,
             in.bloom ? in.bloom : in.scene,
             cover(width, height, kernel.group[0], kernel.group[1] * kernels.composite_rows)};
 }
@@ -48,14 +47,14 @@ Resource add_composite(FrameGraph& graph, const Kernels& kernels, const Composit
     s.push.encode = encoding.push;
     const Resource cells = graph.upload("code cells", encoding.cells, VK_FORMAT_R32G32B32A32_SFLOAT);
     const Resource image = graph.transient("display", image_shape(kDisplayFormat, view.extent));
-    graph.dispatch("composite", s.kernel, {load(in.scene), sample(in.curve), load(s.luminance_glare), sample(s.bloom), sample(cells), store(image)}, s.push, s.groups);
+    graph.dispatch("composite", s.kernel, {load(in.scene), sample(in.curve), sample(s.bloom), sample(cells), store(image)}, s.push, s.groups);
     return image;
 }
 
 Resource add_display_light(FrameGraph& graph, const Kernels& kernels, const CompositeInputs& in, uint32_t tone, const View& view, const Display& display, float ldr_glare_gain) {
     const Show s = show(kernels, in, tone, view, display, ldr_glare_gain, true);
     const Resource image = graph.transient("display light", image_shape(kDisplayLightFormat, view.extent));
-    graph.dispatch("display light", s.kernel, {load(in.scene), sample(in.curve), load(s.luminance_glare), sample(s.bloom), store(image)}, s.push, s.groups);
+    graph.dispatch("display light", s.kernel, {load(in.scene), sample(in.curve), sample(s.bloom), store(image)}, s.push, s.groups);
     return image;
 }
 

@@ -250,7 +250,6 @@ Resource add_bloom(FrameGraph&, const Kernels&, Resource scene, Resource curve, 
 struct CompositeInputs {
     Resource scene;            ///< cd/m^2
     Resource curve;
-    Resource luminance_glare;  ///< optional: light scattered in the eye, rgba32f at full size, cd/m^2; added before the curve
     Resource bloom;        ///< optional: what add_bloom gave; added after the curve
     bool blue_first = false;   ///< codes have blue in their lowest bits, and red in the highest
 };

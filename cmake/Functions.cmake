@@ -1,13 +1,18 @@
 # vesper_embed_shaders(<target> <file>...)
-#   Compiles each shader of glsl/ to SPIR-V and links it into <target> as an array named after the file: adapt.comp
-#   becomes adapt_comp, to be included from <shaders/adapt.comp.inc>. Rebuilt when it, or anything it includes, changes.
+#   Compiles each shader of glsl/ to SPIR-V and links it into <target> as an array. The array is named after the file
+#   without its folder, its include file after both: glsl/sky/sky.comp becomes the array sky_comp, to be included from
+#   <shaders/sky/sky.comp.inc>. Shaders include files of glsl/ by their path in it, files of their own folder by their
+#   name. Rebuilt when a shader, or anything it includes, changes.
 find_program(VESPER_GLSLANG NAMES glslang glslangValidator REQUIRED)
 
 function(vesper_embed_shaders target)
     foreach(name IN LISTS ARGN)
-        string(MAKE_C_IDENTIFIER ${name} symbol)
+        get_filename_component(file ${name} NAME)
+        get_filename_component(folder ${name} DIRECTORY)
+        string(MAKE_C_IDENTIFIER ${file} symbol)
         set(source ${PROJECT_SOURCE_DIR}/glsl/${name})
         set(made ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.inc)
+        file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/shaders/${folder})
         add_custom_command(
             OUTPUT ${made}
             DEPENDS ${source}

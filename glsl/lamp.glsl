@@ -1,5 +1,5 @@
 // Lamps of any kind: fetched, and evaluated in a direction. Needs `samplerBuffer lamps`, `samplerBuffer maps` and the constants
-// kPowers and kMaps.
+// kPowers and kTables.
 
 #include "tables.glsl"
 #include "shared/lamp.h"
@@ -24,7 +24,7 @@ FetchedLamp fetch(uint index, bool cone, uint maps_from) {
     const vec4 a = texelFetch(lamps, texel), c = texelFetch(lamps, texel + 2);
     vec4 b = vec4(0.0), d = vec4(0.0), e = vec4(0.0), f = vec4(0.0);
     if (cone || kPowers != 0u) b = texelFetch(lamps, texel + 1);
-    if (!cone && kMaps != 0u) d = texelFetch(lamps, texel + 3), e = texelFetch(lamps, texel + 4), f = texelFetch(lamps, texel + 5);
+    if (!cone && kTables != 0u) d = texelFetch(lamps, texel + 3), e = texelFetch(lamps, texel + 4), f = texelFetch(lamps, texel + 5);
     return FetchedLamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w, kPowers == 0u || index >= maps_from,
                 d.xyz, turn_of(d.xyz, e.xyz, e.w), e.xyz, d.w, abs(e.w), f);
 }
@@ -38,7 +38,7 @@ float relative_intensity(FetchedLamp lamp, float cosine, vec3 from, float invers
     }
     float relative = 0.0;
     if (kPowers != 0u) relative = cosine > 0.0 ? exp2(lamp.lobe_a * log2(cosine)) : 0.0;
-    if (kMaps != 0u) {
+    if (kTables != 0u) {
         const vec3 d = vec3(dot(lamp.start, from), dot(lamp.turn, from), dot(lamp.pole, from));
         const float mapped = map_intensity(d, inverse, lamp.grid, lamp.first, vec2(lamp.last_azimuth, lamp.lobe_b), at);
         relative = lamp.measured ? mapped : relative;

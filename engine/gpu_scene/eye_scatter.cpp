@@ -6,7 +6,7 @@
 
 #include "vision/glare_pattern.h"
 #include "gpu_scene/gpu_scene.h"
-#include "shared/scatter.h"
+#include "shared/eye_scatter.h"
 
 namespace vesper {
 namespace {

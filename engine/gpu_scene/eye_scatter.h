@@ -53,11 +53,11 @@ public:
     glm::ivec2 nodes() const { return nodes_; }
     const EdgeLight::Axis& edge_x() const { return edge_x_; }
     const EdgeLight::Axis& edge_y() const { return edge_y_; }
-    Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node, level by level (shared/scatter.h)
+    Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node, level by level (shared/eye_scatter.h)
     Texels edge() const { return edge_texels_; }  ///< r32f, EdgeLight::kept
     Texels top() const { return top_texels_; }    ///< rgba32f, for each texel that gives those that take, by four
 
-    /// Lamps whose light begins at a level, two texels each (shared/scatter.h).
+    /// Lamps whose light begins at a level, two texels each (shared/eye_scatter.h).
     std::vector<glm::vec4> lamps_of(int level, const std::vector<OffscreenLamp>&) const;
     /// Veiling luminance of the lamps that are too far outside for that, cd/m^2 RGB, for each texel of the top that takes.
     std::vector<glm::vec4> far_veil(const std::vector<OffscreenLamp>&) const;

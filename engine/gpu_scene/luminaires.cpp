@@ -76,7 +76,7 @@ Seen look_at(const Lamp& lamp, const Aim& aim, const View& view) {
     Silhouette outline = project(opening, view, kSmallest);
     const double luminance = aim.candela / (o.area() * glm::dot(normal, aim.to_eye) * outline.widening);
     const double reach = std::hypot(o.length, o.width) / 2;
-    return {std::move(outline), luminance, -aim.centre.z * 0.999 - kHousing - reach - double(shared::kSourceEdge)};
+    return {std::move(outline), luminance, -aim.centre.z * 0.999 - kHousing - reach - double(shared::kLuminaireEdge)};
 }
 
 // Part of a lamp's light that its outline in the picture has.

@@ -1,16 +1,17 @@
 #include "render/renderer.h"
 
-#include <optional>
+#include <utility>
 
 #include "gpu_scene/retro.h"
 #include "gpu_scene/sky.h"
+#include "render/passes/luminaires.h"
 
 namespace vesper {
 
 Renderer::Renderer(Device& device, const Scene& scene)
-    : device_(device), kernels_(device), scene_(std::make_unique<Drawn>(device, scene)), eye_(device), executor_(device) {}
+    : device_(device), kernels_(device), scene_(std::make_unique<SceneData>(device, scene)), eye_(device), executor_(device) {}
 
-Renderer::Drawn::Drawn(const Device& device, const Scene& scene)
+Renderer::SceneData::SceneData(const Device& device, const Scene& scene)
     : resident(device, scene),
       lamps(placed_lamps(scene)),
       luminaires(placed_luminaires(scene)),
@@ -27,83 +28,100 @@ Renderer::Drawn::Drawn(const Device& device, const Scene& scene)
     if (!scene.retroreflectors.empty()) retro = upload(device, retro_texels(scene.retroreflectors));
 }
 
-Renderer::TexelBuffer Renderer::Drawn::upload(const Device& device, const std::vector<glm::vec4>& texels) {
+Renderer::TexelBuffer Renderer::SceneData::upload(const Device& device, const std::vector<glm::vec4>& texels) {
     const auto bytes = std::as_bytes(std::span(texels));
     return {upload_buffer(device, table_arena, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT), bytes.size()};
 }
 
 void Renderer::set_scene(const Scene& scene) {
-    auto drawn = std::make_unique<const Drawn>(device_, scene);
-    executor_.wait();  // what is under way uses the one that goes
-    scene_ = std::move(drawn);
+    auto data = std::make_unique<const SceneData>(device_, scene);
+    executor_.wait();  // frames under way use the old scene
+    scene_ = std::move(data);
 }
 
-Resource Renderer::TexelBuffer::in(FrameGraph& graph, const std::string& name) const {
-    return graph.external(name, buffer.get(), bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
+RenderSettings ldr_baseline(RenderSettings settings) {
+    if (settings.tone_operator != Operator::Ldr) return settings;
+    settings.paper_lambert = settings.unit_lamps = settings.lamps_alone = true;
+    settings.offscreen_lamps.clear();
+    if (settings.glare == Glare::Scatter) settings.glare = Glare::None;
+    return settings;
 }
 
-Renderer::Declared Renderer::declare(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& frame,
-                                     const LampList& lamps, const LuminaireList& luminaires, const ChainInputs& given, const Outputs& outputs) const {
-    const bool ldr = settings.tone_operator == Operator::Ldr;
-    ClusterSettings clustering = settings.clusters;
-    clustering.far = scene_->resident.farthest_depth(frame, view);
-    ShadeSettings shading{.all_lamps = settings.all_lamps};
-    if (ldr || settings.paper_lambert) shading.lambert = 1;
-    const AmbientLight ambient = frame.ambient.value_or(scene_->ambient);
-    if (ldr)
-        shading.emission_limit = 1;
-    else
-        shading.ambient = frame.tunnels.empty() ? ambient.illuminance : glm::vec3(0), shading.sky = ambient.sky;
-
-    const GBuffer surfaces = add_gbuffer(graph, scene_->resident, frame, view);
-    const TableTexels tables{scene_->table_texels.in(graph, "maps"), scene_->tables.roads, scene_->tables.roads != 0};
-    const Clusters clusters = add_clusters(graph, kernels_, surfaces.surface, lamps, tables, view, clustering);
-    if (scene_->retro && !ldr) shading.retro = scene_->retro.in(graph, "retroreflection");
-    Resource scene = add_shading(graph, kernels_, surfaces, clusters, view, shading);
-    if (!frame.tunnels.empty() && !ldr) scene = add_daylight(graph, kernels_, surfaces, scene, frame.tunnels, view, ambient.illuminance, shading.lambert);
-    if (scene_->sky && !ldr) {
-        const Resource sky = scene_->sky.in(graph, "sky map");
-        scene = add_sky(graph, kernels_, surfaces, scene, sky, scene_->sky_sharp_side, view, shading.lambert);
+Renderer::FrameInputs Renderer::inputs_of(FrameGraph& graph, const RenderSettings& settings, const View& view,
+                                          const SceneFrame& poses, float seconds) {
+    const auto texels = [&graph](const char* name, const TexelBuffer& buffer) {
+        if (buffer.bytes == 0) return Resource{};
+        return graph.external(name, buffer.buffer.get(), buffer.bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
+    };
+    FrameInputs in;
+    in.lamps = lamp_list(scene_->lamps, scene_->tables, poses, view);
+    if (settings.unit_lamps) set_to_one(in.lamps, settings.ldr_reference_distance);
+    const std::optional<float> white = settings.unit_lamps ? std::optional(1.0f) : std::nullopt;
+    in.luminaires = luminaire_list(scene_->luminaires, poses, view, white);
+    in.tables = {texels("intensity tables", scene_->table_texels), scene_->tables.roads, scene_->tables.roads != 0};
+    in.clusters = settings.clusters;
+    in.clusters.far = scene_->resident.farthest_depth(poses, view);
+    in.shading.all_lamps = settings.all_lamps;
+    if (settings.paper_lambert) in.shading.lambert = 1;
+    if (settings.unit_lamps) in.shading.emission_limit = 1;
+    in.chain = eye_.inputs(executor_, settings, view, seconds);
+    in.chain.scatter.lamps = settings.offscreen_lamps;
+    if (settings.lamps_alone) {
+        in.luminaires.glare_sources.clear();
+        return in;
     }
-    scene = add_luminaires(graph, kernels_, scene, surfaces.surface, luminaires, view);
-    return {.chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs),
-            .clusters = add_readback(graph, "cluster report", clusters.report, sizeof(shared::ClusterReport)),
-            .far = clusters.push.far};
+
+    const AmbientLight ambient = poses.ambient.value_or(scene_->ambient);
+    if (poses.tunnels.empty()) in.shading.ambient = ambient.illuminance;
+    in.shading.sky = ambient.sky;
+    in.shading.retro = texels("retroreflection", scene_->retro);
+    in.daylight = {poses.tunnels, ambient.illuminance, in.shading.lambert};
+    in.sky = {texels("sky map", scene_->sky), scene_->sky_sharp_side};
+    for (const GlareSource& source : in.luminaires.glare_sources)
+        if (source.inside < 1)
+            in.chain.scatter.lamps.push_back({source.direction, (1 - source.inside) * source.illuminance});
+    return in;
 }
 
-Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs) {
+ToneChain Renderer::declare(const FrameContext& frame, const SceneFrame& poses, const FrameInputs& inputs,
+                            const RenderSettings& settings, const Outputs& outputs, Pending& pending) const {
+    const GBuffer surfaces = add_gbuffer(frame, scene_->resident, poses);
+    const Clusters clusters = add_clusters(frame, surfaces.surface, inputs.lamps, inputs.tables, inputs.clusters);
+    Resource scene = add_shading(frame, surfaces, clusters, inputs.shading);
+    scene = add_daylight(frame, surfaces, scene, inputs.daylight);
+    scene = add_sky(frame, surfaces, scene, inputs.sky, inputs.shading.lambert);
+    scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
+    const ToneChain chain = add_tone_chain(frame, scene, settings, inputs.chain, outputs);
+    pending.clusters = add_readback(frame.graph, "cluster report", clusters.report, sizeof(shared::ClusterReport));
+    pending.frame.far = clusters.push.far;
+    return chain;
+}
+
+Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds,
+                       const Outputs& outputs) {
     submit(settings, view, frame, seconds, outputs, {});
     return *finish();
 }
 
-void Renderer::submit(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds, const Outputs& outputs, const SubmitSemaphores& semaphores) {
-    if (EyeKeeper::looks_back(settings)) finish();
+void Renderer::submit(const RenderSettings& given, const View& view, const SceneFrame& poses, float seconds,
+                      const Outputs& outputs, const SubmitSemaphores& semaphores) {
+    if (EyeKeeper::looks_back(given)) finish();
     Pending pending{};
-    const bool ldr = settings.tone_operator == Operator::Ldr;
-    LampList lamps = lamp_list(scene_->lamps, scene_->tables, frame, view);
-    if (ldr) set_to_one(lamps, settings.ldr_reference_distance);
-    LuminaireList luminaires = luminaire_list(scene_->luminaires, frame, view, ldr ? std::optional(1.0f) : std::nullopt);
-
-    ToneChainSettings chain = settings;
-    if (ldr && chain.glare == Glare::Scatter) chain.glare = Glare::None;
-    ChainInputs given = eye_.inputs(executor_, chain, view, seconds);
-    if (!ldr) {
-        given.outside = settings.offscreen_lamps;
-        for (const GlareSource& source : luminaires.glare_sources)
-            if (source.inside < 1) given.outside.push_back({source.direction, (1 - source.inside) * source.illuminance});
-    }
-
+    const RenderSettings settings = ldr_baseline(given);
     FrameGraph graph;
-    pending.declared = declare(graph, settings, view, frame, lamps, luminaires, given, outputs);
+    FrameInputs inputs = inputs_of(graph, settings, view, poses, seconds);
+    pending.chain = declare({graph, kernels_, view}, poses, inputs, settings, outputs, pending);
     Frame& result = pending.frame;
     result.extent = view.extent;
     result.host_times.declare = pending.watch.milliseconds();
-    if (given.corona) result.pupil = given.corona->pupil, result.pattern_milliseconds = given.corona->milliseconds;
-    result.lamps = uint32_t(lamps.lamps.size());
-    result.luminaires = uint32_t(luminaires.luminaires.size());
-    result.far = pending.declared.far;
-    if (!ldr) result.glare_sources = std::move(luminaires.glare_sources);
-    result.outside = std::move(given.outside);
+    if (inputs.chain.corona) {
+        result.pupil = inputs.chain.corona->pupil;
+        result.pattern_milliseconds = inputs.chain.corona->milliseconds;
+    }
+    result.lamps = uint32_t(inputs.lamps.lamps.size());
+    result.luminaires = uint32_t(inputs.luminaires.luminaires.size());
+    result.glare_sources = std::move(inputs.luminaires.glare_sources);
+    result.outside = std::move(inputs.chain.scatter.lamps);
 
     executor_.submit(graph, semaphores);
     // Nothing fails from here on.
@@ -118,10 +136,10 @@ std::optional<Frame> Renderer::finish() {
     Frame result = std::move(pending_->frame);
     const double declared_after = result.host_times.declare;
     result.milliseconds = pending_->watch.milliseconds();
-    read_tone_chain(executor_, pending_->declared.chain, result.extent, result);
+    read_tone_chain(executor_, pending_->chain, result.extent, result);
     result.host_times.declare = declared_after;
     eye_.read(result.eye);
-    result.clusters = read_one<shared::ClusterReport>(executor_, pending_->declared.clusters);
+    result.clusters = read_one<shared::ClusterReport>(executor_, pending_->clusters);
     pending_.reset();
     return result;
 }

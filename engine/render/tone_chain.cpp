@@ -1,5 +1,10 @@
 #include "render/tone_chain.h"
 
+#include "render/passes/acuity.h"
+#include "render/passes/bands.h"
+#include "render/passes/composite.h"
+#include "render/passes/corona.h"
+
 namespace vesper {
 namespace {
 
@@ -11,66 +16,106 @@ void read_all(const Executor& executor, Resource readback, std::vector<T>& to) {
     to.assign(values.begin(), values.end());
 }
 
+// How pixels are mapped by an operator, and how dim light is perceived: shared::kTone* and kGamut*.
+uint32_t tone_of(const OperatorInfo& op, const ToneSettings& tone) {
+    return op.form | (tone.colour_loss ? shared::kToneColourLoss : 0) | (tone.purkinje ? shared::kTonePurkinje : 0) |
+           (tone.photopic_rods ? shared::kTonePhotopicRods : 0) | tone.gamut;
+}
+
+// The same for the display: bands have mapped the picture already.
+uint32_t display_tone_of(const OperatorInfo& op, const ToneSettings& tone) {
+    return op.bands ? shared::kToneLinear | tone.gamut : tone_of(op, tone);
+}
+
+// Fine votes are for curves that the histogram makes, and for automatic parameters.
+HistogramSettings votes_of(const OperatorInfo& op, const ToneChainSettings& settings) {
+    HistogramSettings votes = settings.histogram;
+    const bool read =
+        op.model == shared::kModelHistogram || op.model == shared::kModelTrimmed || settings.tone.automatic;
+    votes.fine = votes.fine && read;
+    return votes;
+}
+
+BloomSettings bloom_of(const ToneChainSettings& settings) {
+    BloomSettings bloom = settings.bloom;
+    if (settings.glare != Glare::Ldr) bloom.gain = 0;
+    return bloom;
+}
+
+// Codes in the format of an external image, or those of the display.
+CompositeSettings codes_of(const OperatorInfo& op, const ToneChainSettings& settings,
+                           const std::optional<ExternalImage>& shown) {
+    CompositeSettings codes{
+        .tone = display_tone_of(op, settings.tone), .display = settings.display, .bloom_gain = settings.bloom.gain};
+    if (!shown) return codes;
+    const auto format = shown_format(shown->format);
+    if (!format) throw Error("codes cannot be shown in an image of Vulkan format " + std::to_string(shown->format));
+    codes.display.bits = format->bits, codes.blue_first = format->blue_first;
+    return codes;
+}
+
+CompositeSettings light_of(const OperatorInfo& op, const ToneChainSettings& settings) {
+    return codes_of(op, settings, {});
+}
+
+// The texels of needles and halo; none without them.
+std::span<const glm::vec4> pattern_of(const Corona* corona) {
+    return corona ? std::span<const glm::vec4>(corona->texels) : std::span<const glm::vec4>();
+}
+
+void show(FrameGraph& graph, Resource codes, const std::optional<ExternalImage>& image) {
+    if (image) graph.copy("show", codes, graph.target("shown", *image));
+}
+
 }  // namespace
 
-Resource add_readback(FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes) {
+Resource add_readback(FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes, bool wanted) {
+    if (!wanted) return {};
     const Resource to = graph.readback(name + " on the host", bytes);
     graph.copy("read " + name, from, to);
     return to;
 }
 
-ToneChain add_tone_chain(FrameGraph& graph, const Kernels& kernels, Resource rendered, const View& view, const ToneChainSettings& settings, const ChainInputs& given, Outputs outputs) {
+ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneChainSettings& settings,
+                         const ChainInputs& inputs, const Outputs& outputs) {
     const OperatorInfo& op = operator_info(settings.tone_operator);
-    uint32_t tone = op.form | (settings.tone.colour_loss ? shared::kToneColourLoss : 0) | (settings.tone.purkinje ? shared::kTonePurkinje : 0) |
-                    (settings.tone.photopic_rods ? shared::kTonePhotopicRods : 0) | settings.tone.gamut;
-    // What the eye adapts to and the histogram counts is what falls on the retina.
-    Resource scene = rendered;
-    if (given.scatter) scene = add_scatter(graph, kernels, rendered, *given.scatter, given.outside, given.beyond);
-    if (given.scatter && given.corona) scene = add_corona(graph, kernels, rendered, scene, given.corona->texels, view);
-    const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
+    const uint64_t pixels = uint64_t(frame.view.extent.width) * frame.view.extent.height;
+    ToneChain chain;
+
+    // The eye adapts to the light that falls on the retina, and the histogram counts it.
+    Resource retina = add_eye_scatter(frame, scene, inputs.scatter);
+    retina = add_corona(frame, scene, retina, pattern_of(inputs.corona));
     if (outputs.retina) {
-        ToneChain chain;
-        chain.retina = add_readback(graph, "retina", scene, pixels * 16);
-        if (outputs.scene) chain.scene = add_readback(graph, "scene", rendered, pixels * 16);
+        chain.retina = add_readback(frame.graph, "retina", retina, pixels * 16);
+        chain.scene = add_readback(frame.graph, "scene", scene, pixels * 16, outputs.scene);
         return chain;
     }
-    const Pyramid luminance = add_pyramid(graph, kernels, scene, view.extent, settings.tone.log_epsilon);
-    const uint32_t level = settings.foveal_level.value_or(foveal_level(view, luminance));
-    HistogramSettings votes = settings.histogram;
-    // Elsewhere nobody would look at them.
-    votes.fine = votes.fine && (op.model == shared::kModelHistogram || op.model == shared::kModelTrimmed || settings.tone.automatic);
-    const Resource histogram = add_histogram(graph, kernels, luminance, level, view.extent, votes);
-    const FovealView fovea{level, luminance.extents[level - 1], view.extent};
-    const shared::ToneParameters parameters = tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, given.seconds);
-    const Adaptation adaptation = add_adaptation(graph, kernels, luminance, histogram, op, parameters, level, given.remembered,
-                                                 op.chromatic ? add_colours(graph, kernels, scene, view.extent) : Colours{});
-    Resource seen = settings.tone.acuity_loss ? add_acuity(graph, kernels, scene, luminance, level, view) : scene;
-    if (op.bands) {
-        seen = add_bands(graph, kernels, seen, luminance, level, adaptation.curve, tone, parameters, view.extent);
-        tone = shared::kToneLinear | settings.tone.gamut;
-    }
-    Resource glare;
-    if (settings.glare == Glare::Ldr)
-        glare = add_bloom(graph, kernels, seen, adaptation.curve, tone, view, settings.display, settings.bloom);
-    const auto shown = outputs.shown ? shown_format(outputs.shown->format) : std::nullopt;
-    if (outputs.shown && !shown) throw Error("codes cannot be shown in an image of Vulkan format " + std::to_string(outputs.shown->format));
-    Display screen = settings.display;
-    if (shown) screen.bits = shown->bits;
-    const CompositeInputs inputs{.scene = seen, .curve = adaptation.curve, .bloom = glare, .blue_first = shown && shown->blue_first};
-    const Resource display = add_composite(graph, kernels, inputs, tone, view, screen, settings.bloom.gain);
-    if (shown) graph.copy("show", display, graph.target("shown", *outputs.shown));
 
-    ToneChain chain{.display = {}, .scene = {}, .retina = {}, .display_light = {},
-                    .curve = add_readback(graph, "tone curve", adaptation.curve, sizeof(shared::ToneCurve)),
-                    .histogram = add_readback(graph, "histogram", histogram, sizeof(shared::Histogram)),
-                    .eye = add_readback(graph, "eye", adaptation.eye.current, sizeof(shared::EyeState)),
-                    .foveal_level = level};
-    if (outputs.display) chain.display = add_readback(graph, "display", display, pixels * 4);
-    if (outputs.display_light) {
-        const Resource display_light = add_display_light(graph, kernels, inputs, tone, view, settings.display, settings.bloom.gain);
-        chain.display_light = add_readback(graph, "display light", display_light, pixels * 16);
-    }
-    if (outputs.scene) chain.scene = add_readback(graph, "scene", rendered, pixels * 16);
+    const Pyramid luminance = add_pyramid(frame, retina, settings.tone.log_epsilon);
+    const uint32_t level = settings.foveal_level.value_or(foveal_level(frame.view, luminance));
+    const Resource histogram = add_histogram(frame, luminance, level, votes_of(op, settings));
+    const Colours colours = add_colours(frame, retina, op.chromatic);
+    const FovealView fovea{level, luminance.extents[level - 1], frame.view.extent};
+    const shared::ToneParameters parameters =
+        tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, inputs.seconds);
+    const auto [curve, eye] = add_adaptation(frame, {luminance, level, histogram, colours, inputs.remembered}, op, parameters);
+
+    Resource picture = add_acuity(frame, retina, luminance, level, settings.tone.acuity_loss);
+    picture = add_bands(frame, picture, luminance, level, curve, {op.bands, tone_of(op, settings.tone), parameters});
+    const Resource bloom =
+        add_bloom(frame, picture, curve, display_tone_of(op, settings.tone), settings.display, bloom_of(settings));
+    const CompositeInputs composite{picture, curve, bloom};
+    const Resource codes = add_composite(frame, composite, codes_of(op, settings, outputs.shown));
+    show(frame.graph, codes, outputs.shown);
+
+    chain.foveal_level = level;
+    chain.curve = add_readback(frame.graph, "tone curve", curve, sizeof(shared::ToneCurve));
+    chain.histogram = add_readback(frame.graph, "histogram", histogram, sizeof(shared::Histogram));
+    chain.eye = add_readback(frame.graph, "eye", eye, sizeof(shared::EyeState));
+    chain.display = add_readback(frame.graph, "display", codes, pixels * 4, outputs.display);
+    const Resource light = add_display_light(frame, composite, light_of(op, settings), outputs.display_light);
+    chain.display_light = add_readback(frame.graph, "display light", light, pixels * 16, outputs.display_light);
+    chain.scene = add_readback(frame.graph, "scene", scene, pixels * 16, outputs.scene);
     return chain;
 }
 
@@ -110,10 +155,10 @@ std::optional<ShownFormat> shown_format(VkFormat format) {
 }
 
 ChainInputs EyeKeeper::inputs(Executor& executor, const ToneChainSettings& settings, const View& view, float seconds) {
-    ChainInputs given{.seconds = seconds, .remembered = given_ ? &*given_ : nullptr, .scatter = nullptr, .corona = nullptr, .outside = {}, .beyond = nullptr};
+    ChainInputs given{.seconds = seconds, .remembered = given_ ? &*given_ : nullptr};
     if (settings.glare != Glare::Scatter) return given;
     if (!scatter_.has(settings.scatter, view)) executor.wait();  // what is under way uses the one that goes
-    given.scatter = &scatter_.at(settings.scatter, view);
+    given.scatter.fit = &scatter_.at(settings.scatter, view);
     const shared::EyeState& before = given_ ? *given_ : last_;
     if (settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.pupil), double(before.seconds) + double(before.seconds_lost) + double(seconds));
     return given;

@@ -5,10 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "graph/executor.h"
-#include "render/passes/passes.h"
 #include "gpu_scene/eye_corona.h"
-#include "gpu_scene/kernels.h"
+#include "graph/executor.h"
+#include "render/passes/adapt.h"
+#include "render/passes/bloom.h"
+#include "render/passes/eye_scatter.h"
 
 namespace vesper {
 
@@ -56,15 +57,14 @@ struct ToneChain {
 struct ChainInputs {
     float seconds = 0;                              ///< since the last frame
     const shared::EyeState* remembered = nullptr;   ///< stands for the last frame
-    const GpuScatter* scatter = nullptr;       ///< of the settings and the view; nothing: no light is scattered
-    const Corona* corona = nullptr;                 ///< of the settings; nothing: lamps have neither needles nor halo
-    std::vector<OffscreenLamp> outside;               ///< lamps whose light is scattered into the picture
-    const OffscreenLight* beyond = nullptr;            ///< likewise, of other pictures of the eye
+    ScatterInputs scatter = {};      ///< without a fit no light is scattered in the eye
+    const Corona* corona = nullptr;  ///< needles and halo of lamps; needs a fit of the scatter
 };
 
 /// Declares glare, pyramid, histogram, adaptation and composite of `scene` (rgba32f, cd/m^2 RGB; with Operator::Ldr values
 /// relative to white). The eye (kEyeHistory) remembers from frame to frame, also when sizes change.
-ToneChain add_tone_chain(FrameGraph&, const Kernels&, Resource scene, const View&, const ToneChainSettings&, const ChainInputs&, Outputs);
+ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneChainSettings& settings,
+                         const ChainInputs& inputs, const Outputs& outputs);
 
 /// One tone-mapped frame on the host.
 struct ToneMapped {
@@ -85,8 +85,8 @@ struct ToneMapped {
     double milliseconds = 0;        ///< from declaring the frame to the device being done, on the host's clock
 };
 
-/// A readback of a resource, to be kept: what passes are run for.
-Resource add_readback(FrameGraph&, const std::string& name, Resource from, uint64_t bytes);
+/// Copies a resource to the host after the frame. If it is not wanted there is no readback.
+Resource add_readback(FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes, bool wanted = true);
 
 /// The value that the last frame left in a readback.
 template <class T>

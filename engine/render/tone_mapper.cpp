@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "render/passes/picture.h"
+
 namespace vesper {
 namespace {
 
@@ -46,7 +48,7 @@ void ToneMapper::submit(const ToneChainSettings& settings, const DevicePicture& 
     const Stopwatch watch;
     const View view = view_of(picture.image.extent, picture.vertical_fov, picture.angles);
     FrameGraph graph;
-    const Resource scene = add_picture(graph, kernels_, graph.external("picture", picture.image), picture.image.extent, picture.scale);
+    const Resource scene = add_picture({graph, kernels_, view}, graph.external("picture", picture.image), picture.scale);
     submit(graph, scene, settings, view, seconds, {}, nullptr, {.display = false, .shown = shown}, semaphores, watch);
 }
 
@@ -54,9 +56,9 @@ void ToneMapper::submit(FrameGraph& graph, Resource scene, const ToneChainSettin
                         const OffscreenLight* beyond, const Outputs& outputs, const SubmitSemaphores& semaphores, Stopwatch watch) {
     if (EyeKeeper::looks_back(settings)) finish();
     ChainInputs given = eye_.inputs(executor_, settings, view, seconds);
-    given.outside = outside, given.beyond = beyond;
+    given.scatter.lamps = outside, given.scatter.pictures = beyond;
     Pending pending{watch, {}, {}};
-    pending.chain = add_tone_chain(graph, kernels_, scene, view, settings, given, outputs);
+    pending.chain = add_tone_chain({graph, kernels_, view}, scene, settings, given, outputs);
     pending.result.extent = view.extent;
     if (given.corona) pending.result.pupil = given.corona->pupil, pending.result.pattern_milliseconds = given.corona->milliseconds;
     pending.result.host_times.declare = watch.milliseconds();

@@ -63,7 +63,7 @@ private:
                 const SubmitSemaphores&, Stopwatch);
 
     Device& device_;
-    Kernels kernels_;
+    KernelCache kernels_;
     HostBuffer pixels_;
     EyeKeeper eye_;
     FrameGraph graph_;  // of the last one

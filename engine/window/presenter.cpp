@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "shaders/overlay.frag.inc"
-#include "shaders/overlay.vert.inc"
-#include "shaders/present.frag.inc"
-#include "shaders/present.vert.inc"
+#include "shaders/window/overlay.frag.inc"
+#include "shaders/window/overlay.vert.inc"
+#include "shaders/window/present.frag.inc"
+#include "shaders/window/present.vert.inc"
 #include "shared/present.h"
 
 namespace vesper {

@@ -25,7 +25,7 @@ struct RetroBase {
     float log2_coefficient;  // at the first angle, cd/(lx m^2)
     float entrance_factor;   // at the first angle
     float sheet;             // 1: R_A, luminance is over the cosine of view; 0: R_L
-    float reach2;            // square of the chord between directions to lamp and eye where the coefficient is kRetroLeast
+    float chord2;            // square of the chord between directions to lamp and eye where the coefficient is kRetroLeast
 };
 SHARED_SIZE(RetroBase, 16)
 

@@ -17,20 +17,20 @@ const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of
 const uint kFirstSliceShift = 22u;
 const uint kLastSliceShift = 27u;
 
-struct OccupancyPush {
+struct ActiveClustersPush {
     ClusterGrid grid;
     uvec2 size;      // px
     uint blocks_x;   // blocks in a row
 };
-SHARED_SIZE(OccupancyPush, 52)
+SHARED_SIZE(ActiveClustersPush, 52)
 
-struct SelectPush {
+struct CullPush {
     ClusterPush view;
     uvec2 size;      // px
     uint blocks_x;   // blocks in a row
     uint capacity;   // entries of a block: cones from the front, cosine powers and maps from the back
 };
-SHARED_SIZE(SelectPush, 80)
+SHARED_SIZE(CullPush, 80)
 
 struct ShadePush {
     uvec2 size;             // px
@@ -41,7 +41,7 @@ struct ShadePush {
     float emission_limit;   // emission is clamped to this, cd/m^2; infinite except for the LDR baseline
     vec3 ambient;           // illuminance on any surface, RGB of luminance lx
     vec3 sky;               // luminance where nothing is drawn, cd/m^2 RGB
-    uint blocks_x;          // as in SelectPush
+    uint blocks_x;          // as in CullPush
     uint capacity;
     uint roads;             // texel of the first road table's head
     uint blocks;            // of the image

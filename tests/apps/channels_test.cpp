@@ -8,7 +8,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/luminance.h"
-#include "passes/scatter_reference.h"
+#include "passes/eye_scatter_reference.h"
 #include "places.h"
 #include "scene/scene_files.h"
 

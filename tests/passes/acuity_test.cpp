@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "render/passes/acuity.h"
 #include "support/compare.h"
 #include "support/texels.h"
 #include "support/tones.h"
@@ -13,8 +14,8 @@ namespace {
 std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const View& view, uint32_t foveal_level) {
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, view.extent, pixels);
-    const Pyramid pyramid = add_pyramid(graph, rig.kernels(), scene, view.extent);
-    const Resource kept = keep<glm::vec4>(graph, add_acuity(graph, rig.kernels(), scene, pyramid, foveal_level, view));
+    const Pyramid pyramid = add_pyramid(rig.frame(graph, view), scene);
+    const Resource kept = keep<glm::vec4>(graph, add_acuity(rig.frame(graph, view), scene, pyramid, foveal_level));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -60,6 +61,15 @@ TEST(Acuity, WhatIsTooFineInTheDarkIsGone) {
     EXPECT_GT(contrast(0.01, 128), 0.45);
     EXPECT_NEAR(contrast(100, 4), 0.5, 1e-5);
     EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Acuity, WithoutLossThereIsNoPass) {
+    PassRig rig;
+    FrameGraph graph;
+    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
+    EXPECT_EQ(add_acuity(frame, scene, {}, 1, false), scene);
+    EXPECT_TRUE(graph.passes().empty());
 }
 
 }  // namespace

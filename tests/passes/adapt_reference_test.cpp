@@ -1,6 +1,6 @@
 // The eye over time and the parameters of operators, against published digits and properties. SPDX-License-Identifier: MIT
 #include "passes/adapt_reference.h"
-#include "render/passes/passes.h"
+#include "render/passes/adapt.h"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <random>
 
+#include "render/passes/adapt.h"
 #include "support/compare.h"
 #include "support/texels.h"
 
@@ -50,11 +51,12 @@ Got adapt(PassRig& rig, const Frame& frame, const shared::EyeState* remembered =
     const Resource top = rig.image(graph, "top", kSceneFormat, {1, 1}, std::vector{frame.top});
     const Resource fovea = rig.image(graph, "fovea", kSceneFormat, frame.texels, frame.fovea);
     const Resource histogram = rig.buffer(graph, "histogram", std::vector{frame.histogram});
-    const Adaptation a = add_adaptation(graph, rig.kernels(), {{fovea, top}, {frame.texels, {1, 1}}}, histogram, frame.op(), frame.parameters(), 1, remembered,
-                                        frame.op().chromatic ? Colours{rig.image(graph, "colours", kSceneFormat, frame.tiles, frame.colours), frame.tiles} : Colours{});
-    const Resource curve = keep<shared::ToneCurve>(graph, a.curve), eye = keep<shared::EyeState>(graph, a.eye.current);
+    const Colours colours = frame.op().chromatic ? Colours{rig.image(graph, "colours", kSceneFormat, frame.tiles, frame.colours), frame.tiles} : Colours{};
+    const Pyramid pyramid{{fovea, top}, {frame.texels, {1, 1}}};
+    const Adaptation a = add_adaptation(rig.frame(graph, View{}), {pyramid, 1, histogram, colours, remembered}, frame.op(), frame.parameters());
+    const Resource curve = keep<shared::ToneCurve>(graph, a.curve), left = keep<shared::EyeState>(graph, a.eye);
     rig.run(graph);
-    return {rig.got<shared::ToneCurve>(curve).at(0), rig.got<shared::EyeState>(eye).at(0)};
+    return {rig.got<shared::ToneCurve>(curve).at(0), rig.got<shared::EyeState>(left).at(0)};
 }
 
 /// Votes of a mixture of hills, `at` and `spread` in bins.
@@ -159,9 +161,9 @@ TEST(Adapt, MatchesTheReferenceOnRoadsDayAndNight) {
     for (const auto& [name, frame] : frames)
         for (Operator op : {Operator::Irawan, Operator::Ward}) {
             SCOPED_TRACE(std::string(name) + ", " + std::string(operator_info(op).name));
-            rig.executor().reset(kEyeHistory);
             Frame shown = frame;
             shown.tone_operator = op;
+            rig.executor().reset(kEyeHistory);
             expect_same(adapt(rig, shown), shown.wanted({}), shown);
         }
     EXPECT_EQ(rig.complaints(), "");
@@ -230,9 +232,9 @@ TEST(Adapt, MatchesTheReferenceForEveryObserver) {
     all[7].photopic_rods = all[7].observer.use_rods = true;
     for (const ToneSettings& tone : all) {
         SCOPED_TRACE(&tone - all.data());
-        rig.executor().reset(kEyeHistory);
         Frame frame = street;
         frame.tone = tone;
+        rig.executor().reset(kEyeHistory);
         expect_same(adapt(rig, frame), frame.wanted({}), frame);
     }
     EXPECT_EQ(rig.complaints(), "");
@@ -273,8 +275,8 @@ TEST(Adapt, TheGazeMovesOverTheFovealLevel) {
     for (const glm::vec2 gaze : {glm::vec2(0.5f), {0, 0}, {1, 1}, {0.31f, 0.87f}, {0.99f, 0.02f}, {-3, 2}}) {
         frame.tone.gaze = gaze;
         for (uint32_t to : {shared::kAdaptGaze, shared::kAdaptGazeMean, shared::kAdaptTexel}) {
-            rig.executor().reset(kEyeHistory);
             frame.tone.adapt_to = to;
+            rig.executor().reset(kEyeHistory);
             expect_same(adapt(rig, frame), frame.wanted({}), frame);
         }
     }
@@ -296,7 +298,6 @@ TEST(Adapt, AGazeAtNothingKeepsTheEye) {
         }
         for (uint32_t to : {shared::kAdaptGaze, shared::kAdaptGazeMean, shared::kAdaptTexel}) {
             SCOPED_TRACE(to);
-            rig.executor().reset(kEyeHistory);
             frame.tone.adapt_to = to;
             const Got got = adapt(rig, frame, &eye);
             expect_same(got, frame.wanted(eye), frame);

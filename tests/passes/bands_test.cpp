@@ -1,6 +1,7 @@
 // Bands of contrast on the device against their reference. SPDX-License-Identifier: MIT
 #include "passes/bands_reference.h"
 
+#include "render/passes/bands.h"
 #include "support/compare.h"
 #include "support/pass_rig.h"
 #include "support/texels.h"
@@ -20,9 +21,10 @@ shared::ToneParameters display_parameters() {
 std::vector<glm::vec4> bands(PassRig& rig, VkExtent2D extent, const std::vector<glm::vec4>& scene, uint32_t top, uint32_t tone, const shared::ToneCurve& curve) {
     FrameGraph graph;
     const Resource image = rig.image(graph, "scene", kSceneFormat, extent, scene);
-    const Pyramid pyramid = add_pyramid(graph, rig.kernels(), image, extent);
+    const Pyramid pyramid = add_pyramid(rig.frame(graph, extent), image);
     const Resource table = graph.upload("curve", std::vector{curve}, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource kept = keep<glm::vec4>(graph, add_bands(graph, rig.kernels(), image, pyramid, top, table, tone, display_parameters(), extent));
+    const Resource kept = keep<glm::vec4>(
+        graph, add_bands(rig.frame(graph, extent), image, pyramid, top, table, {.tone = tone, .parameters = display_parameters()}));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -65,6 +67,15 @@ TEST(Bands, WhatIsNotFiniteStaysAloneAndSo) {
         for (int x = 0; x < 8; ++x) scene[size_t(y) * 21 + size_t(x)] = glm::vec4(kNan);  // whole texels of three levels
     for (const uint32_t top : {1u, 3u, 4u}) expect_reference(rig, extent, scene, top, shared::kToneCurve);
     EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Bands, WhereTheyAreNotOnThereIsNoPass) {
+    PassRig rig;
+    FrameGraph graph;
+    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
+    EXPECT_EQ(add_bands(frame, scene, {}, 1, {}, {.on = false}), scene);
+    EXPECT_TRUE(graph.passes().empty());
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "passes/shade_reference.h"
-#include "shared/gather.h"
+#include "shared/blocks.h"
 
 namespace vesper::reference {
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/passes/blocks.h"
 #include "support/lights.h"
 #include "support/noise.h"
 #include "support/shading.h"
@@ -51,7 +52,7 @@ reference::Block block_of(const Surfaces& s, uint32_t x, uint32_t y) {
     return block;
 }
 
-struct Gathered {
+struct Merged {
     Blocks blocks;
     shared::ClusterPush cluster;
     std::vector<uint32_t> counts, entries, class_counts, class_blocks;
@@ -69,19 +70,19 @@ struct Gathered {
         glm::dvec3 value;
         for (int c = 0; c < 3; ++c) {
             const size_t at = size_t(3 * (3 * j + i) + c);
-            value[c] = double(sums[size_t(block) * shared::kGatherTexels + at / 4][int(at % 4)]);
+            value[c] = double(sums[size_t(block) * shared::kMergedTexels + at / 4][int(at % 4)]);
         }
         return value;
     }
 };
 
-Gathered gather(PassRig& rig, const Surfaces& s, const LampList& list, float tolerance = kTolerance, float far = 0) {
+Merged merge(PassRig& rig, const Surfaces& s, const LampList& list, float tolerance = kTolerance, float far = 0) {
     FrameGraph graph;
-    const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
+    const FrameContext frame = rig.frame(graph, View::symmetric(s.extent, 0.7f, glm::mat4(1)));
     const GBuffer g = upload(graph, s);
-    const Clusters c = add_clusters(graph, rig.kernels(), g.surface, list, no_maps(graph), view, {.far = far});
-    Gathered got;
-    got.blocks = add_blocks(graph, rig.kernels(), g, c, view, tolerance);
+    const Clusters c = add_clusters(frame, g.surface, list, no_tables(graph), {.far = far});
+    Merged got;
+    got.blocks = add_blocks(frame, g, c, tolerance);
     got.cluster = c.push;
     const Blocks& b = got.blocks;
     const Resource counts = keep<uint32_t>(graph, b.counts), entries = keep<uint32_t>(graph, b.entries), sums = keep<glm::vec4>(graph, b.sums),
@@ -100,7 +101,7 @@ TEST(Blocks, EveryLampIsListedOrAddedUp) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", far " + std::to_string(far));
         const Surfaces s = canyon(extent);
         const LampList list = street_lamps({20, 20, 0}, 300, extent.width);
-        const Gathered got = gather(rig, s, list, kTolerance, far);
+        const Merged got = merge(rig, s, list, kTolerance, far);
         uint32_t planes = 0, taken = 0, sliced = 0;
         for (uint32_t b = 0; b < got.blocks.count; ++b) {
             const reference::Block block = block_of(s, b % got.blocks.columns, b / got.blocks.columns);
@@ -149,7 +150,7 @@ TEST(Blocks, EveryBlockIsInItsClass) {
     PassRig rig;
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {203, 131}}) {
         const Surfaces s = canyon(extent, 0, true, true);
-        const Gathered got = gather(rig, s, street_lamps({6, 5, 0}, 300, 2));
+        const Merged got = merge(rig, s, street_lamps({6, 5, 0}, 300, 2));
         std::vector<uint32_t> class_of_block(got.blocks.count, ~0u);
         for (uint32_t k = 0; k < shared::kBlockClasses; ++k) {
             const uint32_t* words = &got.class_counts[k * shared::kClassWords];
@@ -171,7 +172,7 @@ TEST(Blocks, EveryBlockIsInItsClass) {
 
 TEST(Blocks, ANegativeToleranceAddsUpNothing) {
     PassRig rig;
-    const Gathered got = gather(rig, canyon({64, 40}), street_lamps({20, 20, 0}, 300, 3), -1);
+    const Merged got = merge(rig, canyon({64, 40}), street_lamps({20, 20, 0}, 300, 3), -1);
     for (const glm::vec4& texel : got.sums) EXPECT_EQ(texel, glm::vec4(0));
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -183,11 +184,11 @@ TEST(Blocks, ShadingWithSumsIsShadingLampByLamp) {
     const Surfaces s = canyon({333, 211});
     const LampList list = street_lamps({60, 60, 1}, 300, 7);
     for (const float far : {0.0f, 60.0f}) {
-        const Shot gathered = shade(rig, s, list, {.threshold = kAll, .far = far}, {}), one_by_one = shade(rig, s, list, {.threshold = kAll, .far = far}, {.gather_tolerance = -1});
-        EXPECT_TRUE(same_light("gathered", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.2 * kTolerance, 1e-7})) << far;
-        EXPECT_NE(gathered.pixels, one_by_one.pixels) << "nothing was added up";
+        const Shot merged = shade(rig, s, list, {.threshold = kAll, .far = far}, {}), one_by_one = shade(rig, s, list, {.threshold = kAll, .far = far}, {.merge_tolerance = -1});
+        EXPECT_TRUE(same_light("merged", picture(s.extent, merged.pixels), picture(s.extent, one_by_one.pixels), {1.2 * kTolerance, 1e-7})) << far;
+        EXPECT_NE(merged.pixels, one_by_one.pixels) << "nothing was added up";
         const Shot again = shade(rig, s, list, {.threshold = kAll, .far = far}, {});
-        EXPECT_EQ(gathered.pixels, again.pixels) << "blocks come in any order, pictures may not tell";
+        EXPECT_EQ(merged.pixels, again.pixels) << "blocks come in any order, pictures may not tell";
     }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -199,8 +200,8 @@ TEST(Blocks, LampsNearTheThresholdCountOrNot) {
     const Surfaces s = canyon({333, 211}, 0, false);
     const LampList list = street_lamps({60, 0, 0}, 300, 7);
     const float threshold = 0.5f;
-    const Shot got = shade(rig, s, list, {.threshold = threshold}, {}), without = shade(rig, s, list, {.threshold = threshold}, {.gather_tolerance = -1}),
-               with = shade(rig, s, list, {.threshold = kAll}, {.gather_tolerance = -1});
+    const Shot got = shade(rig, s, list, {.threshold = threshold}, {}), without = shade(rig, s, list, {.threshold = threshold}, {.merge_tolerance = -1}),
+               with = shade(rig, s, list, {.threshold = kAll}, {.merge_tolerance = -1});
     size_t between = 0;
     for (size_t i = 0; i < got.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c) {
@@ -224,8 +225,8 @@ TEST(Blocks, LightThatGrazesUnevenGroundIsShadedLampByLamp) {
     }
     LampList list = street_lamps({2, 0, 0}, 1);
     for (int i = 0; i < 2; ++i) list.lamps[size_t(i)] = {{float(i) - 0.5f, -1.0f, -90}, 1e4f, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
-    const Shot gathered = shade(rig, s, list, {.threshold = kAll}, {}), one_by_one = shade(rig, s, list, {.threshold = kAll}, {.gather_tolerance = -1});
-    EXPECT_TRUE(same_light("uneven", picture(s.extent, gathered.pixels), picture(s.extent, one_by_one.pixels), {1.6 * kTolerance, 1e-7}));
+    const Shot merged = shade(rig, s, list, {.threshold = kAll}, {}), one_by_one = shade(rig, s, list, {.threshold = kAll}, {.merge_tolerance = -1});
+    EXPECT_TRUE(same_light("uneven", picture(s.extent, merged.pixels), picture(s.extent, one_by_one.pixels), {1.6 * kTolerance, 1e-7}));
     EXPECT_EQ(rig.complaints(), "");
 }
 

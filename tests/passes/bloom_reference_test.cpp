@@ -19,7 +19,7 @@ double total(const LightImage& image) {
     return sum;
 }
 
-TEST(GlareReference, GaussianSumsToOneAndIsCutAtThreeSigma) {
+TEST(BloomReference, GaussianSumsToOneAndIsCutAtThreeSigma) {
     for (double sigma : {0.05, 0.4, 1.0, 2.3, 9.0}) {
         const auto w = gaussian(sigma);
         EXPECT_EQ(w.size(), size_t(std::ceil(3 * sigma)) + 1);
@@ -31,14 +31,14 @@ TEST(GlareReference, GaussianSumsToOneAndIsCutAtThreeSigma) {
     EXPECT_EQ(gaussian(0), std::vector<double>{1});
 }
 
-TEST(GlareReference, OnlyWhatReachesTheThresholdGlares) {
+TEST(BloomReference, OnlyWhatReachesTheThresholdGlares) {
     EXPECT_EQ(glaring(dvec3(0.89), 0.9), dvec3(0));
     EXPECT_EQ(glaring(dvec3(0.9 + 1e-12), 0.9), dvec3(0.9 + 1e-12));
     EXPECT_EQ(glaring({1, 0, 0}, 0.9), dvec3(1, 0, 0)) << "a red lamp as bright as the display can show it";
     EXPECT_EQ(glaring({0.8, 0.89, 0.3}, 0.9), dvec3(0));
 }
 
-TEST(GlareReference, BlocksAreMeansOfThePixelsThatExist) {
+TEST(BloomReference, BlocksAreMeansOfThePixelsThatExist) {
     LightImage shown = black(6, 5);
     shown.at(0, 0) = shown.at(5, 4) = dvec3(1);
     shown.at(1, 1) = dvec3(0.5);
@@ -49,7 +49,7 @@ TEST(GlareReference, BlocksAreMeansOfThePixelsThatExist) {
     EXPECT_EQ(small.at(1, 1), dvec3(1.0 / 2)) << "two pixels wide, one high";
 }
 
-TEST(GlareReference, LightIsSpreadNotMade) {
+TEST(BloomReference, LightIsSpreadNotMade) {
     LightImage shown = black(160, 120);
     for (uint32_t i = 70; i < 83; ++i) shown.at(i, 61) = dvec3(1);
     const LightImage small = bloom(shown, 0.9, 2.5);
@@ -57,14 +57,14 @@ TEST(GlareReference, LightIsSpreadNotMade) {
     EXPECT_NEAR(total(direct_glare(shown, 0.9, 10)), 13, 1e-9);
 }
 
-TEST(GlareReference, WhatLeavesTheImageIsLost) {
+TEST(BloomReference, WhatLeavesTheImageIsLost) {
     LightImage shown = black(64, 64);
     shown.at(0, 30) = dvec3(1);
     EXPECT_LT(total(bloom(shown, 0.9, 3)) * 16, 0.62);
     EXPECT_GT(total(bloom(shown, 0.9, 3)) * 16, 0.5);
 }
 
-TEST(GlareReference, BlurringTwiceIsBlurringWider) {
+TEST(BloomReference, BlurringTwiceIsBlurringWider) {
     LightImage shown = black(81, 81);
     shown.at(40, 40) = dvec3(1);
     const auto w3 = gaussian(3), w4 = gaussian(4), w5 = gaussian(5);
@@ -73,7 +73,7 @@ TEST(GlareReference, BlurringTwiceIsBlurringWider) {
         EXPECT_NEAR(twice.at(x, 40).y, once.at(x, 40).y, 0.02 * once.at(40, 40).y);
 }
 
-TEST(GlareReference, DirectGlareOfAPointIsTheGaussian) {
+TEST(BloomReference, DirectGlareOfAPointIsTheGaussian) {
     LightImage shown = black(61, 61);
     shown.at(30, 30) = dvec3(1);
     const LightImage glare = direct_glare(shown, 0.9, 5);
@@ -99,7 +99,7 @@ double approximation_error(const LightImage& shown, double sigma) {
 
 // What the quarter resolution costs: block and bilinear filter widen the Gaussian by about (16 + 2 * 16) / 12 px^2 of
 // variance, 4 / sigma^2 of the peak. The street's own view has sigma = 8.6 px or more.
-TEST(GlareReference, TheSmallGlareIsNearTheDefinition) {
+TEST(BloomReference, TheSmallGlareIsNearTheDefinition) {
     LightImage shown = black(96, 80);
     for (uint32_t y = 30; y < 36; ++y)
         for (uint32_t x = 41; x < 48; ++x) shown.at(x, y) = dvec3(1, 0.95, 0.9);
@@ -108,7 +108,7 @@ TEST(GlareReference, TheSmallGlareIsNearTheDefinition) {
     EXPECT_LT(approximation_error(shown, 12), 0.04);
 }
 
-TEST(GlareReference, SigmaIsGivenAsAnAngle) { EXPECT_DOUBLE_EQ(small_sigma(0.35, 0.035), 2.5); }
+TEST(BloomReference, SigmaIsGivenAsAnAngle) { EXPECT_DOUBLE_EQ(small_sigma(0.35, 0.035), 2.5); }
 
 }  // namespace
 }  // namespace vesper::reference

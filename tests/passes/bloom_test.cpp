@@ -1,6 +1,7 @@
 // The glare of the display image on the device against its references. SPDX-License-Identifier: MIT
 #include "passes/bloom_reference.h"
 
+#include "render/passes/bloom.h"
 #include "support/compare.h"
 #include "support/texels.h"
 #include "support/tones.h"
@@ -27,7 +28,7 @@ Picture glare(PassRig& rig, const Inputs& in, uint32_t tone) {
     const Resource scene = rig.image(graph, "scene", kSceneFormat, in.view.extent, in.scene);
     const Resource curve = graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT);
     const Resource kept = keep<uint64_t>(
-        graph, add_bloom(graph, rig.kernels(), scene, curve, tone, in.view, in.display, in.settings));
+        graph, add_bloom(rig.frame(graph, in.view), scene, curve, tone, in.display, in.settings));
     rig.run(graph);
     const uint32_t w = (in.view.extent.width + 3) / 4, h = (in.view.extent.height + 3) / 4;
     const auto texels = from_halves(rig.got<uint64_t>(kept));
@@ -71,7 +72,7 @@ void expect_reference(PassRig& rig, Inputs in, uint32_t tone) {
                            {6.1 * kHalfUlp16, 6e-5}));
 }
 
-TEST(LdrGlare, MatchesTheReferenceForEveryOperatorAndSize) {
+TEST(Bloom, MatchesTheReferenceForEveryOperatorAndSize) {
     PassRig rig;
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {64, 64}, {261, 37}})
         for (uint32_t tone : kEveryTone) {
@@ -82,7 +83,7 @@ TEST(LdrGlare, MatchesTheReferenceForEveryOperatorAndSize) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-TEST(LdrGlare, MatchesTheReferenceOfAWholeFrame) {
+TEST(Bloom, MatchesTheReferenceOfAWholeFrame) {
     PassRig rig;
     const VkExtent2D extent{1680, 1050};
     expect_reference(rig, {View::symmetric(extent, 0.6f, glm::mat4(1)), night_pixels(extent, 3, -2, 4)},
@@ -90,7 +91,7 @@ TEST(LdrGlare, MatchesTheReferenceOfAWholeFrame) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-TEST(LdrGlare, MatchesTheReferenceForEveryWidthAndThreshold) {
+TEST(Bloom, MatchesTheReferenceForEveryWidthAndThreshold) {
     PassRig rig;
     const VkExtent2D extent{90, 70};
     for (float sigma : {0.01f, 0.2f, 1.5f})
@@ -113,7 +114,7 @@ Inputs lamp(VkExtent2D extent, glm::uvec2 corner, glm::uvec2 size, float luminan
     return in;
 }
 
-TEST(LdrGlare, SpreadsTheLampsLightAndMakesNone) {
+TEST(Bloom, SpreadsTheLampsLightAndMakesNone) {
     PassRig rig;
     Inputs in = lamp({240, 200}, {101, 90}, {9, 7}, 1e6f);
     in.settings.sigma_degrees = 0.16f;  // 8 px
@@ -126,7 +127,7 @@ TEST(LdrGlare, SpreadsTheLampsLightAndMakesNone) {
 }
 
 // A field of view of hardly any angle is narrower than the Gaussian, whose radius stays at 256 texels: weights of 1/513.
-TEST(LdrGlare, ViewsOfHardlyAnyAngleGlareEvenly) {
+TEST(Bloom, ViewsOfHardlyAnyAngleGlareEvenly) {
     PassRig rig;
     Inputs in = lamp({240, 200}, {0, 0}, {240, 200}, 1e6f);
     for (float angle : {1e-4f, 1e-36f}) {
@@ -141,7 +142,7 @@ TEST(LdrGlare, ViewsOfHardlyAnyAngleGlareEvenly) {
 
 // Against the definition: every pixel of the full image, a round Gaussian, no blocks. The bound is the approximation's
 // own, see glare_reference_test: 6 % of the peak at 9 px; and three roundings of 16-bit floats.
-TEST(LdrGlare, IsNearTheFullResolutionConvolution) {
+TEST(Bloom, IsNearTheFullResolutionConvolution) {
     PassRig rig;
     Inputs in = lamp({120, 96}, {51, 40}, {7, 6}, 1e6f);
     in.settings.sigma_degrees = 0.18f;  // 9 px
@@ -163,7 +164,7 @@ TEST(LdrGlare, IsNearTheFullResolutionConvolution) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-TEST(LdrGlare, DarkImagesAndNanDoNotGlare) {
+TEST(Bloom, DarkImagesAndNanDoNotGlare) {
     PassRig rig;
     Inputs in = lamp({37, 29}, {0, 0}, {0, 0}, 0);
     for (size_t i = 0; i < in.scene.size(); i += 3) in.scene[i] = {kNan, 1e9f, 1e9f, 1};
@@ -172,6 +173,15 @@ TEST(LdrGlare, DarkImagesAndNanDoNotGlare) {
         for (double v : got.values) EXPECT_EQ(v, 0);
     }
     EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Bloom, WithoutGainThereIsNoPass) {
+    PassRig rig;
+    FrameGraph graph;
+    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
+    EXPECT_EQ(add_bloom(frame, scene, {}, shared::kToneLinear, {}, {.gain = 0}), Resource{});
+    EXPECT_TRUE(graph.passes().empty());
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ Resource surface_of(FrameGraph& graph, VkExtent2D extent) {
 
 Lists cluster(PassRig& rig, const LampList& list, const View& view, const ClusterSettings& settings) {
     FrameGraph graph;
-    const Clusters clusters = add_clusters(graph, rig.kernels(), surface_of(graph, view.extent), list, no_maps(graph), view, settings);
+    const Clusters clusters = add_clusters(rig.frame(graph, view), surface_of(graph, view.extent), list, no_tables(graph), settings);
     const Resource counts = keep<uint32_t>(graph, clusters.counts), indices = keep<uint32_t>(graph, clusters.indices),
                    report = keep<shared::ClusterReport>(graph, clusters.report);
     rig.run(graph);
@@ -250,7 +250,8 @@ TEST(Cluster, GridMapsDepthsFromAMetreToTheEnd) {
     PassRig rig;
     FrameGraph graph;
     const Clusters c =
-        add_clusters(graph, rig.kernels(), surface_of(graph, {1680, 1050}), street_lamps({3, 0, 0}, 100), no_maps(graph), view_of({1680, 1050}), {.far = 400});
+        add_clusters(rig.frame(graph, view_of({1680, 1050})), surface_of(graph, {1680, 1050}), street_lamps({3, 0, 0}, 100),
+                     no_tables(graph), {.far = 400});
     EXPECT_EQ(c.push.grid.tiles_x, 27u);
     EXPECT_EQ(c.push.grid.tiles_y, 17u);
     EXPECT_EQ(reference::slice_of(c.push.grid, 0.01), 0u);
@@ -264,14 +265,14 @@ TEST(Cluster, RefusesImpossibleSettings) {
     PassRig rig;
     FrameGraph graph;
     const LampList list = street_lamps({3, 0, 0}, 100);
-    const TableTexels tables = no_maps(graph);
+    const TableTexels tables = no_tables(graph);
     const Resource surface = surface_of(graph, {64, 64});
     for (const ClusterSettings& settings : {ClusterSettings{.slices = 0}, ClusterSettings{.slices = 1},
                                             ClusterSettings{.slices = 33}, ClusterSettings{.capacity = 0}})
-        EXPECT_THROW(add_clusters(graph, rig.kernels(), surface, list, tables, view_of({64, 64}), settings), Error);
+        EXPECT_THROW(add_clusters(rig.frame(graph, view_of({64, 64})), surface, list, tables, settings), Error);
     LampList crowd;
     crowd.counts.cones = 1u << 20, crowd.lamps.resize(1u << 20);
-    EXPECT_THROW(add_clusters(graph, rig.kernels(), surface, crowd, tables, view_of({64, 64}), {}), Error);
+    EXPECT_THROW(add_clusters(rig.frame(graph, view_of({64, 64})), surface, crowd, tables, {}), Error);
 }
 
 }  // namespace

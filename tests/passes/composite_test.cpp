@@ -1,6 +1,7 @@
 // Display codes on the device against their reference. SPDX-License-Identifier: MIT
 #include "passes/composite_reference.h"
 
+#include "render/passes/composite.h"
 #include "support/compare.h"
 #include "support/displays.h"
 #include "support/texels.h"
@@ -35,18 +36,12 @@ CompositeInputs inputs_of(PassRig& rig, FrameGraph& graph, const Inputs& in) {
     return inputs;
 }
 
-View view_of(VkExtent2D extent) {
-    View view;
-    view.extent = extent;
-    return view;
-}
-
 /// Codes, RGBA.
 std::vector<uint16_t> composite(PassRig& rig, const Inputs& in, uint32_t tone) {
     FrameGraph graph;
     const CompositeInputs inputs = inputs_of(rig, graph, in);
-    const Resource kept = keep<uint32_t>(
-        graph, add_composite(graph, rig.kernels(), inputs, tone, view_of(in.extent), in.display, in.gain));
+    const CompositeSettings settings{.tone = tone, .display = in.display, .bloom_gain = in.gain};
+    const Resource kept = keep<uint32_t>(graph, add_composite(rig.frame(graph, in.extent), inputs, settings));
     rig.run(graph);
     std::vector<uint16_t> codes;
     for (const uint32_t word : rig.got<uint32_t>(kept)) {
@@ -221,7 +216,7 @@ TEST(Composite, LightOfTheDisplayWithoutItsLimits) {
         in.scene[5] = {kNan, 1, 1, 1}, in.scene[6] = {1, kInf, 1, 1}, in.scene[7] = {-5, -5, -5, 1}, in.scene[8] = {90, -1, 20, 1};
         FrameGraph graph;
         const CompositeInputs inputs = inputs_of(rig, graph, in);
-        const Resource kept = keep<glm::vec4>(graph, add_display_light(graph, rig.kernels(), inputs, tone, view_of(extent), in.display, 1));
+        const Resource kept = keep<glm::vec4>(graph, add_display_light(rig.frame(graph, extent), inputs, {.tone = tone, .display = in.display}));
         rig.run(graph);
         const auto got = rig.got<glm::vec4>(kept);
         Picture got_light(extent.width, extent.height, 3), want = got_light;

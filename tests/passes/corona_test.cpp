@@ -2,6 +2,7 @@
 #include "passes/corona_reference.h"
 
 #include "gpu_scene/eye_corona.h"
+#include "render/passes/corona.h"
 #include "support/compare.h"
 #include "support/texels.h"
 #include "support/tones.h"
@@ -29,7 +30,7 @@ const std::vector<vec4>& pattern() {
 std::vector<vec4> seen(PassRig& rig, const View& view, const std::vector<vec4>& scene, const std::vector<vec4>& veiled, const std::vector<vec4>& texels) {
     FrameGraph graph;
     const Resource picture = rig.image(graph, "scene", kSceneFormat, view.extent, scene), veil = rig.image(graph, "veil", kSceneFormat, view.extent, veiled);
-    const Resource kept = keep<vec4>(graph, add_corona(graph, rig.kernels(), picture, veil, texels, view));
+    const Resource kept = keep<vec4>(graph, add_corona(rig.frame(graph, view), picture, veil, texels));
     rig.run(graph);
     return rig.got<vec4>(kept);
 }
@@ -127,6 +128,16 @@ TEST(Corona, KeepsTheLightOfAWideView) {
     EXPECT_GT(moved / illuminance, 5e-3);
     // 1e-3 of the lamp's light (the issue's): pixels sample the pattern.
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(added[c] / illuminance, 0, 1e-3) << c;
+}
+
+TEST(Corona, WithoutAPatternThereIsNoPass) {
+    PassRig rig;
+    FrameGraph graph;
+    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
+    const Resource retina = graph.transient("retina", image_shape(kSceneFormat, {8, 8}));
+    EXPECT_EQ(add_corona(frame, scene, retina, {}), retina);
+    EXPECT_TRUE(graph.passes().empty());
 }
 
 }  // namespace

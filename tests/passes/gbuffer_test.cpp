@@ -7,6 +7,7 @@
 
 #include "passes/shade_reference.h"
 #include "gpu_scene/gpu_scene.h"
+#include "render/passes/gbuffer.h"
 #include "support/compare.h"
 #include "support/scene_geometry.h"
 #include "support/texels.h"
@@ -22,7 +23,7 @@ Layers draw(PassRig& rig, const Scene& scene, const View& view, PictureFormat pi
     const GpuScene resident(rig.device(), scene, pictures);
     const SceneFrame frame{world_transforms(scene, 0)};
     FrameGraph graph;
-    const GBuffer g = add_gbuffer(graph, resident, frame, view);
+    const GBuffer g = add_gbuffer(rig.frame(graph, view), resident, frame);
     const Resource reflectance = keep<uint64_t>(graph, g.reflectance), surface = keep<glm::vec4>(graph, g.surface),
                    emission = keep<glm::vec4>(graph, g.emission);
     rig.run(graph);

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "render/passes/histogram.h"
 #include "support/compare.h"
 #include "support/texels.h"
 
@@ -51,7 +52,7 @@ shared::Histogram count(PassRig& rig, const std::vector<glm::vec4>& texels, VkEx
     const Resource level = rig.image(graph, "level", kSceneFormat, size, texels);
     Pyramid pyramid{std::vector<Resource>(p.level, level), std::vector<VkExtent2D>(p.level, size)};
     if (!fine.empty()) pyramid.levels[0] = rig.image(graph, "first", kSceneFormat, first, fine), pyramid.extents[0] = first;
-    const Resource kept = keep<shared::Histogram>(graph, add_histogram(graph, rig.kernels(), pyramid, p.level, image, s));
+    const Resource kept = keep<shared::Histogram>(graph, add_histogram(rig.frame(graph, image), pyramid, p.level, s));
     rig.run(graph);
     return rig.got<shared::Histogram>(kept).at(0);
 }
@@ -104,8 +105,8 @@ TEST(Histogram, OverlappingTexelsMatchTheReference) {
             reference::vote(want, std::span<const glm::dvec4>(levels[0].texels), first);
 
             FrameGraph graph;
-            const Pyramid pyramid = add_pyramid(graph, rig.kernels(), rig.image(graph, "scene", kSceneFormat, image, pixels), image);
-            const Resource kept = keep<shared::Histogram>(graph, add_histogram(graph, rig.kernels(), pyramid, level, image, settings));
+            const Pyramid pyramid = add_pyramid(rig.frame(graph, image), rig.image(graph, "scene", kSceneFormat, image, pixels));
+            const Resource kept = keep<shared::Histogram>(graph, add_histogram(rig.frame(graph, image), pyramid, level, settings));
             rig.run(graph);
             // As above: texels round, and their positions are in doubt.
             const double count = std::sqrt(double(texels.texels.size() + levels[0].texels.size()));
@@ -178,8 +179,8 @@ TEST(Histogram, CountsThePyramidsTexels) {
     for (size_t i = 0; i < pixels.size(); i += 11) pixels[i].x = std::numeric_limits<float>::quiet_NaN();
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, image, pixels);
-    const Pyramid pyramid = add_pyramid(graph, rig.kernels(), scene, image);
-    const Resource kept = keep<shared::Histogram>(graph, add_histogram(graph, rig.kernels(), pyramid, 3, image, {}));
+    const Pyramid pyramid = add_pyramid(rig.frame(graph, image), scene);
+    const Resource kept = keep<shared::Histogram>(graph, add_histogram(rig.frame(graph, image), pyramid, 3, {}));
     rig.run(graph);
     const auto got = rig.got<shared::Histogram>(kept).at(0);
     EXPECT_EQ(got.non_finite, 51u);
@@ -196,10 +197,11 @@ TEST(Histogram, RefusesImpossibleSettings) {
     FrameGraph graph;
     const Resource level = rig.image(graph, "level", kSceneFormat, {1, 1}, std::vector{glm::vec4(1)});
     const Pyramid pyramid{{level}, {{1, 1}}};
-    EXPECT_THROW(add_histogram(graph, rig.kernels(), pyramid, 1, {1, 1}, {.bins = 0}), Error);
-    EXPECT_THROW(add_histogram(graph, rig.kernels(), pyramid, 1, {1, 1}, {.bins = 257}), Error);
-    EXPECT_THROW(add_histogram(graph, rig.kernels(), pyramid, 0, {1, 1}, {}), Error);
-    EXPECT_THROW(add_histogram(graph, rig.kernels(), pyramid, 2, {1, 1}, {}), Error);
+    const FrameContext frame = rig.frame(graph, VkExtent2D{1, 1});
+    EXPECT_THROW(add_histogram(frame, pyramid, 1, {.bins = 0}), Error);
+    EXPECT_THROW(add_histogram(frame, pyramid, 1, {.bins = 257}), Error);
+    EXPECT_THROW(add_histogram(frame, pyramid, 0, {}), Error);
+    EXPECT_THROW(add_histogram(frame, pyramid, 2, {}), Error);
 }
 
 }  // namespace

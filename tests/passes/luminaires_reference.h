@@ -41,7 +41,7 @@ inline double area_within(std::vector<dvec2> polygon, double x, double y) {
 
 /// What a surface at `depth` (m; 0: none) lets through of a source.
 inline double seen(double depth, double hidden) {
-    return depth > 0 ? std::clamp((depth - hidden) / double(shared::kSourceEdge), 0.0, 1.0) : 1.0;
+    return depth > 0 ? std::clamp((depth - hidden) / double(shared::kLuminaireEdge), 0.0, 1.0) : 1.0;
 }
 
 /// Luminance added to a pixel, cd/m^2, and what single precision may change of it.
@@ -58,7 +58,7 @@ inline Added added(const LuminaireList& list, uint32_t x, uint32_t y, double dep
         const double area = area_within(outline, x, y), visible = seen(depth, s.hidden);
         sum.luminance += dvec3(s.luminance) * (area * visible);
         // Coordinates of up to some hundred px from the pixel; depths against the edge over which they hide.
-        const double hiding = visible > 0 && visible < 1 ? depth * 1.2e-7 / double(shared::kSourceEdge) : 0;
+        const double hiding = visible > 0 && visible < 1 ? depth * 1.2e-7 / double(shared::kLuminaireEdge) : 0;
         if (area > 0) sum.rounding += dvec3(s.luminance) * (2e-6 + area * hiding);
     }
     return sum;

@@ -16,7 +16,7 @@ constexpr double kPi = std::numbers::pi;
 
 View narrow(VkExtent2D extent) { return View::symmetric(extent, 0.6f * float(extent.height) / 1050, glm::mat4(1)); }
 
-TEST(SourcesReference, AreaWithinAPixel) {
+TEST(LuminairesReference, AreaWithinAPixel) {
     const std::vector<dvec2> square{{0.25, 0.5}, {1.25, 0.5}, {1.25, 1.5}, {0.25, 1.5}};
     EXPECT_NEAR(reference::area_within(square, 0, 0), 0.375, 1e-15);
     EXPECT_NEAR(reference::area_within(square, 1, 1), 0.125, 1e-15);
@@ -39,7 +39,7 @@ TEST(SourcesReference, AreaWithinAPixel) {
     }
 }
 
-TEST(SourcesReference, SolidAnglesOfPixelsAddUp) {
+TEST(LuminairesReference, SolidAnglesOfPixelsAddUp) {
     const View view = View::symmetric({8, 8}, float(kPi / 2), glm::mat4(1));  // a face of a cube
     double sum = 0;
     for (uint32_t y = 0; y < 8; ++y)
@@ -49,7 +49,7 @@ TEST(SourcesReference, SolidAnglesOfPixelsAddUp) {
     EXPECT_NEAR(reference::solid_angle(view, pixel), reference::solid_angle(view, 2, 3), 1e-12);
 }
 
-TEST(SourcesReference, SurfacesHideWhatLiesBehind) {
+TEST(LuminairesReference, SurfacesHideWhatLiesBehind) {
     EXPECT_EQ(reference::seen(0, 50), 1) << "sky";
     EXPECT_EQ(reference::seen(49, 50), 0);
     EXPECT_EQ(reference::seen(50.2, 50), 1);
@@ -67,7 +67,7 @@ std::vector<dvec3> image_of(const Lamps& lamps, const View& view) {
 
 // The sum over the image is I(direction) / d^2 for discs and rectangles, facing the eye or not, in the middle of the image
 // or in its corner, from many pixels to a thousandth of one.
-TEST(SourcesReference, TheImageHoldsTheIlluminance) {
+TEST(LuminairesReference, TheImageHoldsTheIlluminance) {
     const View view = narrow({96, 64});
     for (const bool round : {false, true})
         for (const double distance : {8.0, 20.0, 75.0, 400.0, 3000.0})

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "render/passes/luminaires.h"
 #include "support/compare.h"
 #include "support/sources.h"
 #include "support/texels.h"
@@ -36,7 +37,7 @@ std::vector<glm::vec4> draw(PassRig& rig, const Inputs& in) {
     for (const float depth : in.depth) surfaces.emplace_back(0, 0, depth, 1);
     const Resource surface = rig.image(graph, "surface", kSurfaceFormat, in.view.extent, surfaces);
     const Resource scene = rig.image(graph, "scene", kSceneFormat, in.view.extent, in.scene);
-    const Resource kept = keep<glm::vec4>(graph, add_luminaires(graph, rig.kernels(), scene, surface, in.list, in.view));
+    const Resource kept = keep<glm::vec4>(graph, add_luminaires(rig.frame(graph, in.view), scene, surface, in.list));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -72,7 +73,7 @@ Inputs noisy(VkExtent2D extent, uint32_t lamps, uint32_t seed) {
     return in;
 }
 
-TEST(Sources, MatchTheReferenceAtEverySize) {
+TEST(Luminaires, MatchTheReferenceAtEverySize) {
     PassRig rig;
     for (const VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {64, 64}, {131, 37}}) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
@@ -96,7 +97,7 @@ TEST(Sources, MatchTheReferenceAtEverySize) {
 }
 
 // A headlamp that comes nearer from 2 km to 20 m, moved by tenths of a pixel.
-TEST(Sources, AHeadlampKeepsItsLightAtAnyDistanceAndPosition) {
+TEST(Luminaires, AHeadlampKeepsItsLightAtAnyDistanceAndPosition) {
     PassRig rig;
     const View view = view_of({24, 20});
     const double pixel = view.ray_scale().x;
@@ -140,7 +141,7 @@ TEST(Sources, AHeadlampKeepsItsLightAtAnyDistanceAndPosition) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-TEST(Sources, SurfacesHideLamps) {
+TEST(Luminaires, SurfacesHideLamps) {
     PassRig rig;
     const View view = view_of({32, 24});
     Lamps lamps;
@@ -161,7 +162,7 @@ TEST(Sources, SurfacesHideLamps) {
 }
 
 // A lamp sinks behind a roof: its light goes without a jump.
-TEST(Sources, ALampDisappearsSmoothly) {
+TEST(Luminaires, ALampDisappearsSmoothly) {
     PassRig rig;
     const View view = view_of({16, 16});
     double last = 0;
@@ -184,7 +185,7 @@ TEST(Sources, ALampDisappearsSmoothly) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-TEST(Sources, ALampNearTheEyeFillsTheImage) {
+TEST(Luminaires, ALampNearTheEyeFillsTheImage) {
     PassRig rig;
     const View view = View::symmetric({45, 33}, 0.5f, glm::mat4(1));
     Lamps lamps;
@@ -193,7 +194,7 @@ TEST(Sources, ALampNearTheEyeFillsTheImage) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-TEST(Sources, EveryRunGivesTheSameBits) {
+TEST(Luminaires, EveryRunGivesTheSameBits) {
     PassRig rig;
     const Inputs in = noisy({200, 120}, 800, 5);
     const auto first = draw(rig, in), second = draw(rig, in);
@@ -201,13 +202,13 @@ TEST(Sources, EveryRunGivesTheSameBits) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-TEST(Sources, WithoutLampsThereIsNoPass) {
+TEST(Luminaires, WithoutLampsThereIsNoPass) {
     PassRig rig;
     const View view = view_of({8, 8});
     FrameGraph graph;
     const Resource scene = graph.transient("scene", image_shape(kSceneFormat, view.extent));
     const Resource surface = graph.transient("surface", image_shape(kSurfaceFormat, view.extent));
-    EXPECT_EQ(add_luminaires(graph, rig.kernels(), scene, surface, Lamps{}.seen(view), view), scene);
+    EXPECT_EQ(add_luminaires(rig.frame(graph, view), scene, surface, Lamps{}.seen(view)), scene);
     EXPECT_TRUE(graph.passes().empty());
     EXPECT_EQ(rig.complaints(), "");
 }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/passes/picture.h"
 #include "support/texels.h"
 
 namespace vesper::test {
@@ -38,7 +39,8 @@ void fill(PassRig& rig, const Stranger& stranger, const std::vector<T>& texels) 
 
 std::vector<glm::vec4> map(PassRig& rig, const Stranger& stranger, float scale) {
     FrameGraph graph;
-    const Resource scene = add_picture(graph, rig.kernels(), graph.external("stranger", stranger.filled()), stranger.described.extent, scale);
+    const Resource picture = graph.external("stranger", stranger.filled());
+    const Resource scene = add_picture(rig.frame(graph, stranger.described.extent), picture, scale);
     const Resource kept = keep<glm::vec4>(graph, scene);
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
@@ -96,7 +98,7 @@ TEST(Picture, FramesFollowOneAnother) {
     for (int frame = 0; frame < 7; ++frame) {
         const Stranger &from = frame % 2 ? other : one, &to = frame % 2 ? one : other;
         FrameGraph graph;
-        const Resource scene = add_picture(graph, rig.kernels(), graph.external("from", from.filled()), extent, 2);
+        const Resource scene = add_picture(rig.frame(graph, extent), graph.external("from", from.filled()), 2);
         graph.copy("show", scene, graph.target("to", to.described));
         kept = keep<glm::vec4>(graph, scene);
         rig.executor().submit(graph, {});

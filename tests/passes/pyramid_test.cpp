@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "render/passes/pyramid.h"
 #include "support/compare.h"
 #include "support/texels.h"
 
@@ -27,7 +28,7 @@ void expect_pyramid(const std::vector<glm::vec4>& pixels, VkExtent2D extent, flo
     PassRig rig;
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, extent, pixels);
-    const Pyramid pyramid = add_pyramid(graph, rig.kernels(), scene, extent, log_epsilon);
+    const Pyramid pyramid = add_pyramid(rig.frame(graph, extent), scene, log_epsilon);
     std::vector<Resource> kept;
     for (Resource level : pyramid.levels) kept.push_back(keep<glm::vec4>(graph, level));
     rig.run(graph);
@@ -108,28 +109,6 @@ TEST(Pyramid, FovealTexelIsNearestToADegree) {
     EXPECT_EQ(level(1920, 90), 4u);
     EXPECT_EQ(level(3840, 60), 6u);
     EXPECT_EQ(level(20, 90), 1u) << "never the image itself";
-}
-
-TEST(Colours, AreMeansOfTheFinitePixelsOfTiles) {
-    PassRig rig;
-    for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {65, 33}, {131, 67}}) {
-        std::vector<glm::vec4> scene(size_t(extent.width) * extent.height);
-        std::mt19937 random(extent.width);
-        std::uniform_real_distribution<float> decades(-3, 5);
-        for (size_t i = 0; i < scene.size(); ++i) scene[i] = {std::pow(10.0f, decades(random)), std::pow(10.0f, decades(random)), i % 5 ? 1.0f : -1.0f, 1};
-        if (scene.size() > 9) scene[3].y = std::numeric_limits<float>::quiet_NaN(), scene[9].x = std::numeric_limits<float>::infinity();
-        FrameGraph graph;
-        const Colours colours = add_colours(graph, rig.kernels(), rig.image(graph, "scene", kSceneFormat, extent, scene), extent);
-        const Resource kept = keep<glm::vec4>(graph, colours.tiles);
-        rig.run(graph);
-        const auto got = rig.got<glm::vec4>(kept);
-        const auto want = reference::colour_tiles(std::span<const glm::vec4>(scene), extent.width, extent.height);
-        ASSERT_EQ(got.size(), want.texels.size());
-        // Sums of 1024 floats, row by row: 64 roundings at most.
-        for (size_t i = 0; i < got.size(); ++i)
-            for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[i][c], want.texels[i][c], 1e-5 * std::abs(want.texels[i][c]) + 1e-6) << i;
-    }
-    EXPECT_EQ(rig.complaints(), "");
 }
 
 }  // namespace

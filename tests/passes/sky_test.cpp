@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "gpu_scene/sky.h"
+#include "render/passes/sky.h"
 #include "support/noise.h"
 #include "support/shading.h"
 
@@ -50,7 +51,7 @@ std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const SkyMap& sky, const 
     const Resource scene = rig.image(graph, "scene", kSceneFormat, s.extent, s.scene);
     const Resource texels = graph.upload("sky", sky_texels(sky), VK_FORMAT_R32G32B32A32_SFLOAT);
     const Resource wanted =
-        keep<glm::vec4>(graph, add_sky(graph, rig.kernels(), g, scene, texels, sky.sharp.side, view, lambert));
+        keep<glm::vec4>(graph, add_sky(rig.frame(graph, view), g, scene, {texels, sky.sharp.side}, lambert));
     rig.run(graph);
     return rig.got<glm::vec4>(wanted);
 }
@@ -135,6 +136,15 @@ TEST(Sky, WhatIsNotFiniteStaysInItsPixel) {
             EXPECT_EQ(got[i], want[i]) << "pixel " << i;
         }
     EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Sky, WithoutASkyThereIsNoPass) {
+    PassRig rig;
+    FrameGraph graph;
+    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
+    EXPECT_EQ(add_sky(frame, {}, scene, {}, 1), scene);
+    EXPECT_TRUE(graph.passes().empty());
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "passes/anchor_reference.h"
-#include "render/passes/passes.h"
+#include "render/passes/adapt.h"
 
 namespace vesper::reference {
 

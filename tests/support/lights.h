@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "render/passes/passes.h"
+#include "render/passes/cluster.h"
 
 namespace vesper::test {
 
@@ -16,8 +16,8 @@ struct LampMix {
 };
 
 /// For frames without measured lamps and roads.
-inline TableTexels no_maps(FrameGraph& graph) {
-    return {graph.upload("maps", std::vector<glm::vec4>(1), VK_FORMAT_R32G32B32A32_SFLOAT)};
+inline TableTexels no_tables(FrameGraph& graph) {
+    return {graph.upload("tables", std::vector<glm::vec4>(1), VK_FORMAT_R32G32B32A32_SFLOAT)};
 }
 
 /// Half of them points and spots, half of them cosine powers.

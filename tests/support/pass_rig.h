@@ -10,7 +10,7 @@
 
 #include "gpu/device.h"
 #include "graph/executor.h"
-#include "render/passes/passes.h"
+#include "render/frame_context.h"
 
 namespace vesper {
 
@@ -23,7 +23,10 @@ public:
           executor_(device_) {}
 
     Device& device() { return device_; }
-    const Kernels& kernels() const { return kernels_; }
+    const KernelCache& kernels() const { return kernels_; }
+    /// A frame to add passes to, of a view or of an image of any view.
+    FrameContext frame(FrameGraph& graph, const View& view) const { return {graph, kernels_, view}; }
+    FrameContext frame(FrameGraph& graph, VkExtent2D extent) const { return {graph, kernels_, {.extent = extent}}; }
     Executor& executor() { return executor_; }
     /// Validation messages so far, one per line; empty is what every test wants.
     std::string complaints() const {
@@ -68,7 +71,7 @@ public:
 private:
     std::vector<std::string> complaints_;
     Device device_;
-    Kernels kernels_;
+    KernelCache kernels_;
     Executor executor_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "passes/adapt_reference.h"
 #include "passes/bands_reference.h"
+#include "passes/colours_reference.h"
 #include "passes/composite_reference.h"
 #include "passes/histogram_reference.h"
 #include "render/tone_chain.h"

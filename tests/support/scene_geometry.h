@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "passes/gbuffer_reference.h"
-#include "render/passes/passes.h"
 #include "scene/scene.h"
 
 namespace vesper::test {

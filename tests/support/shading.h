@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "passes/shade_reference.h"
 #include "gpu_scene/intensity_tables.h"
 #include "gpu_scene/retro.h"
+#include "passes/shade_reference.h"
+#include "render/passes/shade.h"
 #include "support/compare.h"
 #include "support/texels.h"
 
@@ -31,8 +32,8 @@ inline GBuffer upload(FrameGraph& graph, const Surfaces& s) {
             {}};
 }
 
-inline TableTexels upload(FrameGraph& graph, const IntensityTables& maps) {
-    return {graph.upload("maps", maps.texels, VK_FORMAT_R32G32B32A32_SFLOAT), maps.roads, maps.roads != 0};
+inline TableTexels upload(FrameGraph& graph, const IntensityTables& tables) {
+    return {graph.upload("tables", tables.texels, VK_FORMAT_R32G32B32A32_SFLOAT), tables.roads, tables.roads != 0};
 }
 
 struct Shot {
@@ -43,13 +44,13 @@ struct Shot {
 
 /// Clusters and shades, seen from the origin along -Z. `sheets`: classes of retroreflection, if there are any.
 inline Shot shade(PassRig& rig, const Surfaces& s, const LampList& list, const ClusterSettings& clusters, ShadeSettings settings,
-                  const IntensityTables& maps = {}, const std::vector<Retroreflector>& sheets = {}) {
+                  const IntensityTables& tables = {}, const std::vector<Retroreflector>& sheets = {}) {
     FrameGraph graph;
-    const View view = View::symmetric(s.extent, 0.7f, glm::mat4(1));
+    const FrameContext frame = rig.frame(graph, View::symmetric(s.extent, 0.7f, glm::mat4(1)));
     const GBuffer g = upload(graph, s);
     if (!sheets.empty()) settings.retro = graph.upload("retro", retro_texels(sheets), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Clusters c = add_clusters(graph, rig.kernels(), g.surface, list, upload(graph, maps), view, clusters);
-    const Resource scene = keep<glm::vec4>(graph, add_shading(graph, rig.kernels(), g, c, view, settings)),
+    const Clusters c = add_clusters(frame, g.surface, list, upload(graph, tables), clusters);
+    const Resource scene = keep<glm::vec4>(graph, add_shading(frame, g, c, settings)),
                    report = keep<shared::ClusterReport>(graph, c.report);
     rig.run(graph);
     return {rig.got<glm::vec4>(scene), c.push, rig.got<shared::ClusterReport>(report).at(0)};

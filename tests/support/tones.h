@@ -7,7 +7,10 @@
 
 #include <glm/glm.hpp>
 
-#include "render/passes/passes.h"
+#include "graph/frame_graph.h"
+#include "shared/gamut.h"
+#include "shared/tone.h"
+#include "vision/display.h"
 
 namespace vesper::test {
 

@@ -1,7 +1,7 @@
 // Light of other pictures of one eye: added up, and scattered into a picture, against the sum over every pixel of all of them.
 // SPDX-License-Identifier: MIT
 #include "base/angle.h"
-#include "passes/scatter_reference.h"
+#include "passes/eye_scatter_reference.h"
 
 #include <algorithm>
 #include <array>

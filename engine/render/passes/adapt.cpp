@@ -1,10 +1,14 @@
+#include "render/passes/adapt.h"
+
 #include <algorithm>
 
-#include "render/passes/passes.h"
+#include "shaders/adapt.comp.inc"
 #include "shared/photometry.h"
 
 namespace vesper {
 namespace {
+
+constexpr Shader kAdapt{"adapt.comp", adapt_comp};
 
 shared::ReceptorParameters receptors_of(ReceptorKind kind, const Receptors& r, ThresholdBreaks breaks) {
     const ReceptorModel model(kind, r, breaks);
@@ -20,7 +24,8 @@ shared::ReceptorParameters receptors_of(ReceptorKind kind, const Receptors& r, T
 
 }  // namespace
 
-shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSettings& bins, const ToneSettings& tone, const Display& display, const FovealView& fovea, float seconds) {
+shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSettings& bins, const ToneSettings& tone,
+                                       const Display& display, const FovealView& fovea, float seconds) {
     const uint32_t ceiling = tone.ceiling.value_or(op.ceiling);
     // What others have computed with the published curves is to be met; an eye that adapts needs continuous ones.
     const ThresholdBreaks breaks = ceiling == shared::kCeilingEye || op.bands ? ThresholdBreaks::continuous() : ThresholdBreaks::published();
@@ -58,16 +63,20 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
             .rods = receptors_of(ReceptorKind::Rods, tone.observer.observed_rods(), breaks)};
 }
 
-Adaptation add_adaptation(FrameGraph& graph, const Kernels& kernels, const Pyramid& pyramid, Resource histogram, const OperatorInfo& op, shared::ToneParameters parameters, uint32_t foveal_level, const shared::EyeState* remembered, const Colours& colours) {
+Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inputs, const OperatorInfo& op,
+                          shared::ToneParameters parameters) {
+    const auto& [pyramid, foveal_level, histogram, colours, remembered] = inputs;
     parameters.colour_tiles = {colours.extent.width, colours.extent.height};
-    const Adaptation adaptation{graph.transient("tone curve", buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT)),
-                                graph.history(kEyeHistory, buffer_shape(sizeof(shared::EyeState)))};
-    const Resource previous = remembered ? graph.upload("eye as set", std::vector{*remembered}) : adaptation.eye.previous;
-    graph.dispatch("adapt", kernels.adapt(op.model),
-                   {load(pyramid.levels.back()), load(pyramid.levels.at(foveal_level - 1)), load(histogram),
-                    load(graph.upload("tone parameters", std::vector{parameters})), load(previous), store(adaptation.eye.current), store(adaptation.curve), load(colours.tiles ? colours.tiles : pyramid.levels.back())},
-                   Groups{});
-    return adaptation;
+    const Resource curve = frame.graph.transient("tone curve", buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT));
+    const History history = frame.graph.history(kEyeHistory, buffer_shape(sizeof(shared::EyeState)));
+    const Resource previous = remembered ? frame.graph.upload("eye as set", std::vector{*remembered}) : history.previous;
+    frame.graph.dispatch("adapt", frame.kernels.get(kAdapt, {op.model}),
+                         {load(pyramid.levels.back()), load(pyramid.levels.at(foveal_level - 1)), load(histogram),
+                          load(frame.graph.upload("tone parameters", std::vector{parameters})),
+                          load(previous), store(history.current), store(curve),
+                          load(colours.tiles ? colours.tiles : pyramid.levels.back())},
+                         Groups{});
+    return {curve, history.current};
 }
 
 }  // namespace vesper

@@ -1,10 +1,15 @@
+#include "render/passes/bloom.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "render/passes/passes.h"
+#include "shaders/bloom_blur.comp.inc"
+#include "shaders/bloom_bright.comp.inc"
 
 namespace vesper {
 namespace {
+
+constexpr Shader kBloomBright{"bloom_bright.comp", bloom_bright_comp}, kBloomBlur{"bloom_blur.comp", bloom_blur_comp};
 
 constexpr uint32_t kMaxRadius = 256;  // texels
 
@@ -25,23 +30,34 @@ std::vector<float> gaussian(double sigma) {
 
 }  // namespace
 
-Resource add_bloom(FrameGraph& graph, const Kernels& kernels, Resource scene, Resource curve, uint32_t tone, const View& view, const Display& display, const BloomSettings& settings) {
+Resource add_bloom(const FrameContext& frame, Resource scene, Resource curve, uint32_t tone, const Display& display,
+                   const BloomSettings& settings) {
+    if (settings.gain == 0) return {};
+    FrameGraph& graph = frame.graph;
+    const View& view = frame.view;
+    const Kernel& blur = frame.kernels.get(kBloomBlur);
     constexpr uint32_t shrink = shared::kGlareShrink;
     const VkExtent2D small{(view.extent.width + shrink - 1) / shrink, (view.extent.height + shrink - 1) / shrink};
     const glm::uvec2 size{small.width, small.height};
     const Shape shape = image_shape(kGlareFormat, small);
-    const Groups groups = cover(small.width, small.height, kernels.blur.group[0], kernels.blur.group[1]);
+    const Groups groups = cover(small.width, small.height, blur.group[0], blur.group[1]);
 
     const Resource bright = graph.transient("bright", shape);
-    graph.dispatch("bright", kernels.bright(tone), {load(scene), sample(curve), store(bright)},
-                   shared::BrightPush{{view.extent.width, view.extent.height}, size, display.low(), display.high(), settings.threshold}, groups);
+    graph.dispatch(
+        "bright", frame.kernels.get(kBloomBright, {tone}), {load(scene), sample(curve), store(bright)},
+        shared::BrightPush{
+            {view.extent.width, view.extent.height}, size, display.low(), display.high(), settings.threshold},
+        groups);
 
-    const std::vector<float> weights = gaussian(std::max(1e-3, settings.sigma_degrees / view.degrees_per_pixel() / shrink));
+    const std::vector<float> weights =
+        gaussian(std::max(1e-3, settings.sigma_degrees / view.degrees_per_pixel() / shrink));
     const uint32_t radius = uint32_t(weights.size()) - 1;
     const Resource taps = graph.upload("glare weights", weights, VK_FORMAT_R32_SFLOAT);
     const Resource across = graph.transient("glare across", shape), glare = graph.transient("glare", shape);
-    graph.dispatch("glare across", kernels.blur, {load(bright), sample(taps), store(across)}, shared::BlurPush{size, {1, 0}, radius}, groups);
-    graph.dispatch("glare", kernels.blur, {load(across), sample(taps), store(glare)}, shared::BlurPush{size, {0, 1}, radius}, groups);
+    graph.dispatch("glare across", blur, {load(bright), sample(taps), store(across)},
+                   shared::BlurPush{size, {1, 0}, radius}, groups);
+    graph.dispatch("glare", blur, {load(across), sample(taps), store(glare)}, shared::BlurPush{size, {0, 1}, radius},
+                   groups);
     return glare;
 }
 

@@ -1,21 +1,27 @@
+#include "render/passes/cluster.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "render/passes/passes.h"
+#include "shaders/cluster/active_clusters.comp.inc"
+#include "shaders/cluster/cluster.comp.inc"
+#include "shared/shade.h"
 
 namespace vesper {
 namespace {
 
-constexpr float kNear = 1;             // m, where slice 1 begins
+constexpr Shader kActiveClusters{"active_clusters.comp", active_clusters_comp}, kCluster{"cluster.comp", cluster_comp};
+
+constexpr float kNear = 1;  // m, where slice 1 begins
 constexpr uint32_t kMaxSlices = 32, kMaxCapacity = 4096;
-constexpr uint32_t kCoarseTiles = 4;   // side of a coarse cell
+constexpr uint32_t kCoarseTiles = 4;  // side of a coarse cell
 constexpr uint32_t kCoarseSlices = 4;
 constexpr uint64_t kCoarseIndices = 8u << 20;  // bound on the memory of the coarse lists
 
 uint32_t divide_up(uint32_t a, uint32_t b) { return (a + b - 1) / b; }
 
-// The greatest depth at which any light still gives the threshold.
+// The greatest depth at which any lamp still gives the threshold.
 float lit_depth(const LampList& list, float threshold) {
     float far = 2 * kNear;
     for (uint32_t i = 0; i < list.placed(); ++i)
@@ -26,20 +32,29 @@ float lit_depth(const LampList& list, float threshold) {
 void check_limits(uint32_t lamps, const ClusterSettings& settings) {
     const auto in_range = [](const char* what, uint32_t value, uint32_t low, uint32_t high) {
         if (value < low || value > high)
-            throw Error("clusters: " + std::to_string(value) + " " + what + "; " + std::to_string(low) + " to " + std::to_string(high) + " are possible");
+            throw Error("clusters: " + std::to_string(value) + " " + what + "; " + std::to_string(low) + " to " +
+                        std::to_string(high) + " are possible");
     };
-    in_range("lights", lamps, 0, kMaxLamps);
+    in_range("lamps", lamps, 0, kMaxLamps);
     in_range("slices", settings.slices, 2, kMaxSlices);
-    in_range("lights in a list", settings.capacity, 1, kMaxCapacity);
+    in_range("lamps in a list", settings.capacity, 1, kMaxCapacity);
 }
 
-struct Lists {
+struct LampLists {
     Resource counts, indices;
 };
 
 }  // namespace
 
-Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, Resource surface, const LampList& list, const TableTexels& tables, const View& view, const ClusterSettings& settings) {
+LampKinds lamp_kinds(const Clusters& clusters) {
+    const shared::LampCounts& lamps = clusters.push.lamps;
+    return {lamps.cones != 0, lamps.powers != 0, lamps.tables != 0, clusters.tables.has_roads};
+}
+
+Clusters add_clusters(const FrameContext& frame, Resource surface, const LampList& list, const TableTexels& tables,
+                      const ClusterSettings& settings) {
+    FrameGraph& graph = frame.graph;
+    const View& view = frame.view;
     const uint32_t lamps = list.placed();
     check_limits(lamps, settings);
     float far = lit_depth(list, settings.threshold);
@@ -62,51 +77,76 @@ Clusters add_clusters(FrameGraph& graph, const Kernels& kernels, Resource surfac
 
     std::vector<shared::Lamp> padded = list.lamps;
     if (padded.empty()) padded.emplace_back();  // an upload is never empty
-    clusters.lamps = graph.upload("lights", padded, VK_FORMAT_R32G32B32A32_SFLOAT);
+    clusters.lamps = graph.upload("lamps", padded, VK_FORMAT_R32G32B32A32_SFLOAT);
 
     const shared::ClusterGrid& grid = clusters.push.grid;
     const Groups blocks = cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
-    const auto words = [&](const std::string& name, uint64_t number) { return graph.transient(name, buffer_shape(number * sizeof(uint32_t), VK_FORMAT_R32_UINT)); };
+    const auto words = [&](const std::string& name, uint64_t number) {
+        return graph.transient(name, buffer_shape(number * sizeof(uint32_t), VK_FORMAT_R32_UINT));
+    };
     clusters.block_slices = words("block slices", blocks.x * blocks.y);
     const Resource tile_slices = words("tile slices", grid.tiles_x * grid.tiles_y);
     graph.clear("clear tile slices", tile_slices);
-    graph.dispatch("occupancy", kernels.occupancy, {load(surface), store(clusters.block_slices), update(tile_slices)},
-                   shared::OccupancyPush{grid, {view.extent.width, view.extent.height}, blocks.x}, cover(blocks.x, blocks.y, kernels.occupancy.group[0], kernels.occupancy.group[1]));
+    const Kernel& active = frame.kernels.get(kActiveClusters);
+    graph.dispatch("active clusters", active, {load(surface), store(clusters.block_slices), update(tile_slices)},
+                   shared::ActiveClustersPush{grid, {view.extent.width, view.extent.height}, blocks.x},
+                   cover(blocks.x, blocks.y, active.group[0], active.group[1]));
 
-    // The root is one cell that lists every light; coarse cells choose from it, froxels from coarse cells.
+    // The root is one cell that lists every lamp; coarse cells choose from it, froxels from coarse cells.
     std::vector<uint32_t> every_lamp(std::max(1u, lamps));
     std::iota(every_lamp.begin(), every_lamp.end(), 0u);
-    const Lists root{graph.upload("root counts", std::vector{list.counts.cones, list.counts.powers + list.counts.tables}, VK_FORMAT_R32_UINT),
-                     graph.upload("root indices", every_lamp, VK_FORMAT_R32_UINT)};
+    const LampLists root{
+        graph.upload("root counts", std::vector{list.counts.cones, list.counts.powers + list.counts.tables},
+                     VK_FORMAT_R32_UINT),
+        graph.upload("root indices", every_lamp, VK_FORMAT_R32_UINT)};
 
     clusters.report = graph.transient("cluster report", buffer_shape(sizeof(shared::ClusterReport)));
     graph.clear("clear cluster report", clusters.report);
 
-    const Kernel& kernel = kernels.cluster(frame_variant(clusters));
-    const auto add_level = [&](const char* name, const Lists& parents, shared::ClusterLevelPush push) {
+    const LampKinds kinds = lamp_kinds(clusters);
+    const Kernel& kernel = frame.kernels.get(kCluster, {kinds.powers, kinds.tables});
+    const auto add_level = [&](const char* name, const LampLists& parents, shared::ClusterLevelPush push) {
         push.view = clusters.push;
         const uint32_t cells = push.cells_x * push.cells_y * push.cells_z;
-        const Lists lists{words(std::string(name) + " counts", uint64_t(cells) * 2), words(std::string(name) + " indices", uint64_t(cells) * push.capacity)};
+        const LampLists lists{words(std::string(name) + " counts", uint64_t(cells) * 2),
+                              words(std::string(name) + " indices", uint64_t(cells) * push.capacity)};
         graph.dispatch(name, kernel,
-                       {sample(clusters.lamps), sample(parents.counts), sample(parents.indices), store(lists.counts), store(lists.indices), update(clusters.report), sample(tables.texels),
-                        sample(tile_slices)},
+                       {sample(clusters.lamps), sample(parents.counts), sample(parents.indices), store(lists.counts),
+                        store(lists.indices), update(clusters.report), sample(tables.texels), sample(tile_slices)},
                        push, cover(cells, 1, kernel.group[0], 1));
         return lists;
     };
 
     const uint32_t coarse_x = divide_up(grid.tiles_x, kCoarseTiles), coarse_y = divide_up(grid.tiles_y, kCoarseTiles);
     const uint32_t coarse_z = divide_up(grid.slices, kCoarseSlices);
-    const uint32_t coarse_capacity = uint32_t(std::clamp<uint64_t>(lamps, 1, kCoarseIndices / (coarse_x * coarse_y * coarse_z)));
-    const Lists coarse = add_level("cluster coarse", root,
-                                   {.cells_x = coarse_x, .cells_y = coarse_y, .cells_z = coarse_z,
-                                    .tiles_per_cell = kCoarseTiles, .slices_per_cell = kCoarseSlices, .capacity = coarse_capacity,
-                                    .parents_x = 1, .parents_y = 1, .tiles_per_parent = coarse_x * kCoarseTiles * coarse_y,
-                                    .slices_per_parent = coarse_z * kCoarseSlices, .parent_capacity = 0, .reports = 0});
-    const Lists fine = add_level("cluster", coarse,
-                                 {.cells_x = grid.tiles_x, .cells_y = grid.tiles_y, .cells_z = grid.slices,
-                                  .tiles_per_cell = 1, .slices_per_cell = 1, .capacity = grid.capacity,
-                                  .parents_x = coarse_x, .parents_y = coarse_y, .tiles_per_parent = kCoarseTiles,
-                                  .slices_per_parent = kCoarseSlices, .parent_capacity = coarse_capacity, .reports = 1});
+    const uint32_t coarse_capacity =
+        uint32_t(std::clamp<uint64_t>(lamps, 1, kCoarseIndices / (coarse_x * coarse_y * coarse_z)));
+    const LampLists coarse = add_level("cluster coarse", root,
+                                       {.cells_x = coarse_x,
+                                        .cells_y = coarse_y,
+                                        .cells_z = coarse_z,
+                                        .tiles_per_cell = kCoarseTiles,
+                                        .slices_per_cell = kCoarseSlices,
+                                        .capacity = coarse_capacity,
+                                        .parents_x = 1,
+                                        .parents_y = 1,
+                                        .tiles_per_parent = coarse_x * kCoarseTiles * coarse_y,
+                                        .slices_per_parent = coarse_z * kCoarseSlices,
+                                        .parent_capacity = 0,
+                                        .reports = 0});
+    const LampLists fine = add_level("cluster", coarse,
+                                     {.cells_x = grid.tiles_x,
+                                      .cells_y = grid.tiles_y,
+                                      .cells_z = grid.slices,
+                                      .tiles_per_cell = 1,
+                                      .slices_per_cell = 1,
+                                      .capacity = grid.capacity,
+                                      .parents_x = coarse_x,
+                                      .parents_y = coarse_y,
+                                      .tiles_per_parent = kCoarseTiles,
+                                      .slices_per_parent = kCoarseSlices,
+                                      .parent_capacity = coarse_capacity,
+                                      .reports = 1});
     clusters.counts = fine.counts;
     clusters.indices = fine.indices;
     return clusters;

@@ -1,10 +1,15 @@
-#include "render/passes/passes.h"
+#include "render/passes/composite.h"
+
 #include "gpu_scene/encoding.h"
+#include "shaders/composite.comp.inc"
+#include "shaders/display_light.comp.inc"
 #include "shared/gamut.h"
 #include "shared/photometry.h"
 
 namespace vesper {
 namespace {
+
+constexpr Shader kComposite{"composite.comp", composite_comp}, kDisplayLight{"display_light.comp", display_light_comp};
 
 struct Cones {
     glm::mat3 rows;       // of gamut.h, for colours of the display, and 1 to its white
@@ -19,42 +24,62 @@ Cones cones_of(const Primaries& primaries) {
     return {glm::mat3(own), glm::vec3(glm::transpose(to709) * glm::dvec3(shared::kRed, shared::kGreen, shared::kBlue))};
 }
 
-struct Show {
+struct Shown {
     const Kernel& kernel;
     shared::CompositePush push;
-    Resource bloom;  // a binding that the variant does not read still has to be bound: the scene stands in
+    Resource bloom;  // a binding that the kernel does not read still has to be bound: the scene stands in
     Groups groups;
 };
 
-Show show(const Kernels& kernels, const CompositeInputs& in, uint32_t tone, const View& view, const Display& display, float ldr_glare_gain, bool light) {
-    const bool primaries = !light && display.primaries != kRec709;
-    const Kernel& kernel = kernels.composite({tone, bool(in.bloom), primaries, light, !light && in.blue_first});
-    const auto [width, height] = view.extent;
+Shown show(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& settings,
+           const Shader& shader, bool primaries, bool blue_first) {
+    const uint32_t rows_of_one =
+        frame.kernels.device().is_cpu() ? 4 : 1;  // pixels of a column that one invocation does
+    const Kernel& kernel =
+        frame.kernels.get(shader, {settings.tone, bool(in.bloom), rows_of_one, primaries, blue_first});
+    const Display& display = settings.display;
+    const auto [width, height] = frame.view.extent;
     const glm::mat3 rows(glm::transpose(glm::inverse(to_rec709(display.primaries))));
     const Cones cones = cones_of(display.primaries);
     return {kernel,
-            {{width, height}, display.low(), display.high(), ldr_glare_gain, {}, rows[0], rows[1], rows[2],
-             cones.luminance, cones.rows[0], cones.rows[1], cones.rows[2]},
+            {{width, height},
+             display.low(),
+             display.high(),
+             settings.bloom_gain,
+             {},
+             rows[0],
+             rows[1],
+             rows[2],
+             cones.luminance,
+             cones.rows[0],
+             cones.rows[1],
+             cones.rows[2]},
             in.bloom ? in.bloom : in.scene,
-            cover(width, height, kernel.group[0], kernel.group[1] * kernels.composite_rows)};
+            cover(width, height, kernel.group[0], kernel.group[1] * rows_of_one)};
 }
 
 }  // namespace
 
-Resource add_composite(FrameGraph& graph, const Kernels& kernels, const CompositeInputs& in, uint32_t tone, const View& view, const Display& display, float ldr_glare_gain) {
-    Show s = show(kernels, in, tone, view, display, ldr_glare_gain, false);
-    const Encoding encoding = make_encoding(display);
-    s.push.encode = encoding.push;
-    const Resource cells = graph.upload("code cells", encoding.cells, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource image = graph.transient("display", image_shape(kDisplayFormat, view.extent));
-    graph.dispatch("composite", s.kernel, {load(in.scene), sample(in.curve), sample(s.bloom), sample(cells), store(image)}, s.push, s.groups);
+Resource add_composite(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& settings) {
+    Shown shown = show(frame, in, settings, kComposite, settings.display.primaries != kRec709, settings.blue_first);
+    const Encoding encoding = make_encoding(settings.display);
+    shown.push.encode = encoding.push;
+    const Resource cells = frame.graph.upload("code cells", encoding.cells, VK_FORMAT_R32G32B32A32_SFLOAT);
+    const Resource image = frame.graph.transient("display", image_shape(kDisplayFormat, frame.view.extent));
+    frame.graph.dispatch("composite", shown.kernel,
+                         {load(in.scene), sample(in.curve), sample(shown.bloom), sample(cells), store(image)},
+                         shown.push, shown.groups);
     return image;
 }
 
-Resource add_display_light(FrameGraph& graph, const Kernels& kernels, const CompositeInputs& in, uint32_t tone, const View& view, const Display& display, float ldr_glare_gain) {
-    const Show s = show(kernels, in, tone, view, display, ldr_glare_gain, true);
-    const Resource image = graph.transient("display light", image_shape(kDisplayLightFormat, view.extent));
-    graph.dispatch("display light", s.kernel, {load(in.scene), sample(in.curve), sample(s.bloom), store(image)}, s.push, s.groups);
+Resource add_display_light(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& settings,
+                           bool wanted) {
+    if (!wanted) return {};
+    const Shown shown = show(frame, in, settings, kDisplayLight, false, false);
+    const Resource image = frame.graph.transient("display light", image_shape(kDisplayLightFormat, frame.view.extent));
+    frame.graph.dispatch("display light", shown.kernel,
+                         {load(in.scene), sample(in.curve), sample(shown.bloom), store(image)}, shown.push,
+                         shown.groups);
     return image;
 }
 

@@ -1,20 +1,36 @@
-#include "render/passes/passes.h"
+#include "render/passes/corona.h"
+
+#include "shaders/corona/corona.comp.inc"
+#include "shaders/corona/corona_pick.comp.inc"
+#include "shaders/corona/corona_tiles.comp.inc"
 #include "shared/corona.h"
 
 namespace vesper {
+namespace {
 
-Resource add_corona(FrameGraph& graph, const Kernels& kernels, Resource scene, Resource seen, const std::vector<glm::vec4>& pattern, const View& view) {
+constexpr Shader kCoronaTiles{"corona_tiles.comp", corona_tiles_comp},
+    kCoronaPick{"corona_pick.comp", corona_pick_comp}, kCorona{"corona.comp", corona_comp};
+
+}  // namespace
+
+Resource add_corona(const FrameContext& frame, Resource scene, Resource retina, std::span<const glm::vec4> pattern) {
     using namespace shared;
-    const uint32_t columns = (view.extent.width + kCoronaTile - 1) / kCoronaTile, rows = (view.extent.height + kCoronaTile - 1) / kCoronaTile;
+    if (pattern.empty()) return retina;
+    FrameGraph& graph = frame.graph;
+    const View& view = frame.view;
+    const Kernel &mean = frame.kernels.get(kCoronaTiles), &pick = frame.kernels.get(kCoronaPick),
+                 &draw = frame.kernels.get(kCorona);
+    const uint32_t columns = (view.extent.width + kCoronaTile - 1) / kCoronaTile,
+                   rows = (view.extent.height + kCoronaTile - 1) / kCoronaTile;
     const CoronaPush push{{view.extent.width, view.extent.height}, view.ray_scale(), view.ray_offset()};
     const Resource tiles = graph.transient("corona tiles", buffer_shape(uint64_t{columns} * rows * sizeof(CoronaTile)));
     const Resource lamps = graph.transient("corona lamps", buffer_shape(kCoronaLamps * sizeof(CoronaLamp)));
-    const Resource texels = graph.upload("corona pattern", pattern, VK_FORMAT_R32G32B32A32_SFLOAT);
-    graph.dispatch("corona tiles", kernels.corona_tiles, {load(scene), store(tiles)}, push, cover(columns, rows, kernels.corona_tiles.group[0], 1));
-    graph.dispatch("corona lamps", kernels.corona_pick, {load(tiles), store(lamps)}, push, {1, 1, 1});
-    graph.dispatch("corona", kernels.corona, {load(lamps), sample(texels), update(seen)}, push,
-                   cover(view.extent.width, view.extent.height, kernels.corona.group[0], kernels.corona.group[1]));
-    return seen;
+    const Resource texels = graph.upload("corona pattern", std::as_bytes(pattern), VK_FORMAT_R32G32B32A32_SFLOAT);
+    graph.dispatch("corona tiles", mean, {load(scene), store(tiles)}, push, cover(columns, rows, mean.group[0], 1));
+    graph.dispatch("corona lamps", pick, {load(tiles), store(lamps)}, push, {1, 1, 1});
+    graph.dispatch("corona", draw, {load(lamps), sample(texels), update(retina)}, push,
+                   cover(view.extent.width, view.extent.height, draw.group[0], draw.group[1]));
+    return retina;
 }
 
 }  // namespace vesper

@@ -1,8 +1,9 @@
+#include "render/passes/gbuffer.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include "render/passes/passes.h"
 #include "gpu_scene/gpu_scene.h"
 #include "shared/gbuffer.h"
 
@@ -17,7 +18,7 @@ struct Batch {
     uint32_t first_instance, instance_count;
 };
 
-struct Drawn {
+struct DrawnPart {
     uint32_t part;
     bool mirrored;
     uint32_t layer;  // see layer_of
@@ -35,8 +36,9 @@ bool visible(const View& view, const Sphere& sphere) {
            !beyond(view.tangent_high.y, centre.y, 1) && !beyond(view.tangent_low.y, centre.y, -1);
 }
 
-// A rough order from front to back, in shells of distance of a ratio of 1.5, so that few instances are drawn apart: what is
-// beside the eye, such as one's own bonnet, hides most; sheets under everything, such as terrain, are hidden by most.
+// A rough order from front to back, in shells of distance of a ratio of 1.5, so that few instances are drawn apart:
+// what is beside the eye, such as one's own bonnet, hides most; sheets under everything, such as terrain, are hidden by
+// most.
 uint32_t layer_of(const Sphere& sphere) {
     constexpr uint32_t kFarthest = 9;
     const float depth = -sphere.centre.z;
@@ -45,8 +47,8 @@ uint32_t layer_of(const Sphere& sphere) {
     return std::min(kFarthest - 1, uint32_t(1 + std::max(0.0f, std::log(depth / 10) / std::log(1.5f))));
 }
 
-std::vector<Drawn> cull(const GpuScene& scene, const SceneFrame& frame, const View& view) {
-    std::vector<Drawn> drawn;
+std::vector<DrawnPart> cull(const GpuScene& scene, const SceneFrame& frame, const View& view) {
+    std::vector<DrawnPart> drawn;
     for (const GpuScene::Placement& placement : scene.placements()) {
         const glm::mat4 m = view.from(frame.world[placement.node]);
         const bool mirrored = glm::determinant(glm::mat3(m)) < 0;
@@ -87,23 +89,26 @@ void record_batches(const Recording& recording, const GpuScene& scene, const Vie
                              .pImageInfo = &surface.textures[i]};
             scene.push_descriptors()(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.layout(), 0, 3, writes);
             // Clip space has y down: view y goes in with its sign turned.
-            const shared::GBufferPush push{m.base_colour, m.emission, m.alpha_cutoff, m.metallic, m.roughness,
-                                           {scale.x, -scale.y}, {offset.x, -offset.y}, view.near};
+            const shared::GBufferPush push{m.base_colour, m.emission,          m.alpha_cutoff,        m.metallic,
+                                           m.roughness,   {scale.x, -scale.y}, {offset.x, -offset.y}, view.near};
             vkCmdPushConstants(commands, scene.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
         }
         vkCmdSetCullMode(commands, m.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         vkCmdSetFrontFace(commands, batch.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-        vkCmdDrawIndexed(commands, part.index_count, batch.instance_count, part.first_index, part.first_vertex, batch.first_instance);
+        vkCmdDrawIndexed(commands, part.index_count, batch.instance_count, part.first_index, part.first_vertex,
+                         batch.first_instance);
         last_material = part.material, last_variant = surface.variant;
     }
 }
 
 }  // namespace
 
-GBuffer add_gbuffer(FrameGraph& graph, const GpuScene& scene, const SceneFrame& frame, const View& view) {
-    std::vector<Drawn> drawn = cull(scene, frame, view);
-    std::stable_sort(drawn.begin(), drawn.end(), [&](const Drawn& a, const Drawn& b) {
-        const auto key = [&](const Drawn& d) {
+GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const SceneFrame& poses) {
+    FrameGraph& graph = frame.graph;
+    const View& view = frame.view;
+    std::vector<DrawnPart> drawn = cull(scene, poses, view);
+    std::stable_sort(drawn.begin(), drawn.end(), [&](const DrawnPart& a, const DrawnPart& b) {
+        const auto key = [&](const DrawnPart& d) {
             const uint32_t material = scene.parts()[d.part].material, variant = scene.surfaces()[material].variant;
             const bool emits = variant & GpuScene::kEmits;  // last: only these write emission
             return std::tuple(emits, d.layer, variant, material, d.part, d.mirrored);
@@ -112,8 +117,9 @@ GBuffer add_gbuffer(FrameGraph& graph, const GpuScene& scene, const SceneFrame& 
     });
     std::vector<shared::Instance> instances;
     std::vector<Batch> batches;
-    for (const Drawn& d : drawn) {
-        if (batches.empty() || batches.back().part != d.part || batches.back().mirrored != d.mirrored || batches.back().layer != d.layer)
+    for (const DrawnPart& d : drawn) {
+        if (batches.empty() || batches.back().part != d.part || batches.back().mirrored != d.mirrored ||
+            batches.back().layer != d.layer)
             batches.push_back({d.part, d.mirrored, d.layer, uint32_t(instances.size()), 0});
         ++batches.back().instance_count;
         instances.push_back(d.instance);

@@ -1,10 +1,41 @@
+#include "render/passes/shade.h"
+
 #include <array>
 
-#include "render/passes/passes.h"
-#include "shared/gather.h"
+#include "render/passes/blocks.h"
+#include "render/pixel_groups.h"
+#include "shaders/shade/shade.comp.inc"
 
 namespace vesper {
 namespace {
+
+constexpr Shader kShade{"shade.comp", shade_comp};
+
+// What a kernel has code for, as bits.
+enum ShadeVariant : uint32_t {
+    kEveryLamp = 1,
+    kCones = 2,
+    kPowers = 4,
+    kTables = 8,
+    kListed = 16,
+    kMerged = 32,
+    kGlossy = 64,
+    kRoads = 128,
+    kRetro = 256
+};
+
+// The kinds of lamps and surfaces in the frame.
+uint32_t frame_variant(const Clusters& clusters, bool retro) {
+    const LampKinds kinds = lamp_kinds(clusters);
+    return (kinds.cones ? kCones : 0u) | (kinds.powers ? kPowers : 0u) | (kinds.tables ? kTables : 0u) |
+           (kinds.roads ? kRoads : 0u) | (retro ? kRetro : 0u);
+}
+
+const Kernel& shade_kernel(const KernelCache& kernels, const PixelGroups& groups, uint32_t variant) {
+    const auto has = [variant](ShadeVariant bit) -> uint32_t { return variant & bit ? 1 : 0; };
+    return kernels.get(kShade, {groups.width, groups.height, groups.rows, has(kEveryLamp), has(kCones), has(kPowers),
+                                has(kTables), has(kListed), has(kMerged), has(kGlossy), has(kRoads), has(kRetro)});
+}
 
 // What is in the blocks of a class, as bits of a shading kernel, beside the lamps that the frame has.
 struct BlockClass {
@@ -13,20 +44,22 @@ struct BlockClass {
 };
 constexpr std::array<BlockClass, shared::kBlockClasses> kClasses{{
     {"shade empty", 0},
-    {"shade matt", Kernels::kGathered},
-    {"shade matt listed", Kernels::kGathered | Kernels::kListed},
-    {"shade paved", Kernels::kGathered | Kernels::kRoads},
-    {"shade paved listed", Kernels::kGathered | Kernels::kRoads | Kernels::kListed},
-    {"shade glossy", Kernels::kGlossy | Kernels::kListed},
-    {"shade glossy paved", Kernels::kGlossy | Kernels::kRoads | Kernels::kListed},
-    {"shade retro", Kernels::kRetro | Kernels::kGlossy | Kernels::kListed},
+    {"shade matt", kMerged},
+    {"shade matt listed", kMerged | kListed},
+    {"shade paved", kMerged | kRoads},
+    {"shade paved listed", kMerged | kRoads | kListed},
+    {"shade glossy", kGlossy | kListed},
+    {"shade glossy paved", kGlossy | kRoads | kListed},
+    {"shade retro", kRetro | kGlossy | kListed},
 }};
 
 }  // namespace
 
-Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g, const Clusters& clusters, const View& view, const ShadeSettings& settings) {
-    const Blocks blocks = add_blocks(graph, kernels, g, clusters, view, settings.all_lamps ? -1 : settings.gather_tolerance);
-    shared::ShadePush push{.size = {view.extent.width, view.extent.height},
+Resource add_shading(const FrameContext& frame, const GBuffer& g, const Clusters& clusters,
+                     const ShadeSettings& settings) {
+    const PixelGroups groups = pixel_groups(frame.kernels.device());
+    const Blocks blocks = add_blocks(frame, g, clusters, settings.all_lamps ? -1 : settings.merge_tolerance);
+    shared::ShadePush push{.size = {frame.view.extent.width, frame.view.extent.height},
                            .grid = clusters.push.grid,
                            .lamps = clusters.push.lamps,
                            .threshold = clusters.push.threshold,
@@ -40,17 +73,21 @@ Resource add_shading(FrameGraph& graph, const Kernels& kernels, const GBuffer& g
                            .blocks = blocks.count,
                            .block_class = 0};
     const Resource retro = settings.retro ? settings.retro : clusters.tables.texels;  // the binding must hold something
-    const uint32_t frame = frame_variant(clusters) | (settings.retro ? Kernels::kRetro : 0u);
+    const uint32_t present = frame_variant(clusters, bool(settings.retro));
     for (push.block_class = 0; push.block_class < kClasses.size(); ++push.block_class) {
         const BlockClass& c = kClasses[push.block_class];
-        if (c.variant & Kernels::kRoads & ~frame) continue;
+        if (c.variant & kRoads & ~present) continue;
         // The last class has any surfaces; without classes of retroreflection a sheet is a glossy surface.
-        uint32_t variant = c.variant & Kernels::kRetro ? (c.variant & ~Kernels::kRetro) | (frame & (Kernels::kRetro | Kernels::kRoads)) : c.variant;
-        if (variant & Kernels::kListed) variant |= (frame & (Kernels::kCones | Kernels::kPowers | Kernels::kMaps)) | (settings.all_lamps ? Kernels::kEveryLamp : 0u);
-        graph.dispatch(c.name, kernels.shade(variant),
-                       {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lamps), sample(blocks.counts), sample(blocks.entries),
-                        sample(clusters.tables.texels), sample(retro), sample(blocks.sums), sample(blocks.class_counts), sample(blocks.class_blocks)},
-                       push, Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
+        uint32_t variant = c.variant;
+        if (variant & kRetro) variant = (variant & ~uint32_t{kRetro}) | (present & (kRetro | kRoads));
+        if (variant & kListed) variant |= present & (kCones | kPowers | kTables);
+        if (variant & kListed && settings.all_lamps) variant |= kEveryLamp;
+        frame.graph.dispatch(
+            c.name, shade_kernel(frame.kernels, groups, variant),
+            {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lamps), sample(blocks.counts),
+             sample(blocks.entries), sample(clusters.tables.texels), sample(retro), sample(blocks.sums),
+             sample(blocks.class_counts), sample(blocks.class_blocks)},
+            push, Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
     }
     return g.emission;
 }

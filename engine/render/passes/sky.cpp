@@ -1,10 +1,21 @@
-#include "render/passes/passes.h"
+#include "render/passes/sky.h"
+
+#include "render/pixel_groups.h"
+#include "shaders/sky/sky.comp.inc"
 #include "shared/sky.h"
 
 namespace vesper {
+namespace {
 
-Resource add_sky(FrameGraph& graph, const Kernels& kernels, const GBuffer& g, Resource scene, Resource sky, uint32_t sharp_side,
-                 const View& view, float lambert) {
+constexpr Shader kSky{"sky.comp", sky_comp};
+
+}  // namespace
+
+Resource add_sky(const FrameContext& frame, const GBuffer& surfaces, Resource scene, const SkyTexels& sky,
+                 float lambert) {
+    if (!sky.texels) return scene;
+    const View& view = frame.view;
+    const PixelGroups groups = pixel_groups(frame.kernels.device());
     const glm::mat3 world_from_view = glm::transpose(glm::mat3(view.world_to_view));
     const shared::SkyPush push{.size = {view.extent.width, view.extent.height},
                                .ray_scale = view.ray_scale(),
@@ -13,9 +24,10 @@ Resource add_sky(FrameGraph& graph, const Kernels& kernels, const GBuffer& g, Re
                                .up = world_from_view[1],
                                .back = world_from_view[2],
                                .lambert = lambert,
-                               .sharp_side = sharp_side};
-    graph.dispatch("sky", kernels.sky, {load(g.reflectance), load(g.surface), update(scene), sample(sky)}, push,
-                   cover(view.extent.width, view.extent.height, kernels.shade_group.width, kernels.shade_group.height * kernels.shade_rows));
+                               .sharp_side = sky.sharp_side};
+    frame.graph.dispatch("sky", frame.kernels.get(kSky, {groups.width, groups.height, groups.rows}),
+                         {load(surfaces.reflectance), load(surfaces.surface), update(scene), sample(sky.texels)}, push,
+                         cover(view.extent, groups));
     return scene;
 }
 

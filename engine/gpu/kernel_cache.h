@@ -1,0 +1,37 @@
+// Compute pipelines by shader and specialization constants. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "gpu/kernel.h"
+
+namespace vesper {
+
+/// A compute shader that is embedded in the program.
+struct Shader {
+    const char* name;                 ///< of its file, for messages
+    std::span<const uint32_t> spirv;  ///< must outlive the caches that know it
+};
+
+/// Makes each kernel when it is first asked for, and keeps it. Not thread-safe.
+class KernelCache {
+public:
+    explicit KernelCache(const Device& device) : device_(device) {}
+
+    /// The kernel of a shader whose specialization constant i is constants[i]. Valid as long as the cache. Throws
+    /// Error.
+    const Kernel& get(const Shader& shader, std::initializer_list<uint32_t> constants = {}) const;
+    const Device& device() const { return device_; }
+
+private:
+    using Key = std::pair<const uint32_t*, std::vector<uint32_t>>;  // code and constants
+
+    const Device& device_;
+    mutable std::map<Key, Kernel> kernels_;
+};
+
+}  // namespace vesper

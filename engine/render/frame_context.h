@@ -1,0 +1,19 @@
+// The frame that passes add themselves to. SPDX-License-Identifier: MIT
+// Pixels count from the top left. RGB is linear Rec. 709; luminance is 0.212639 R + 0.715169 G + 0.072192 B.
+#pragma once
+
+#include "gpu/kernel_cache.h"
+#include "gpu_scene/formats.h"
+#include "gpu_scene/view.h"
+#include "graph/frame_graph.h"
+
+namespace vesper {
+
+/// A frame while it is declared. Passes run in the order in which they are added.
+struct FrameContext {
+    FrameGraph& graph;
+    const KernelCache& kernels;
+    View view;  ///< its extent is that of every image of full size
+};
+
+}  // namespace vesper

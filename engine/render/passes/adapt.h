@@ -1,0 +1,68 @@
+// The eye adapts, and the tone curve follows. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include <glm/glm.hpp>
+
+#include "render/passes/colours.h"
+#include "render/passes/histogram.h"
+#include "render/passes/operators.h"
+#include "shared/gamut.h"
+#include "vision/display.h"
+#include "vision/eye.h"
+
+namespace vesper {
+
+struct ToneSettings {
+    float key = 0.18f;         ///< Reinhard 2002
+    float white = 0;           ///< Reinhard 2002: cd/m^2 shown as white; 0: the frame's maximum
+    float linear_low = 0;      ///< cd/m^2 shown as black
+    float linear_high = 0;     ///< cd/m^2 shown as white; 0: the frame's maximum
+    bool automatic = false;    ///< Reinhard 2003: key and white from the log average and the 1st and 99th percentile
+    float log_epsilon = 0;     ///< Reinhard: cd/m^2 added before logarithms (1e-5 as in his program); 0: none, at least 1e-4 cd/m^2 instead
+    float rod_constant = 5e5f; ///< Pattanaik: of the half saturation of rods; pfstmo_pattanaik00 has 5e4
+    bool colour_loss = false;  ///< dim light loses its colour
+    bool acuity_loss = false;  ///< dim light is blurred as far as it cannot be resolved
+    bool purkinje = false;     ///< dim light is weighted as rods do
+    bool photopic_rods = false; ///< rods take luminance for scotopic luminance, as in pfstools; without: that of the colour, and of white for what the eye adapts to
+    uint32_t gamut = shared::kGamutLuminance;  ///< shared::kGamut*: what gives way where the display is not as bright in a colour
+    Observer observer;         ///< whose eye it is
+    glm::vec2 gaze{0.5f};      ///< where it looks, parts of the image from its top left
+    std::optional<uint32_t> adapt_to;  ///< shared::kAdapt*; default: as the operator has it
+    std::optional<uint32_t> ceiling;   ///< shared::kCeiling*; default: as the operator has it
+    float smoothing_seconds = 0.15f;   ///< of the curve, against flicker; not a model of the eye; 0: none
+};
+
+/// Where on the pyramid one degree is.
+struct FovealView {
+    uint32_t level;     ///< 1-based
+    VkExtent2D texels;  ///< of that level
+    VkExtent2D image;   ///< px
+};
+
+shared::ToneParameters tone_parameters(const OperatorInfo&, const HistogramSettings&, const ToneSettings&, const Display&,
+                                       const FovealView&, float seconds);
+
+/// What add_adaptation keeps from frame to frame; Executor::reset of it forgets what the eye was adapted to.
+constexpr const char* kEyeHistory = "eye";
+
+struct AdaptationInputs {
+    const Pyramid& pyramid;
+    uint32_t foveal_level;
+    Resource histogram;
+    Colours colours = {};  ///< of operators whose eye adapts to colour
+    const shared::EyeState* remembered = nullptr;  ///< what the eye remembers instead of the last frame
+};
+
+struct Adaptation {
+    Resource curve;  ///< shared::ToneCurve
+    Resource eye;    ///< shared::EyeState after the frame
+};
+
+/// Lets the eye adapt to the light where it looks (vision/eye.h; exact for any time step, at once in the first frame), and
+/// turns that and the histogram into a tone curve, smoothed over time, or into the parameters of the operator's form.
+Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inputs, const OperatorInfo& op,
+                          shared::ToneParameters parameters);
+
+}  // namespace vesper

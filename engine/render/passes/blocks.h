@@ -1,0 +1,27 @@
+// Lamps of blocks of pixels: culled, and merged where their light is smooth. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/passes/cluster.h"
+#include "render/passes/gbuffer.h"
+#include "shared/blocks.h"
+
+namespace vesper {
+
+/// The image in blocks of shared::kBlockSize pixels, in classes by their surfaces and lamps (shared/blocks.h).
+struct Blocks {
+    uint32_t columns = 0, count = 0;
+    uint32_t capacity = 0;     ///< of a block's list
+    Resource counts, entries;  ///< lists of the lamps that its pixels evaluate one by one (shared/shade.h)
+    Resource sums;             ///< merged light of the other lamps
+    Resource class_counts, class_blocks;
+};
+
+/// Culls the lamps that cannot light any surface of a block. Where a block is one matt plane or one plane of road,
+/// merges the lamps whose light is smooth over it: a polynomial of second degree along either side meets it with at
+/// most the relative error `tolerance` at four pixels between its nodes. At other pixels the error is 1.2 times that
+/// where light is smooth and up to 3.5 times at kinks (edges of a beam's ramp, cells of a table; more, in hardly a
+/// pixel, under tables with single bright nodes). A negative tolerance merges nothing. Throws Error for an image of
+/// more blocks than the device can shade in one dispatch.
+Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, float tolerance);
+
+}  // namespace vesper

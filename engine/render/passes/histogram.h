@@ -1,0 +1,40 @@
+// How often each luminance occurs. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/passes/pyramid.h"
+#include "shared/tone.h"
+
+namespace vesper {
+
+struct HistogramSettings {
+    uint32_t bins = 100;   ///< 1 .. 256
+    float log10_low = -4;  ///< log10 of the lowest luminance, cd/m^2
+    float log10_high = 6;  ///< and of the highest
+    bool split = true;     ///< a vote is shared by the two nearest bins, so that none jumps from one to the next
+    bool fine = true;      ///< half of all votes are those of level 1, so that small lamps have bins of their own
+    bool overlap =
+        true;  ///< with fine votes: texels of the level itself overlap, so that the place of their grid does not matter
+    float spread = 0.1f;  ///< split votes: standard deviation of a vote in the curve, log10, for any number of bins
+
+    /// Of the curve: whole ones per bin, up to kMaxBins.
+    uint32_t steps_per_bin() const { return split ? shared::kMaxBins / std::clamp(bins, 1u, shared::kMaxBins) : 1; }
+    /// Bins between the knots of the B-spline (of variance window^2 / 3) that, with a vote's share in two bins (1/6),
+    /// makes the spread of the vote.
+    float window() const {
+        const float spread_in_bins = spread * float(bins) / (log10_high - log10_low);
+        return split ? std::sqrt(std::max(3 * (spread_in_bins * spread_in_bins - 1.0f / 6), 1.0f)) : 0;
+    }
+    float ln_low() const { return log10_low * std::numbers::ln10_v<float>; }
+    float bins_per_ln() const { return float(bins) / ((log10_high - log10_low) * std::numbers::ln10_v<float>); }
+};
+
+/// Votes of ln luminance over the texels of one pyramid level (1-based), and of level 1 as settings say. A
+/// shared::Histogram.
+Resource add_histogram(const FrameContext& frame, const Pyramid& pyramid, uint32_t level,
+                       const HistogramSettings& settings);
+
+}  // namespace vesper

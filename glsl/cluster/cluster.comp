@@ -1,0 +1,107 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+
+// Light clustering, one cell per invocation. Where nothing is drawn no light is listed. Elsewhere, a light is listed
+// unless its illuminance stays under the threshold all over the sphere around the cell: the largest intensity in the cone
+// of directions that the sphere subtends, over the square of the nearest distance. Lights are tried in ascending order, so lists are ascending and the same on every run.
+
+#include "shared/cluster.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
+layout(constant_id = 1) const uint kTables = 1u;    // measured distributions
+
+layout(binding = 0) uniform samplerBuffer lamps;
+layout(binding = 1) uniform usamplerBuffer parent_counts;
+layout(binding = 2) uniform usamplerBuffer parent_indices;
+layout(binding = 3, r32ui) writeonly uniform uimageBuffer counts;
+layout(binding = 4, r32ui) writeonly uniform uimageBuffer indices;
+layout(binding = 5, scalar) buffer Report { ClusterReport report; };
+layout(binding = 6) uniform samplerBuffer tables;
+layout(binding = 7) uniform usamplerBuffer tile_slices;
+layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
+
+#include "light_bounds.glsl"
+
+vec3 centre;
+float radius;
+
+// Where the cell lies in the view frame: the sphere through its farthest corner.
+void bound_cell(uvec3 cell) {
+    const ClusterGrid grid = push.view.grid;
+    const float side = float(kTileSize * push.tiles_per_cell);
+    const vec2 low = grid.ray_scale * (side * vec2(cell.xy)) + grid.ray_offset;
+    const vec2 high = grid.ray_scale * (side * vec2(cell.xy + 1u)) + grid.ray_offset;
+    const float first = float(cell.z * push.slices_per_cell), last = float((cell.z + 1u) * push.slices_per_cell);
+    const float z0 = cell.z == 0u ? 0.0 : exp2((first - grid.slice_bias) / grid.slice_scale);
+    const float z1 = last >= float(grid.slices) ? push.view.far : exp2((last - grid.slice_bias) / grid.slice_scale);
+    centre = vec3(0.5 * (low + high), -1.0) * (0.5 * (z0 + z1));
+    radius = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec2 ray = vec2((corner & 1) == 0 ? low.x : high.x, (corner & 2) == 0 ? low.y : high.y);
+        radius = max(radius, distance(centre, vec3(ray, -1.0) * ((corner & 4) == 0 ? z0 : z1)));
+    }
+    radius *= kSlack;
+}
+
+// Whether anything is drawn in some of its froxels.
+bool is_occupied(uvec3 cell) {
+    const ClusterGrid grid = push.view.grid;
+    const uvec2 first = cell.xy * push.tiles_per_cell, end = min(first + push.tiles_per_cell, uvec2(grid.tiles_x, grid.tiles_y));
+    uint slices = 0u;
+    for (uint y = first.y; y < end.y; ++y)
+        for (uint x = first.x; x < end.x; ++x) slices |= texelFetch(tile_slices, int(y * grid.tiles_x + x)).r;
+    return (slices >> cell.z * push.slices_per_cell & (1u << push.slices_per_cell) - 1u) != 0u;
+}
+
+bool light_counts(uint light, bool cone) {
+    const int at = int(light * kTexelsPerLamp);
+    const vec4 a = texelFetch(lamps, at);
+    const bool map = !cone && kTables != 0u && (kPowers == 0u || light >= push.view.lamps.cones + push.view.lamps.powers);
+    return gives_threshold(largest_intensity(at, a, cone, map, centre, radius), distance(centre, a.xyz) - radius, push.view.threshold);
+}
+
+void main() {
+    const uint index = gl_GlobalInvocationID.x;
+    const uvec3 cells = uvec3(push.cells_x, push.cells_y, push.cells_z);
+    if (index >= cells.x * cells.y * cells.z) return;
+    const uvec3 cell = uvec3(index % cells.x, index / cells.x % cells.y, index / (cells.x * cells.y));
+    bound_cell(cell);
+
+    const uvec3 parent = uvec3(cell.xy * push.tiles_per_cell / push.tiles_per_parent,
+                               cell.z * push.slices_per_cell / push.slices_per_parent);
+    const uint parent_index = (parent.z * push.parents_y + parent.y) * push.parents_x + parent.x;
+    const uint listed_cones = texelFetch(parent_counts, int(2u * parent_index)).r;
+    const uint listed_others = texelFetch(parent_counts, int(2u * parent_index + 1u)).r;
+    const bool all_of_them = listed_cones == kAllLamps;
+    const bool occupied = is_occupied(cell);
+    const uint cones = !occupied ? 0u : all_of_them ? push.view.lamps.cones : listed_cones;
+    const uint others = !occupied ? 0u : all_of_them ? push.view.lamps.powers + push.view.lamps.tables : listed_others;
+    const uint list = all_of_them ? 0u : parent_index * push.parent_capacity;
+
+    const uint base = index * push.capacity;
+    uint count = 0u;
+    for (uint i = 0u; i < cones; ++i) {
+        const uint light = all_of_them ? i : texelFetch(parent_indices, int(list + i)).r;
+        if (!light_counts(light, true)) continue;
+        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
+        ++count;
+    }
+    const uint kept_cones = count;
+    for (uint i = 0u; i < others; ++i) {
+        const uint light = all_of_them ? cones + i : texelFetch(parent_indices, int(list + cones + i)).r;
+        if (!light_counts(light, false)) continue;
+        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
+        ++count;
+    }
+
+    const bool fits = count <= push.capacity;
+    imageStore(counts, int(2u * index), uvec4(fits ? kept_cones : kAllLamps));
+    imageStore(counts, int(2u * index + 1u), uvec4(fits ? count - kept_cones : kAllLamps));
+    if (push.reports != 0u) {
+        atomicAdd(report.overflowed, fits ? 0u : 1u);
+        atomicMax(report.longest, count);
+        atomicAdd(report.listed, count);
+    }
+}

@@ -79,7 +79,7 @@ void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View>
     for (const LightElsewhere& elsewhere : elsewhere_) beyond.push_back(elsewhere.of(sums_, lamps));
     for (size_t i = 0; i < frames.size(); ++i) {
         Frame& frame = frames[i];
-        if (eye) mapper_->set_eye(*eye);
+        mapper_->set_eye(eye.value_or(shared::EyeState{}));
         const VkExtent2D extent = guarded[i].extent;
         ToneMapped seen = mapper_->map(settings, {.extent = extent, .values = frame.retina, .channels = 4, .angles = &pictures_[i].image, .beyond = &beyond[i]}, seconds,
                                        {.display = false, .retina = true});

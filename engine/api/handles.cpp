@@ -144,7 +144,7 @@ VesperFrameReport report_of(const ToneMapped& frame) {
             .milliseconds = frame.milliseconds};
 }
 
-VesperFrameReport report_of_handed_over(const ToneMapped& frame) {
+VesperFrameReport report_of_submitted(const ToneMapped& frame) {
     VesperFrameReport report = report_of(frame);
     report.milliseconds = 0;
     for (const Timing& pass : frame.timings) report.milliseconds += pass.milliseconds;

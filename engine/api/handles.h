@@ -26,8 +26,7 @@ struct VesperToneMapper {
     explicit VesperToneMapper(vesper::Device& of) : device(of), engine(of) {}
     const vesper::Device& device;
     vesper::ToneMapper engine;
-    vesper::shared::EyeState eye{};           // what the last picture left
-    std::optional<VesperFrameReport> report;  // of the last one that was handed over and waited for, until it is asked for
+    std::optional<VesperFrameReport> report;  // of the last submitted frame that was finished, until it is asked for
 };
 
 struct VesperScene {
@@ -46,8 +45,7 @@ struct VesperRenderer {
     vesper::Renderer engine;
     std::map<uint32_t, glm::mat4> places;     // of nodes that were put somewhere: node frame to world
     std::map<uint32_t, float> dimming;        // of lamps at nodes
-    vesper::shared::EyeState eye{};           // what the last frame left
-    std::optional<VesperFrameReport> report;  // of the last one that was handed over and waited for, until it is asked for
+    std::optional<VesperFrameReport> report;  // of the last submitted frame that was finished, until it is asked for
 };
 
 namespace vesper::api {
@@ -111,27 +109,28 @@ RenderSettings settings_of(const VesperToneSettings* given);  ///< null: the def
 VesperOutputs outputs_of(const VesperOutputs* given);
 Outputs wanted(const VesperOutputs& to);
 void give(const ToneMapped& frame, const VesperOutputs& to);
-/// A report that may be asked for, checked; what a frame in arrays brought, and one that was handed over.
+/// A report that may be asked for, checked; that of a frame in arrays, and that of a submitted frame.
 void check_report(const VesperFrameReport* report);
 VesperFrameReport report_of(const ToneMapped& frame);
-VesperFrameReport report_of_handed_over(const ToneMapped& frame);
+VesperFrameReport report_of_submitted(const ToneMapped& frame);
 
 /// What the eye remembers, as bytes.
 void give_eye(const shared::EyeState& eye, void* bytes);
 shared::EyeState eye_of(const void* bytes, size_t size);
 
-/// Waits for what a tone mapper or renderer was handed over. What the last of it left stays known, whatever comes of the call that waits.
+/// Waits for the submitted frames of a tone mapper or renderer. The report of the last one stays known, whatever comes of
+/// the call that waits.
 template <class Handle>
 void finish(Handle& handle) {
     const auto frame = handle.engine.finish();
-    if (frame) handle.eye = frame->eye, handle.report = report_of_handed_over(*frame);
+    if (frame) handle.report = report_of_submitted(*frame);
 }
 constexpr const char* kBorrowed = "images are those of a host's device (vesper_device_borrow)";
-/// Hands over a frame: where its settings look back, the one before is waited for.
+/// Submits a frame. Where its settings need the frame before on the host, that one is finished first.
 template <class Handle, class... Arguments>
 void submit_frame(Handle& handle, const RenderSettings& settings, const Arguments&... arguments) {
     require(handle.device.borrowed(), kBorrowed);
-    if (EyeKeeper::looks_back(settings)) finish(handle);
+    if (FrameQueue::needs_finished_frame(settings)) finish(handle);
     handle.engine.submit(settings, arguments...);
     handle.report.reset();
 }
@@ -153,7 +152,6 @@ VesperResult reset_eye(Handle* handle, VesperError* error) {
         require(handle, Handle::kNone);
         finish(*handle);
         handle->engine.reset_adaptation();
-        handle->eye = {};
     });
 }
 template <class Handle>
@@ -162,7 +160,7 @@ VesperResult read_eye(Handle* handle, void* bytes, VesperError* error) {
         require(handle, Handle::kNone);
         require(bytes, "no place for what the eye remembers");
         finish(*handle);
-        give_eye(handle->eye, bytes);
+        give_eye(handle->engine.eye(), bytes);
     });
 }
 template <class Handle>
@@ -172,7 +170,6 @@ VesperResult set_eye(Handle* handle, const void* bytes, size_t size, VesperError
         require(bytes, "nothing to remember");
         const shared::EyeState eye = eye_of(bytes, size);
         finish(*handle);
-        handle->eye = eye;
         handle->engine.set_eye(eye);
     });
 }

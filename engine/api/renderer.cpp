@@ -96,7 +96,6 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
         finish(*renderer);  // what it left stays should this frame fail
         take_over_scene(*renderer);
         const Frame frame = renderer->engine.render(how, seen.view, seen.frame, passed, wanted(to));
-        renderer->eye = frame.eye;
         give(frame, to);
     });
 }

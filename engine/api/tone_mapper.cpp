@@ -36,7 +36,6 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
         const float passed = seconds_of(seconds);
         finish(*mapper);  // what it left stays should this picture fail
         const ToneMapped shown = mapper->engine.map(how, host, passed, wanted(to));
-        mapper->eye = shown.eye;
         give(shown, to);
     });
 }

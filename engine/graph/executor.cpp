@@ -43,7 +43,7 @@ struct Executor::Past {
     OwnedImageView views[2];
     OwnedBuffer buffers[2];
     int current = 0;        // the half the next frame writes
-    bool forgotten = true;  // zero before the next frame
+    bool is_new = true;     // zero before the next frame
 
     Past(const Device& device, const Shape& s, uint32_t u) : shape(s), usage(u), arena(device) {
         for (int half : {0, 1}) {
@@ -146,7 +146,7 @@ void Executor::submit(const FrameGraph& graph, const SubmitSemaphores& semaphore
     unread_ = true;
     turned_.swap(turning_);
     for (Past* past : turned_) past->current ^= 1;
-    for (Past* past : cleared_) past->forgotten = false;
+    for (Past* past : cleared_) past->is_new = false;
     times.submit = watch.lap(), times.wait = host_times_.wait;
     host_times_ = times;
 }
@@ -238,7 +238,7 @@ void Executor::realize_histories(const FrameGraph& graph) {
             wait();  // what is under way uses it
             past = std::make_unique<Past>(device_, info.shape, usage);
         }
-        if (past->forgotten) cleared_.push_back(past.get());
+        if (past->is_new) cleared_.push_back(past.get());
         for (const auto& [index, half] : {std::pair{i, past->current}, std::pair{info.partner, 1 - past->current}}) {
             Realized& r = resources_[index];
             r.image = past->images[half].get(), r.view = past->views[half].get();
@@ -330,10 +330,6 @@ std::span<const std::byte> Executor::read(Resource readback) const {
     if (place == slot_->places.end()) throw Error("a resource that is not a readback cannot be read");
     if (slot_->under_way) throw Error("a frame that is under way cannot be read");
     return {slot_->readbacks.data() + place->second.offset, place->second.bytes};
-}
-
-void Executor::reset(const std::string& history) {
-    if (const auto found = histories_.find(history); found != histories_.end() && found->second) found->second->forgotten = true;
 }
 
 uint64_t Executor::heap_bytes() const {

@@ -55,8 +55,6 @@ public:
     const Plan& plan() const { return plan_; }                             ///< of the last frame
     const std::vector<Timing>& timings() const { return slot_->timings; }  ///< of the last frame, which is finished; empty without timestamps
     const HostTimes& host_times() const { return host_times_; }            ///< of the last frame
-    /// Makes a history zero again for the next frame, as after a camera cut. Unknown names are ignored.
-    void reset(const std::string& history);
     uint64_t heap_bytes() const;  ///< device memory behind transients, bytes
 
 private:

@@ -9,7 +9,7 @@
 namespace vesper {
 
 Renderer::Renderer(Device& device, const Scene& scene)
-    : device_(device), kernels_(device), scene_(std::make_unique<SceneData>(device, scene)), eye_(device), executor_(device) {}
+    : device_(device), scene_(std::make_unique<SceneData>(device, scene)), frames_(device) {}
 
 Renderer::SceneData::SceneData(const Device& device, const Scene& scene)
     : resident(device, scene),
@@ -35,7 +35,7 @@ Renderer::TexelBuffer Renderer::SceneData::upload(const Device& device, const st
 
 void Renderer::set_scene(const Scene& scene) {
     auto data = std::make_unique<const SceneData>(device_, scene);
-    executor_.wait();  // frames under way use the old scene
+    frames_.wait();  // frames under way use the old scene
     scene_ = std::move(data);
 }
 
@@ -64,7 +64,7 @@ Renderer::FrameInputs Renderer::inputs_of(FrameGraph& graph, const RenderSetting
     in.shading.all_lamps = settings.all_lamps;
     if (settings.paper_lambert) in.shading.lambert = 1;
     if (settings.unit_lamps) in.shading.emission_limit = 1;
-    in.chain = eye_.inputs(executor_, settings, view, seconds);
+    in.chain = frames_.inputs(settings, view, seconds);
     in.chain.scatter.lamps = settings.offscreen_lamps;
     if (settings.lamps_alone) {
         in.luminaires.glare_sources.clear();
@@ -105,43 +105,28 @@ Frame Renderer::render(const RenderSettings& settings, const View& view, const S
 
 void Renderer::submit(const RenderSettings& given, const View& view, const SceneFrame& poses, float seconds,
                       const Outputs& outputs, const SubmitSemaphores& semaphores) {
-    if (EyeKeeper::looks_back(given)) finish();
-    Pending pending{};
     const RenderSettings settings = ldr_baseline(given);
-    FrameGraph graph;
-    FrameInputs inputs = inputs_of(graph, settings, view, poses, seconds);
-    pending.chain = declare({graph, kernels_, view}, poses, inputs, settings, outputs, pending);
-    Frame& result = pending.frame;
-    result.extent = view.extent;
-    result.host_times.declare = pending.watch.milliseconds();
-    if (inputs.chain.corona) {
-        result.pupil = inputs.chain.corona->pupil;
-        result.pattern_milliseconds = inputs.chain.corona->milliseconds;
-    }
-    result.lamps = uint32_t(inputs.lamps.lamps.size());
-    result.luminaires = uint32_t(inputs.luminaires.luminaires.size());
-    result.glare_sources = std::move(inputs.luminaires.glare_sources);
-    result.outside = std::move(inputs.chain.scatter.lamps);
-
-    executor_.submit(graph, semaphores);
+    frames_.prepare(settings);
+    FrameQueue::Declared frame{.extent = view.extent};
+    FrameInputs inputs = inputs_of(frame.graph, settings, view, poses, seconds);
+    Pending pending{};
+    frame.chain = declare(frames_.context(frame.graph, view), poses, inputs, settings, outputs, pending);
+    frames_.submit(std::move(frame), inputs.chain, semaphores);
     // Nothing fails from here on.
-    eye_.submitted();
-    graph_ = std::move(graph);
+    pending.frame.lamps = uint32_t(inputs.lamps.lamps.size());
+    pending.frame.luminaires = uint32_t(inputs.luminaires.luminaires.size());
+    pending.frame.glare_sources = std::move(inputs.luminaires.glare_sources);
+    pending.frame.outside = std::move(inputs.chain.scatter.lamps);
     pending_ = std::move(pending);
 }
 
 std::optional<Frame> Renderer::finish() {
-    if (!executor_.finish()) pending_.reset();
-    if (!pending_) return std::nullopt;
-    Frame result = std::move(pending_->frame);
-    const double declared_after = result.host_times.declare;
-    result.milliseconds = pending_->watch.milliseconds();
-    read_tone_chain(executor_, pending_->chain, result.extent, result);
-    result.host_times.declare = declared_after;
-    eye_.read(result.eye);
-    result.clusters = read_one<shared::ClusterReport>(executor_, pending_->clusters);
-    pending_.reset();
-    return result;
+    std::optional<ToneMapped> shown = frames_.finish();
+    if (!shown) return std::nullopt;
+    Frame frame = std::move(pending_->frame);
+    static_cast<ToneMapped&>(frame) = std::move(*shown);
+    frame.clusters = read_one<shared::ClusterReport>(frames_.executor(), pending_->clusters);
+    return frame;
 }
 
 }  // namespace vesper

@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "base/stopwatch.h"
 #include "gpu_scene/cameras.h"
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/lamps.h"
 #include "gpu_scene/luminaires.h"
+#include "render/frame_queue.h"
 #include "render/passes/daylight.h"
 #include "render/passes/shade.h"
 #include "render/passes/sky.h"
-#include "render/tone_chain.h"
 
 namespace vesper {
 
@@ -64,14 +63,16 @@ public:
     void set_scene(const Scene& scene);
 
     /// The plan of the last frame as text.
-    std::string plan() const { return graph_.describe(executor_.plan()); }
+    std::string plan() const { return frames_.plan(); }
     /// Forgets what the eye was adapted to, as at a camera cut.
-    void reset_adaptation() { eye_.reset(executor_); }
+    void reset_adaptation() { frames_.set_eye({}); }
     /// The next frame goes on from this state, such as Frame::eye of an earlier run.
-    void set_eye(const shared::EyeState& eye) { eye_.set(eye); }
+    void set_eye(const shared::EyeState& eye) { frames_.set_eye({eye}); }
+    /// The state that the last finished frame left, or that was set since.
+    const shared::EyeState& eye() const { return frames_.eye().value; }
     const GpuScene& scene() const { return scene_->resident; }
     uint64_t device_bytes() const {
-        return scene_->resident.bytes() + scene_->table_arena.bytes() + executor_.heap_bytes();
+        return scene_->resident.bytes() + scene_->table_arena.bytes() + frames_.executor().heap_bytes();
     }
 
 private:
@@ -108,9 +109,7 @@ private:
     };
     /// The results of a submitted frame, as far as they are known.
     struct Pending {
-        Stopwatch watch;
         Frame frame;
-        ToneChain chain;
         Resource clusters;  // to be read
     };
 
@@ -120,11 +119,8 @@ private:
                       const RenderSettings& settings, const Outputs& outputs, Pending& pending) const;
 
     const Device& device_;
-    KernelCache kernels_;
     std::unique_ptr<const SceneData> scene_;
-    EyeKeeper eye_;
-    FrameGraph graph_;  // of the last one
-    Executor executor_;  // waits for its frames, which use the rest
+    FrameQueue frames_;  // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };
 

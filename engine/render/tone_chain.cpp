@@ -98,7 +98,7 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
     const FovealView fovea{level, luminance.extents[level - 1], frame.view.extent};
     const shared::ToneParameters parameters =
         tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, inputs.seconds);
-    const auto [curve, eye] = add_adaptation(frame, {luminance, level, histogram, colours, inputs.remembered}, op, parameters);
+    const auto [curve, eye] = add_adaptation(frame, {luminance, level, histogram, colours, inputs.eye}, op, parameters);
 
     Resource picture = add_acuity(frame, retina, luminance, level, settings.tone.acuity_loss);
     picture = add_bands(frame, picture, luminance, level, curve, {op.bands, tone_of(op, settings.tone), parameters});
@@ -152,22 +152,6 @@ std::optional<ShownFormat> shown_format(VkFormat format) {
         default:
             return std::nullopt;
     }
-}
-
-ChainInputs EyeKeeper::inputs(Executor& executor, const ToneChainSettings& settings, const View& view, float seconds) {
-    ChainInputs given{.seconds = seconds, .remembered = given_ ? &*given_ : nullptr};
-    if (settings.glare != Glare::Scatter) return given;
-    if (!scatter_.has(settings.scatter, view)) executor.wait();  // what is under way uses the one that goes
-    given.scatter.fit = &scatter_.at(settings.scatter, view);
-    const shared::EyeState& before = given_ ? *given_ : last_;
-    if (settings.scatter.has_corona()) given.corona = &corona_.at(settings.scatter, double(before.pupil), double(before.seconds) + double(before.seconds_lost) + double(seconds));
-    return given;
-}
-
-void EyeKeeper::reset(Executor& executor) {
-    executor.reset(kEyeHistory);
-    given_.reset();
-    last_ = {};
 }
 
 }  // namespace vesper

@@ -1,4 +1,4 @@
-// Tone mapping of pictures that nobody here rendered. SPDX-License-Identifier: MIT
+// Tone mapping of pictures of other origin. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <optional>
@@ -6,32 +6,33 @@
 
 #include "base/stopwatch.h"
 #include "gpu/memory.h"
-#include "render/tone_chain.h"
+#include "render/frame_queue.h"
 
 namespace vesper {
 
 /// A picture on the host.
 struct HostPicture {
-    VkExtent2D extent{};            ///< px
-    std::span<const float> values;  ///< RGB (or RGBA, alpha ignored) in linear Rec. 709, rows from the top
-    uint32_t channels = 3;          ///< 3 or 4
-    float scale = 1;                ///< cd/m^2 per unit
-    double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
+    VkExtent2D extent{};                      ///< px
+    std::span<const float> values;            ///< RGB (or RGBA, alpha ignored) in linear Rec. 709, rows from the top
+    uint32_t channels = 3;                    ///< 3 or 4
+    float scale = 1;                          ///< cd/m^2 per unit
+    double vertical_fov = 0.7;                ///< rad, in (0, pi): what angle the picture covers in height
     std::vector<OffscreenLamp> outside = {};  ///< lamps that scatter light into it; the picture is seen along -z, y up
-    const ImageAngles* angles = nullptr;    ///< of its edges, in place of vertical_fov, where the eye's axis is not in its middle
-    const OffscreenLight* beyond = nullptr;    ///< that other pictures of the eye scatter into it
+    const ImageAngles* angles =
+        nullptr;  ///< of its edges, in place of vertical_fov, where the eye's axis is not in its middle
+    const OffscreenLight* beyond = nullptr;  ///< that other pictures of the eye scatter into it
 };
 
 /// A picture on the device, in an external image that can be sampled.
 struct DevicePicture {
-    ExternalImage image;             ///< RGB in linear Rec. 709, rows from the top
-    float scale = 1;                ///< cd/m^2 per unit
-    double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
+    ExternalImage image;                  ///< RGB in linear Rec. 709, rows from the top
+    float scale = 1;                      ///< cd/m^2 per unit
+    double vertical_fov = 0.7;            ///< rad, in (0, pi): what angle the picture covers in height
     const ImageAngles* angles = nullptr;  ///< as of HostPicture
 };
 
-/// Maps pictures of any size to the display, one after the other; the eye remembers from each to the next, also when the
-/// size changes. Not thread-safe; several may share a device in one thread.
+/// Maps pictures of any size to the display, one after the other; the eye remembers from each to the next, also when
+/// the size changes. Not thread-safe; several may share a device in one thread.
 class ToneMapper {
 public:
     /// The glare of `views` sizes or angles of pictures is kept, rather than made anew when they change.
@@ -40,35 +41,28 @@ public:
     /// `seconds` have passed since the last picture. NaN and infinities are shown black and counted. Throws Error.
     ToneMapped map(const ToneChainSettings&, const HostPicture&, float seconds, Outputs outputs = {});
 
-    /// The same for a picture on the device, shown in an image there: handed to the queue between semaphores of others, without waiting.
-    void submit(const ToneChainSettings&, const DevicePicture&, const ExternalImage& shown, float seconds, const SubmitSemaphores&);
-    /// Waits for all of them, and gives what the last one left; nothing where there was none.
-    std::optional<ToneMapped> finish();
+    /// The same for a picture on the device, shown in an image there: submitted between semaphores, without waiting.
+    void submit(const ToneChainSettings&, const DevicePicture&, const ExternalImage& shown, float seconds,
+                const SubmitSemaphores&);
+    /// Waits for all submitted pictures. Returns the results of the last one, once.
+    std::optional<ToneMapped> finish() { return frames_.finish(); }
 
     /// Forgets what the eye was adapted to, as between pictures that have nothing to do with each other.
-    void reset_adaptation() { eye_.reset(executor_); }
+    void reset_adaptation() { frames_.set_eye({}); }
     /// The next picture goes on from this state, such as ToneMapped::eye of an earlier run.
-    void set_eye(const shared::EyeState& eye) { eye_.set(eye); }
+    void set_eye(const shared::EyeState& eye) { frames_.set_eye({eye}); }
+    /// The state that the last finished picture left, or that was set since.
+    const shared::EyeState& eye() const { return frames_.eye().value; }
     /// The plan of the last picture as text.
-    std::string plan() const { return graph_.describe(executor_.plan()); }
+    std::string plan() const { return frames_.plan(); }
 
 private:
-    /// A picture that was handed to the queue.
-    struct Pending {
-        Stopwatch watch;
-        ToneMapped result;
-        ToneChain chain;
-    };
-    void submit(FrameGraph&, Resource scene, const ToneChainSettings&, const View&, float seconds, const std::vector<OffscreenLamp>&, const OffscreenLight*, const Outputs&,
-                const SubmitSemaphores&, Stopwatch);
+    void submit(FrameQueue::Declared frame, Resource scene, const ToneChainSettings& settings, const View& view,
+                const ChainInputs& inputs, const Outputs& outputs, const SubmitSemaphores& semaphores);
 
     Device& device_;
-    KernelCache kernels_;
     HostBuffer pixels_;
-    EyeKeeper eye_;
-    FrameGraph graph_;  // of the last one
-    Executor executor_;  // waits for its frames, which use the rest
-    std::optional<Pending> pending_;
+    FrameQueue frames_;  // waits for its frames, which use the rest
 };
 
 }  // namespace vesper

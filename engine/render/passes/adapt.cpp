@@ -9,6 +9,7 @@ namespace vesper {
 namespace {
 
 constexpr Shader kAdapt{"adapt.comp", adapt_comp};
+constexpr const char* kEyeHistory = "eye";  // on the device, from frame to frame
 
 shared::ReceptorParameters receptors_of(ReceptorKind kind, const Receptors& r, ThresholdBreaks breaks) {
     const ReceptorModel model(kind, r, breaks);
@@ -65,15 +66,16 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
 
 Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inputs, const OperatorInfo& op,
                           shared::ToneParameters parameters) {
-    const auto& [pyramid, foveal_level, histogram, colours, remembered] = inputs;
+    const auto& [pyramid, foveal_level, histogram, colours, eye] = inputs;
     parameters.colour_tiles = {colours.extent.width, colours.extent.height};
     const Resource curve = frame.graph.transient("tone curve", buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT));
     const History history = frame.graph.history(kEyeHistory, buffer_shape(sizeof(shared::EyeState)));
-    const Resource previous = remembered ? frame.graph.upload("eye as set", std::vector{*remembered}) : history.previous;
+    // Declared in both cases: frames with the same resources keep their memory.
+    const Resource value = frame.graph.upload("eye of the host", std::vector{eye.value});
     frame.graph.dispatch("adapt", frame.kernels.get(kAdapt, {op.model}),
                          {load(pyramid.levels.back()), load(pyramid.levels.at(foveal_level - 1)), load(histogram),
                           load(frame.graph.upload("tone parameters", std::vector{parameters})),
-                          load(previous), store(history.current), store(curve),
+                          load(eye.on_device ? history.previous : value), store(history.current), store(curve),
                           load(colours.tiles ? colours.tiles : pyramid.levels.back())},
                          Groups{});
     return {curve, history.current};

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include "render/eye_state.h"
 #include "render/passes/colours.h"
 #include "render/passes/histogram.h"
 #include "render/passes/operators.h"
@@ -44,15 +45,12 @@ struct FovealView {
 shared::ToneParameters tone_parameters(const OperatorInfo&, const HistogramSettings&, const ToneSettings&, const Display&,
                                        const FovealView&, float seconds);
 
-/// What add_adaptation keeps from frame to frame; Executor::reset of it forgets what the eye was adapted to.
-constexpr const char* kEyeHistory = "eye";
-
 struct AdaptationInputs {
     const Pyramid& pyramid;
     uint32_t foveal_level;
     Resource histogram;
     Colours colours = {};  ///< of operators whose eye adapts to colour
-    const shared::EyeState* remembered = nullptr;  ///< what the eye remembers instead of the last frame
+    EyeState eye = {};
 };
 
 struct Adaptation {

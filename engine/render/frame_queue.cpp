@@ -1,0 +1,58 @@
+#include "render/frame_queue.h"
+
+#include <utility>
+
+namespace vesper {
+
+FrameQueue::FrameQueue(Device& device, size_t views) : kernels_(device), scatter_(device, views), executor_(device) {}
+
+void FrameQueue::prepare(const ToneChainSettings& settings) {
+    if (needs_finished_frame(settings)) finish();
+}
+
+ChainInputs FrameQueue::inputs(const ToneChainSettings& settings, const View& view, float seconds) {
+    ChainInputs inputs{.seconds = seconds, .eye = eye_};
+    if (settings.glare != Glare::Scatter) return inputs;
+    if (!scatter_.has(settings.scatter, view)) wait();  // frames under way use the fit that the new one replaces
+    inputs.scatter.fit = &scatter_.at(settings.scatter, view);
+    if (!settings.scatter.has_corona()) return inputs;
+    const double life = double(eye_.value.seconds) + double(eye_.value.seconds_lost) + double(seconds);
+    inputs.corona = &corona_.at(settings.scatter, double(eye_.value.pupil), life);
+    return inputs;
+}
+
+void FrameQueue::submit(Declared frame, const ChainInputs& inputs, const SubmitSemaphores& semaphores) {
+    Pending pending{frame.watch, frame.chain, inputs.eye, {}};
+    pending.result.extent = frame.extent;
+    if (inputs.corona) {
+        pending.result.pupil = inputs.corona->pupil;
+        pending.result.pattern_milliseconds = inputs.corona->milliseconds;
+    }
+    pending.result.host_times.declare = frame.watch.milliseconds();
+    executor_.submit(frame.graph, semaphores);
+    // Nothing fails from here on.
+    if (pending.chain.eye) eye_ = eye_.submitted();
+    graph_ = std::move(frame.graph);
+    pending_ = std::move(pending);
+}
+
+std::optional<ToneMapped> FrameQueue::finish() {
+    try {
+        if (!executor_.finish()) pending_.reset();
+    } catch (...) {
+        // A frame that failed has left nothing: the next one takes the state that this one took.
+        if (pending_ && eye_.on_device) eye_ = pending_->eye;
+        throw;
+    }
+    if (!pending_) return std::nullopt;
+    ToneMapped result = std::move(pending_->result);
+    result.milliseconds = pending_->watch.milliseconds();
+    const double declared_after = result.host_times.declare;
+    read_tone_chain(executor_, pending_->chain, result.extent, result);
+    result.host_times.declare = declared_after;
+    if (pending_->chain.eye) eye_ = eye_.finished(result.eye);
+    pending_.reset();
+    return result;
+}
+
+}  // namespace vesper

@@ -1,0 +1,74 @@
+// Submits frames, and carries the state of the eye from each to the next. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/stopwatch.h"
+#include "gpu/kernel_cache.h"
+#include "gpu_scene/eye_corona.h"
+#include "gpu_scene/eye_scatter.h"
+#include "graph/executor.h"
+#include "render/eye_state.h"
+#include "render/tone_chain.h"
+
+namespace vesper {
+
+/// Submits frames and reads their results. Not thread-safe.
+class FrameQueue {
+public:
+    /// Keeps the fitted eye scatter of `views` sizes or angles of pictures.
+    explicit FrameQueue(Device& device, size_t views = 1);
+
+    /// Whether frames of these settings need the state of the eye on the host, so that the last frame must be finished.
+    static bool needs_finished_frame(const ToneChainSettings& settings) {
+        return settings.glare == Glare::Scatter && settings.scatter.has_corona();
+    }
+    /// Finishes the last frame, and drops its results, if frames of these settings need that.
+    void prepare(const ToneChainSettings& settings);
+    /// A frame to be declared.
+    FrameContext context(FrameGraph& graph, const View& view) const { return {graph, kernels_, view}; }
+    /// The eye as a frame of `view` finds it `seconds` after the last one, with its scatter if the settings have any.
+    ChainInputs inputs(const ToneChainSettings& settings, const View& view, float seconds);
+
+    /// A declared frame.
+    struct Declared {
+        Stopwatch watch;  ///< since its declaration began
+        FrameGraph graph;
+        ToneChain chain;
+        VkExtent2D extent{};
+    };
+    /// Submits a frame, which was declared with these inputs, between semaphores and without waiting. If it throws
+    /// Error nothing has changed.
+    void submit(Declared frame, const ChainInputs& inputs, const SubmitSemaphores& semaphores);
+    /// Waits for all submitted frames. Returns the results of the last one, once; its readbacks can be read until the
+    /// next frame is submitted.
+    std::optional<ToneMapped> finish();
+    /// Waits for all submitted frames; the results of the last one remain to be finished.
+    void wait() { executor_.wait(); }
+
+    const Executor& executor() const { return executor_; }
+    const EyeState& eye() const { return eye_; }
+    /// The state that the next frame takes.
+    void set_eye(const EyeState& eye) { eye_ = eye; }
+    /// The plan of the last frame as text.
+    std::string plan() const { return graph_.describe(executor_.plan()); }
+
+private:
+    struct Pending {
+        Stopwatch watch;
+        ToneChain chain;
+        EyeState eye;       // that it took
+        ToneMapped result;  // what the host knows before the frame is finished
+    };
+
+    KernelCache kernels_;
+    ScatterCache scatter_;
+    CoronaCache corona_;
+    EyeState eye_;
+    FrameGraph graph_;   // of the last frame
+    Executor executor_;  // waits for its frames, which use the members above
+    std::optional<Pending> pending_;
+};
+
+}  // namespace vesper

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shaders/adapt.comp.inc"
+#include "shaders/adapt/adapt.comp.inc"
 #include "shared/photometry.h"
 
 namespace vesper {

@@ -1,6 +1,6 @@
 #include "render/passes/bands.h"
 
-#include "shaders/bands.comp.inc"
+#include "shaders/bands/bands.comp.inc"
 #include "shared/bands.h"
 
 namespace vesper {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shaders/bloom_blur.comp.inc"
-#include "shaders/bloom_bright.comp.inc"
+#include "shaders/bloom/bloom_blur.comp.inc"
+#include "shaders/bloom/bloom_bright.comp.inc"
 
 namespace vesper {
 namespace {

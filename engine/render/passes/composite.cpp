@@ -1,8 +1,8 @@
 #include "render/passes/composite.h"
 
 #include "gpu_scene/encoding.h"
-#include "shaders/composite.comp.inc"
-#include "shaders/display_light.comp.inc"
+#include "shaders/composite/composite.comp.inc"
+#include "shaders/composite/display_light.comp.inc"
 #include "shared/gamut.h"
 #include "shared/photometry.h"
 

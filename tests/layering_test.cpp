@@ -104,16 +104,42 @@ TEST(Layering, TheRulesRefuse) {
     EXPECT_EQ(objection("io/image_file.h", "scene/scene.h"), "");
     EXPECT_EQ(objection("render/passes/a.cpp", "graph/plan.h"), "");
     EXPECT_EQ(objection("api/a.cpp", "io/image_file.h"), "");
+    EXPECT_NE(objection("renderer.cpp", "io/image_file.h"), "") << "has no layer";
 }
 
-TEST(Layering, EveryPassHasAReferenceAndATest) {
-    const fs::path tests = kSource / "tests" / "passes";
-    for (const fs::path& file : files_under(kSource / "engine" / "render" / "passes", {".cpp"})) {
-        const std::string text = text_of(file), pass = file.stem().string();
-        if (pass == "operators") continue;  // the table of what the passes of the tone chain are told
+/// The files that a pass of this name lacks.
+std::vector<std::string> missing_of(const std::string& pass) {
+    const fs::path files[]{"engine/render/passes/" + pass + ".h",      "engine/render/passes/" + pass + ".cpp",
+                           "glsl/" + pass,                             "tests/passes/" + pass + "_reference.h",
+                           "tests/passes/" + pass + "_reference_test.cpp", "tests/passes/" + pass + "_test.cpp"};
+    std::vector<std::string> missing;
+    for (const fs::path& file : files)
+        if (!fs::exists(kSource / file)) missing.push_back(file.string());
+    return missing;
+}
+
+// A pass has a header, a source, a shader folder, a reference and tests under one name, and declares itself there.
+TEST(Layering, EveryPassHasItsFilesUnderOneName) {
+    EXPECT_EQ(missing_of("no_such_pass").size(), 6u);
+    size_t passes = 0;
+    for (const fs::path& file : files_under(kSource / "engine" / "render" / "passes", {".h", ".cpp"})) {
+        const std::string pass = file.stem().string();
+        if (pass == "operators") continue;  // the table of the tone operators
+        EXPECT_EQ(missing_of(pass), std::vector<std::string>()) << pass;
+        if (file.extension() != ".cpp") continue;
+        const std::string text = text_of(file);
         EXPECT_TRUE(text.find(".dispatch(") != text.npos || text.find(".raster(") != text.npos) << pass << " declares no pass";
-        EXPECT_TRUE(fs::exists(tests / (pass + "_reference.h"))) << pass;
-        EXPECT_TRUE(fs::exists(tests / (pass + "_test.cpp"))) << pass;
+        ++passes;
+    }
+    EXPECT_GT(passes, 15u);
+}
+
+// A folder of shaders belongs to the pass of its name; the other folders are listed here.
+TEST(Layering, EveryShaderIsInTheFolderOfItsPass) {
+    const std::set<std::string> others{"window"};
+    for (const fs::path& file : files_under(kSource / "glsl", {".comp", ".vert", ".frag"})) {
+        const std::string folder = first_folder(fs::relative(file, kSource / "glsl"));
+        EXPECT_TRUE(others.contains(folder) || missing_of(folder).empty()) << file;
     }
 }
 

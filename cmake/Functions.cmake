@@ -18,12 +18,55 @@ function(vesper_embed_shaders target)
             DEPENDS ${source}
             DEPFILE ${made}.d
             COMMAND ${VESPER_GLSLANG} --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/glsl
-                    --vn ${symbol} --depfile ${made}.d -o ${made} ${source}
+                    -I${CMAKE_CURRENT_BINARY_DIR}/operators --vn ${symbol} --depfile ${made}.d -o ${made} ${source}
             COMMENT "Shader ${name}"
             VERBATIM)
         target_sources(${target} PRIVATE ${made})
     endforeach()
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()
+
+# vesper_operators(<target>)
+#   Reads the operators of vesper/operators.h and writes, for files named after them, what includes and calls them:
+#   operators_frames.glsl (NAME_frame) and operators_pixels.glsl (NAME_seen, NAME_mapped, NAME_rgb, where there are any)
+#   of glsl/operators/NAME.glsl, and render/operators/all.inc of engine/render/operators/NAME.h.
+function(vesper_operators target)
+    set(list ${PROJECT_SOURCE_DIR}/engine/include/vesper/operators.h)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
+    file(READ ${list} text)
+    string(REGEX MATCHALL "X\\([A-Z]+, [A-Za-z]+, [a-z]+, [0-9]+," lines "${text}")
+    foreach(line IN LISTS lines)
+        string(REGEX REPLACE "X\\([A-Z]+, [A-Za-z]+, ([a-z]+), ([0-9]+)," "\\1;\\2" both "${line}")
+        list(GET both 0 name)
+        list(GET both 1 value)
+        set(shader ${PROJECT_SOURCE_DIR}/glsl/operators/${name}.glsl)
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shader})
+        file(READ ${shader} text)
+        string(APPEND includes "#include \"operators/${name}.glsl\"\n")
+        string(APPEND headers "#include \"render/operators/${name}.h\"\n")
+        string(APPEND frame "    if (kOperator == ${value}u) ${name}_frame(frame);\n")
+        if(text MATCHES " ${name}_seen\\(")
+            string(APPEND seen "    if (kForm == ${value}u) return ${name}_seen(tone, rgb);\n")
+        endif()
+        if(text MATCHES " ${name}_mapped\\(")
+            string(APPEND itself " || kForm == ${value}u")
+            string(APPEND mapped "    if (kForm == ${value}u) return ${name}_mapped(curve, tone, rgb, luminance);\n")
+        endif()
+        if(text MATCHES " ${name}_rgb\\(")
+            string(APPEND itself " || kForm == ${value}u")
+            string(APPEND rgb "    if (kForm == ${value}u && is_finite(luminance_of(rgb))) return ${name}_rgb(tone, rgb);\n")
+        endif()
+    endforeach()
+    set(pixel_includes "${includes}\nconst bool kMapsItself = false${itself};\n\n")
+    set(made ${CMAKE_CURRENT_BINARY_DIR}/operators)
+    file(CONFIGURE OUTPUT ${made}/operators_frames.glsl @ONLY
+         CONTENT "${includes}\nvoid operator_frame(Frame frame) {\n${frame}}\n")
+    file(CONFIGURE OUTPUT ${made}/operators_pixels.glsl @ONLY
+         CONTENT "${pixel_includes}vec3 operator_seen(Tone tone, vec3 rgb) {\n${seen}    return rgb;\n}\n
+Mapped operator_mapped(samplerBuffer curve, Tone tone, vec3 rgb, float luminance) {\n${mapped}    return Mapped(luminance, 1.0, 1.0);\n}\n
+vec3 operator_rgb(Tone tone, vec3 rgb) {\n${rgb}    return rgb;\n}\n")
+    file(CONFIGURE OUTPUT ${made}/render/operators/all.inc CONTENT "${headers}" @ONLY)
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${made}>)
 endfunction()
 
 # vesper_embed_texts(<target> <made> <file>...)

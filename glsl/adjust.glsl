@@ -18,9 +18,11 @@ shared float ceiling_of[kMaxBins];  // n, above the anchor
 shared float base_of[kMaxBins];
 shared float votes_of[kMaxBins];    // l times the votes, in differences
 shared uint best;
+shared float share_of[kMaxBins];  // of the votes, bin by bin
 
+// Of the eye; of rods in luminance, as the histogram is.
 struct Thresholds {
-    float cone_sigma, rod_sigma;  // of the eye
+    float cone_sigma, rod_sigma;
 };
 
 float scene_threshold(Thresholds eye, float luminance) {
@@ -32,8 +34,6 @@ float scene_threshold(Thresholds eye, float luminance) {
     const float rods = mal_adapted_threshold(parameters.rods, luminance, eye.rod_sigma);
     return parameters.use_rods != 0u ? min(cones, rods) : cones;
 }
-
-uint steps() { return parameters.bins * parameters.steps_per_bin; }
 
 float viewer_response(float luminance) { return luminance / (luminance + parameters.viewer_sigma); }
 float luminance_of_response(float response) { return parameters.viewer_sigma * response / (1.0 - response); }
@@ -157,4 +157,29 @@ float adjust(float h, Thresholds eye, out float lowest, out bool under_full, out
     lowest = log(clamp(luminance_at(climbed(darker, all_below, anchor)), low, high));
     const float here = part_above > 0.0 ? min(anchor + from_anchor, anchor + room) : climbed(darker + to_below, all_below, anchor);
     return log(clamp(luminance_at(here), low, high));
+}
+
+// This invocation's step of the shares of all bins, seen through a window, a cubic B-spline; whole votes: its bin.
+float per_step(float share) {
+    const uint mine = gl_LocalInvocationIndex;
+    if (parameters.window == 0.0) return share;
+    share_of[mine] = share;
+    barrier();
+    const float at = (float(mine) + 0.5) / float(parameters.steps_per_bin) - 0.5, reach = 2.0 * parameters.window;  // in bins
+    const uint from = uint(max(ceil(at - reach), 0.0)), until = mine < steps() ? uint(clamp(floor(at + reach) + 1.0, 0.0, float(parameters.bins))) : 0u;
+    float sum = 0.0;
+    for (uint i = from; i < until; ++i) {
+        const float u = abs(at - float(i)) / parameters.window, edge = max(2.0 - u, 0.0);
+        sum += share_of[i] * (u < 1.0 ? 2.0 / 3.0 - u * u * (1.0 - 0.5 * u) : edge * edge * edge / 6.0);
+    }
+    const float all = sum_of(sum);
+    return all > 0.0 ? sum * sum_of(share) / all : 0.0;
+}
+
+// The curve of a frame whose eye is in its present state.
+void adjusted_curve(Frame frame) {
+    const float h = per_step(frame.share);
+    float lowest = log(parameters.display_low), here = lowest;
+    if (!frame.empty) here = adjust(h, Thresholds(frame.cone_sigma, frame.rod_sigma / parameters.scotopic), lowest, made.under_full, made.left_over);
+    write_smoothed_nodes(frame, here, lowest);
 }

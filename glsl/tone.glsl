@@ -10,23 +10,19 @@ layout(constant_id = 0) const uint kTone = kToneCurve;
 const uint kForm = kTone & kToneForm;
 
 struct Tone {
-    float scale, white;          // Reinhard
-    float low, gain;             // linear
-    float ln_low, bins_per_ln;   // curve
-    float bins;
-    vec3 rods;                   // rods
-    mat3 colour;
-    float offset, unit;          // responses
+    float ln_low, bins_per_ln, bins;  // of the table
+    vec4 block[kOperatorTexels];      // of the operator
 };
 
 Tone read_tone(samplerBuffer curve) {
-    const vec4 a = texelFetch(curve, 0), b = texelFetch(curve, 1);
-    const vec3 rods = kForm == kToneRods ? texelFetch(curve, 4).rgb : vec3(0.0);
-    const vec2 responses = kForm == kToneColour ? texelFetch(curve, 3).ba : vec2(0.0);
-    mat3 colour = mat3(1.0);
-    if (kForm == kToneRods) colour = transpose(mat3(texelFetch(curve, 5).rgb, texelFetch(curve, 6).rgb, texelFetch(curve, 7).rgb));
-    return Tone(a.r, a.g, a.b, a.a, b.r, b.g, b.b, rods, colour, responses.r, responses.g);
+    Tone tone;
+    const vec4 table = texelFetch(curve, 0);
+    tone.ln_low = table.r, tone.bins_per_ln = table.g, tone.bins = table.b;
+    for (uint i = 0u; i < kOperatorTexels; ++i) tone.block[i] = texelFetch(curve, int(kToneBlock + i));
+    return tone;
 }
+
+bool is_finite(float x) { return abs(x) <= 3.4e38; }
 
 float luminance_of(vec3 rgb) { return dot(rgb, vec3(kRed, kGreen, kBlue)); }
 
@@ -38,9 +34,8 @@ float scotopic_of(vec3 rgb) {
     return y > 0.0 ? y * ((kScotopicSlope * (1.0 + (y + z) / x) - kScotopicOffset) / kScotopicOfWhite) : 0.0;
 }
 
-// What is seen of a pixel, cd/m^2, before it is mapped: the eye has adapted to colours and rods add grey, or dim light loses its colour.
-vec3 perceived(Tone tone, vec3 rgb) {
-    if (kForm == kToneRods) rgb = tone.colour * rgb + scotopic_of(rgb) * tone.rods;
+// Dim light loses its colour, or is weighted as rods do.
+vec3 faded_when_dim(vec3 rgb) {
     if ((kTone & (kToneColourLoss | kTonePurkinje)) == 0u || kForm == kToneLdr) return rgb;
     const float luminance = luminance_of(rgb);
     if (!(luminance > 0.0)) return rgb;
@@ -63,21 +58,19 @@ struct Mapped {
     float exponent, share;
 };
 
+#include "operators_pixels.glsl"
+
 Mapped mapped(samplerBuffer curve, Tone tone, vec3 rgb, float display_low, float display_high) {
     const float luminance = max(luminance_of(rgb), 0.0);
-    if (kForm == kToneReinhard) {
-        const float x = tone.scale * luminance;
-        return Mapped(x * (1.0 + x * tone.white) / (1.0 + x), 1.0, 1.0);
-    }
-    if (kForm == kToneLinear || kForm == kToneRods) return Mapped((luminance - tone.low) * tone.gain, 1.0, 1.0);
-    const vec4 node = node_at(curve, tone, luminance);
-    if (kForm == kToneColour) {
-        const float rods = node_at(curve, tone, scotopic_of(rgb)).b;
-        const float seen = clamp(node.r + rods + tone.offset, 0.0, 0.9999999);
-        // Far beyond white all is the same.
-        return Mapped(min(tone.unit * pow(seen / (1.0 - seen), 1.0 / kResponsePower), 1000.0), node.g, node.r / max(node.r + rods, 1e-30));
-    }
-    return Mapped((exp(node.r) - display_low) / (display_high - display_low), 1.0, 1.0);
+    if (kMapsItself) return operator_mapped(curve, tone, rgb, luminance);
+    return Mapped((exp(node_at(curve, tone, luminance).r) - display_low) / (display_high - display_low), 1.0, 1.0);
+}
+
+// A pixel as it is mapped: with the changes that the operator makes to its colour, cd/m^2, and dim light without its colour; of
+// operators that map colours, not luminance, the light that they show, 1 for white.
+vec3 perceived(Tone tone, vec3 rgb) {
+    rgb = operator_seen(tone, rgb);
+    return operator_rgb(tone, faded_when_dim(rgb));
 }
 
 // Ratios of a colour to its luminance, raised to the power and mixed with grey.
@@ -88,8 +81,6 @@ vec3 faded(vec3 ratios, Mapped to) {
     if (least < kLeastRatio) ratios = max(1.0 + (ratios - 1.0) * ((1.0 - kLeastRatio) / (1.0 - least)), vec3(kLeastRatio));
     return mix(vec3(1.0), pow(ratios, vec3(to.exponent)), to.share);
 }
-
-bool is_finite(float x) { return abs(x) <= 3.4e38; }
 
 // Displayed light of a pixel, RGB in [0, 1]; `own` is its colour in the display's primaries, `gamut`. Pixels that are not finite are
 // black; those without luminance are shown as what has hardly any.

@@ -41,6 +41,18 @@ Display display_of(const ToneArguments& arguments) {
     return display;
 }
 
+/// Adds the settings of an operator to a command.
+struct OperatorOptions {
+    Command& command;
+    void operator()(const OperatorOption& option, float& value) const {
+        Option added = command.add_option(option.name, value, option.help).check(between(option.low, option.high));
+        if (option.shows_default) added.shows_default();
+    }
+    void operator()(const OperatorOption& option, bool& value) const {
+        command.add_flag(option.name, value, option.help);
+    }
+};
+
 }  // namespace
 
 void add_tone_options(Command command, ToneArguments& a) {
@@ -62,13 +74,7 @@ void add_tone_options(Command command, ToneArguments& a) {
     command.help_group("Operators and their curves");
     command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2").check(between(1e-6, 1e9)).shows_default();
     command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2").check(between(1e-6, 1e9)).shows_default();
-    command.add_option("--key", a.tone.key, "Reinhard: what the log average is scaled to, relative to white, before compression").check(between(1e-4, 10.0)).shows_default();
-    command.add_flag("--automatic", a.tone.automatic, "reinhard: key and white from the frame (Reinhard 2003)");
-    command.add_option("--log-epsilon", a.tone.log_epsilon, "reinhard: added to luminance before logarithms, cd/m^2 (his program: 1e-5; default: none, but not below 1e-4)").check(between(0.0, 1.0));
-    command.add_option("--rod-constant", a.tone.rod_constant, "pattanaik: constant of the rods (pfstmo_pattanaik00: 5e4)").check(between(1.0, 1e9)).shows_default();
-    command.add_option("--white", a.tone.white, "Reinhard: luminance shown as white, cd/m^2 (default: the maximum)").check(between(0.0, 1e9));
-    command.add_option("--linear-min", a.tone.linear_low, "linear: luminance shown as black, cd/m^2").check(between(0.0, 1e9)).shows_default();
-    command.add_option("--linear-max", a.tone.linear_high, "linear: luminance shown as white, cd/m^2 (default: the maximum)").check(between(0.0, 1e9));
+    a.tone.operators.each([&](auto& settings) { settings.options(OperatorOptions{command}); });
     command.help_group();
     command.add_option("--display", a.display, "NAME (" + known_display_names() + ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
     command.help_group("Display");
@@ -93,8 +99,7 @@ ToneChainSettings tone_settings(const ToneArguments& arguments) {
     settings.histogram.log10_low = float(std::log10(arguments.histogram_low));
     settings.histogram.log10_high = float(std::log10(arguments.histogram_high));
     if (!(arguments.histogram_high >= 1.01 * arguments.histogram_low)) throw Error("--histogram-high must be more than --histogram-low");
-    if (settings.tone.linear_high > 0 && settings.tone.linear_high <= settings.tone.linear_low)
-        throw Error("--linear-max must be more than --linear-min");
+    settings.tone.operators.check();
     if (settings.glare == Glare::Scatter && settings.tone_operator == Operator::Ldr) throw Error("--glare " + arguments.glare + ": the ldr operator has no luminances to scatter");
     settings.display = display_of(arguments);
     return settings;

@@ -92,7 +92,7 @@ void study_adaptation(Study& study) {
             for (const double t : times) {
                 const ToneMapped got = look(study, settings, step.to, t - before);
                 before = t;
-                const Sensitivity s = info.model == shared::kModelPattanaik ? of_lagging(got, step.to) : of_eye(got, settings.tone.observer, step.to);
+                const Sensitivity s = info.tone_operator == Operator::Pattanaik ? of_lagging(got, step.to) : of_eye(got, settings.tone.observer, step.to);
                 const double light = shown_luminance(got.curve, info.form, step.to, settings.display);
                 ratio.lines.back().points.push_back({t, s.ratio});
                 sigma.lines.back().points.push_back({t, s.sigma});

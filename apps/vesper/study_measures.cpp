@@ -43,7 +43,7 @@ ToneMapped Study::map(const StudyPicture& picture, const ToneChainSettings& with
 std::vector<Operator> histogram_operators() {
     std::vector<Operator> found;
     for (const OperatorInfo& op : operators())
-        if (op.model == shared::kModelHistogram || op.model == shared::kModelTrimmed) found.push_back(op.tone_operator);
+        if (op.histogram) found.push_back(op.tone_operator);
     return found;
 }
 

@@ -35,7 +35,7 @@ VesperToneSettings default_settings() {
     made.display_gamma = display.gamma, made.display_reflection = display.reflection;
     made.smoothing = tone.smoothing_seconds, made.low_vision = float(tone.observer.low_vision), made.rods = tone.observer.use_rods;
     made.histogram_low = std::pow(10.0f, settings.histogram.log10_low), made.histogram_high = std::pow(10.0f, settings.histogram.log10_high);
-    made.key = tone.key, made.eye_seed = settings.scatter.aperture.seed;
+    made.key = tone.operators.reinhard.key, made.eye_seed = settings.scatter.aperture.seed;
     return made;
 }
 
@@ -80,7 +80,8 @@ RenderSettings vesper::api::settings_of(const VesperToneSettings* given) {
     tone.colour_loss = s.colour_loss, tone.acuity_loss = s.acuity_loss, tone.purkinje = s.purkinje;
     tone.smoothing_seconds = s.smoothing;
     tone.gamut = kGamuts[s.gamut];
-    tone.key = s.key, tone.white = tone.linear_high = s.white, tone.linear_low = s.black;
+    tone.operators.reinhard.key = s.key, tone.operators.reinhard.white = tone.operators.linear.high = s.white;
+    tone.operators.linear.low = s.black;
     if (s.adapt_to != VESPER_ADAPT_AS_OPERATOR) tone.adapt_to = kAdaptTo[s.adapt_to - VESPER_ADAPT_AVERAGE];
     settings.display = display_of(s);
     check_display(settings.display);

@@ -30,9 +30,7 @@ uint32_t display_tone_of(const OperatorInfo& op, const ToneSettings& tone) {
 // Fine votes are for curves that the histogram makes, and for automatic parameters.
 HistogramSettings votes_of(const OperatorInfo& op, const ToneChainSettings& settings) {
     HistogramSettings votes = settings.histogram;
-    const bool read =
-        op.model == shared::kModelHistogram || op.model == shared::kModelTrimmed || settings.tone.automatic;
-    votes.fine = votes.fine && read;
+    votes.fine = votes.fine && settings.tone.operators.uses_histogram(op.tone_operator);
     return votes;
 }
 
@@ -91,7 +89,7 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
         return chain;
     }
 
-    const Pyramid luminance = add_pyramid(frame, retina, settings.tone.log_epsilon);
+    const Pyramid luminance = add_pyramid(frame, retina, settings.tone.operators.reinhard.log_epsilon);
     const uint32_t level = settings.foveal_level.value_or(foveal_level(frame.view, luminance));
     const Resource histogram = add_histogram(frame, luminance, level, votes_of(op, settings));
     const Colours colours = add_colours(frame, retina, op.chromatic);

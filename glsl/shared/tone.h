@@ -4,30 +4,21 @@
 #include "luminance.h"
 SHARED_BEGIN
 
-// How the composite maps luminance.
+// How the composite maps luminance, the number of the first operator that does so (vesper/operators.h).
 const uint kToneCurve = 0u;     // the table below
-const uint kToneReinhard = 1u;  // Reinhard et al. 2002, global
-const uint kToneLinear = 2u;    // linear between two luminances
-const uint kToneLdr = 3u;       // none: values in [0, 1] are shown as they are
-const uint kToneColour = 4u;    // the table, with exponents of colour: Pattanaik et al. 2000
-const uint kToneRods = 5u;      // linear, after grey for what rods see has been added: Ferwerda et al. 1996
-const uint kTones = 6u;
+const uint kToneReinhard = 2u;  // Reinhard et al. 2002, global
+const uint kToneLinear = 3u;    // linear between two luminances
+const uint kToneLdr = 4u;       // none: values in [0, 1] are shown as they are
+const uint kToneColour = 5u;    // the table, with exponents of colour: Pattanaik et al. 2000
+const uint kToneRods = 6u;      // linear, after grey for what rods see has been added: Ferwerda et al. 1996
 // and, as bits beside that, how dim light is perceived before it is mapped, between 0.00562 and 5.62 cd/m^2 (Ward et al. 1997):
 const uint kToneForm = 0xffu;
 const uint kToneColourLoss = 0x100u;  // colour fades to grey
 const uint kTonePurkinje = 0x200u;    // luminance becomes scotopic
 const uint kTonePhotopicRods = 0x400u;  // and without: rods take luminance for scotopic luminance, whatever the colour
 
-// What makes the parameters of a frame (specialization of adapt.comp).
-const uint kModelFixed = 0u;      // the statistics of the frame: Reinhard, linear
-const uint kModelHistogram = 1u;  // histogram adjustment, anchored at what the eye is adapted to: Irawan et al. 2005
-const uint kModelTrimmed = 2u;    // histogram adjustment by trimming: Ward et al. 1997
-const uint kModelPattanaik = 3u;    // Pattanaik et al. 2000
-const uint kModelGains = 4u;      // two linear gains: Ferwerda et al. 1996; of the eye in its state: Durand and Dorsey 2000
-const uint kModels = 5u;
-
 // Histogram adjustment: the threshold T that bounds the slope, d Ld / d L <= T_display(Ld) / T_scene(L). T_display is that of
-// cones of the display's viewer; of kModelTrimmed, that of cones (with kCeilingHuman: cones and rods) adapted to Ld.
+// cones of the display's viewer; of Ward et al. 1997, that of cones (with kCeilingHuman: cones and rods) adapted to Ld.
 const uint kCeilingEye = 0u;     // scene: the eye in its present state
 const uint kCeilingHuman = 1u;   // adapted cones and rods merged (Ward et al. 1997)
 const uint kCeilingCones = 2u;   // adapted cones
@@ -55,6 +46,8 @@ struct ReceptorParameters {
 };
 SHARED_SIZE(ReceptorParameters, 32)
 
+const uint kOperatorSettings = 2u;
+
 struct ToneParameters {
     uint bins;                 // of the histogram
     uint steps_per_bin;        // of the curve; bins * steps_per_bin is at most kMaxBins
@@ -63,10 +56,6 @@ struct ToneParameters {
     float bins_per_ln;
     float display_low;         // darkest and brightest luminance the display shows, ambient included, cd/m^2
     float display_high;
-    float key;                 // Reinhard: luminance the log average is mapped to, relative to white
-    float white;               // Reinhard: scene luminance shown as white, cd/m^2; 0: the largest of the frame
-    float linear_low;          // linear: scene luminance shown as black, cd/m^2
-    float linear_high;         // linear: scene luminance shown as white, cd/m^2; 0: the largest of the frame
     float seconds;             // since the last frame
     float smoothing_seconds;   // time constant of the curve, against flicker; 0: none
     uint adapt_to;
@@ -76,48 +65,42 @@ struct ToneParameters {
     uint use_rods;             // 1: the eye sees with the better of cones and rods
     float cone_break;          // log10 L from which Weber's law holds
     float rod_break;
-    float rod_constant;        // of Pattanaik's rods: 5e5
-    uint automatic;            // 1: Reinhard's key and white from the frame (Reinhard 2003)
-    vec3 rod_tint;             // colour of what rods see, for kModelGains
     float scotopic;            // scotopic luminance over luminance of what the eye adapts to
     uvec2 colour_tiles;        // of the colours that the eye adapts to; 0: it does not
     float viewer_sigma;        // half saturation of an eye adapted to kViewerOfWhite, cd/m^2
     float viewer_step;         // just noticeable difference of its response
     ReceptorParameters cones;
     ReceptorParameters rods;
+    vec4 settings[kOperatorSettings];  // of the operator, as its shader reads them
 };
-SHARED_SIZE(ToneParameters, 192)
+SHARED_SIZE(ToneParameters, 188)
 
 const uint kMaxNodes = 1024u;
 const float kResponsePower = 0.73f;  // Pattanaik et al. 2000, after Hunt
 
-// What a frame's statistics make of the operator. Also read as a texel buffer of rgba32f.
+const uint kOperatorTexels = 5u;
+
+// What an operator makes of a frame. Also read as a texel buffer of rgba32f.
 struct ToneCurve {
-    float reinhard_scale;  // texel 0; X = reinhard_scale * L
-    float reinhard_white;  // 1 / Xwhite^2
-    float linear_low;      // cd/m^2
-    float linear_gain;     // 1 / (high - low), m^2/cd
-    float ln_low;          // texel 1; ln L of node 0
+    float ln_low;          // texel 0; ln L of node 0
     float bins_per_ln;     // nodes per unit of ln L
     float bins;            // steps of the curve, which has one node more
     float under_full;      // 1 if the display range is not filled: slopes are as steep as they may be, or linear; else 0
-    float adaptation;      // texel 2; luminance the eye looks at, cd/m^2
+    float adaptation;      // texel 1; luminance the eye looks at, cd/m^2
     float log_average;     // exp(mean ln L), cd/m^2
     float maximum;         // largest luminance, cd/m^2
     float slack;           // part of ln(display_high / display_low) that is left over
-    float cone_sigma;      // texel 3; half saturation of the eye, cd/m^2
+    float cone_sigma;      // texel 2; half saturation of the eye, cd/m^2
     float rod_sigma;       // scotopic cd/m^2
-    float response_offset; // kToneColour: what is added to the responses of a node
-    float response_unit;   // display luminance over its white is this times (R / (1 - R))^(1 / kResponsePower)
-    vec3 rods;             // texel 4; what is added to the pixel, times its scotopic luminance over that of white
-    float unused;
-    vec4 red, green, blue; // texels 5 to 7; colour as the eye adapted to it = dot(these, linear Rec. 709), for kToneRods
+    vec2 unused;
+    vec4 block[kOperatorTexels];  // texels 3 to 7: numbers of the operator, for its pixels (glsl/operators/)
     // r: ln of display luminance, cd/m^2; for kToneColour r: response of cones to that luminance, g: exponent of colour,
     // b: response of rods to white of that luminance
     vec4 node[kMaxNodes + 1u];
 };
 SHARED_SIZE(ToneCurve, 16528)
 
+const uint kToneBlock = 3u;  // texel of block[0]
 const uint kToneNode0 = 8u;  // texel of node[0]
 
 struct ReceptorMemory {

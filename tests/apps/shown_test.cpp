@@ -15,7 +15,7 @@ TEST(Shown, IsTheLuminanceOfAGreyPixel) {
         for (const uint32_t tone : kEveryTone) {
             shared::ToneCurve curve = crooked_curve_of(tone, display);
             // Grey stays grey, since a display cannot show white's luminance in another colour.
-            curve.rods = glm::vec3(0.2f), curve.green.y = 0.96f, curve.blue.z = 1.05f;
+            if ((tone & shared::kToneForm) == shared::kToneRods) curve.block[1] = glm::vec4(0.2f), curve.block[3].y = 0.96f, curve.block[4].z = 1.05f;
             const double low = double(display.low()), high = double(display.high());
             for (double exponent = -5; exponent <= 8; exponent += 0.13) {
                 const double luminance = std::pow(10, exponent);

@@ -28,7 +28,7 @@ TEST_F(ToneMapperTest, EqualsTheReferencesOfItsPasses) {
         for (const OperatorInfo& op : operators()) {
             ToneChainSettings settings;
             settings.tone_operator = op.tone_operator;
-            settings.tone.linear_high = 100;
+            settings.tone.operators.linear.high = 100;
             settings.tone.colour_loss = settings.tone.purkinje = extent.height == 1;
             const uint32_t tone = op.form | (extent.height == 1 ? shared::kToneColourLoss | shared::kTonePurkinje : 0);
             mapper.reset_adaptation();

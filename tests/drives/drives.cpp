@@ -184,7 +184,7 @@ int run(VkExtent2D extent, double fps, double seconds, const std::string& glare,
         const OperatorInfo& op = operator_info(limits.op);
         const std::string name(op.name);
         if (!only.empty() && only != name) continue;
-        const bool has_curve = op.model == shared::kModelHistogram || op.model == shared::kModelTrimmed;
+        const bool has_curve = op.histogram;
         if (settings.glare != Glare::None && !has_curve) continue;
         settings.tone_operator = limits.op;
         for (const float smoothing : {0.15f, 0.0f}) {

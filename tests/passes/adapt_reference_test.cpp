@@ -24,21 +24,29 @@ AdaptInputs frame_of(const shared::Histogram& histogram, double luminance, float
 // Reinhard et al. 2002 with the luminances of tone-mapping.md, section 5: 0.01 to 1000 cd/m^2 in decades.
 TEST(AdaptReference, ReinhardParameters) {
     AdaptInputs in = frame_of(night(), 1, 0.25f);
+    in.tone_operator = Operator::Reinhard, in.parameters.settings[0] = {0.18f, 0, 0, 0};
     in.top = {185.185, 6, std::log(10) / 2, 1000};
     in.previous.adaptation = 7, in.previous.seconds = 1.5f, in.previous.cones.pigment = in.previous.rods.pigment = 1;
     const Adapted a = adapt(in);
     EXPECT_NEAR(a.tone.log_average, std::sqrt(10), 1e-6);
     EXPECT_EQ(a.tone.adaptation, 1);
-    EXPECT_NEAR(a.tone.reinhard_scale, 0.18 / std::sqrt(10), 1e-8);
-    EXPECT_NEAR(a.tone.reinhard_white, 1 / std::pow(1000 * 0.18 / std::sqrt(10), 2), 1e-10);
-    EXPECT_NEAR(a.tone.linear_gain, 1e-3, 1e-9) << "linear_high 0: up to the maximum";
+    EXPECT_NEAR(a.tone.block[0].x, 0.18 / std::sqrt(10), 1e-8);
+    EXPECT_NEAR(a.tone.block[0].y, 1 / std::pow(1000 * 0.18 / std::sqrt(10), 2), 1e-10);
     EXPECT_EQ(a.eye.adaptation, a.tone.adaptation);
     EXPECT_FLOAT_EQ(a.eye.seconds, 1.75f);
 
-    in.parameters.white = 50, in.parameters.linear_low = 1, in.parameters.linear_high = 5;
-    const Adapted b = adapt(in);
-    EXPECT_NEAR(b.tone.reinhard_white, 1 / std::pow(50 * 0.18 / std::sqrt(10), 2), 1e-7);
-    EXPECT_FLOAT_EQ(b.tone.linear_gain, 0.25f);
+    in.parameters.settings[0].y = 50;
+    EXPECT_NEAR(adapt(in).tone.block[0].y, 1 / std::pow(50 * 0.18 / std::sqrt(10), 2), 1e-7);
+}
+
+TEST(AdaptReference, LinearParameters) {
+    AdaptInputs in = frame_of(night(), 1);
+    in.tone_operator = Operator::Linear;
+    in.top = {185.185, 6, std::log(10) / 2, 1000};
+    EXPECT_NEAR(adapt(in).tone.block[0].y, 1e-3, 1e-9) << "no white: up to the maximum";
+    in.parameters.settings[0] = {1, 5, 0, 0};
+    EXPECT_FLOAT_EQ(adapt(in).tone.block[0].x, 1);
+    EXPECT_FLOAT_EQ(adapt(in).tone.block[0].y, 0.25f);
 }
 
 // Reinhard 2003 on what his formulas say for percentiles known by construction: votes even between 10^-1.5 and 10^1.5 cd/m^2.
@@ -46,34 +54,34 @@ TEST(AdaptReference, ReinhardsAutomaticParameters) {
     shared::Histogram even{};
     for (uint32_t i = 25; i < 55; ++i) even.count[i] = 10, even.finite += 10, even.votes += 10;
     AdaptInputs in = frame_of(even, 1);
-    in.model = shared::kModelFixed, in.parameters.automatic = 1;
+    in.tone_operator = Operator::Reinhard, in.parameters.settings[0] = {0.18f, 0, 1, 0};
     in.top.z = std::log(3);
     const double span = std::log2(10) * 0.98 * 3, average = std::log2(3);
     const Adapted a = adapt(in);
-    EXPECT_NEAR(a.tone.reinhard_scale, 0.18 * std::pow(4, 2 * average / span) / 3, 1e-6);
-    EXPECT_NEAR(1 / std::sqrt(a.tone.reinhard_white), 1.5 * std::exp2(span - 5), 1e-4);
+    EXPECT_NEAR(a.tone.block[0].x, 0.18 * std::pow(4, 2 * average / span) / 3, 1e-6);
+    EXPECT_NEAR(1 / std::sqrt(a.tone.block[0].y), 1.5 * std::exp2(span - 5), 1e-4);
 }
 
 // Ferwerda et al. 1996 by hand: 1 cd/m^2, display of 200: thresholds of 100, 1 (cones) and 1 (rods) cd/m^2 from the table.
 TEST(AdaptReference, FerwerdasGains) {
     AdaptInputs in = frame_of(night(), 1);
-    in.model = shared::kModelGains, in.parameters.ceiling = shared::kCeilingHuman, in.parameters.rod_tint = {1, 1, 1};
+    in.tone_operator = Operator::Ferwerda, in.parameters.ceiling = shared::kCeilingHuman, in.parameters.settings[0] = {1, 1, 1, 0};
     in.parameters.cone_break = 1.9f, in.parameters.rod_break = -1.44f;
     const Adapted a = adapt(in);
-    EXPECT_NEAR(a.tone.linear_gain, 5.55904 / 0.391302 / 199.5, 1e-6);
-    EXPECT_NEAR(a.tone.linear_low, 0.5 * 0.391302 / 5.55904, 1e-6);
-    EXPECT_NEAR(a.tone.rods.x, std::pow(1 - 0.49 / 9.99, 2) * 0.391302 / 0.402717, 5e-6) << "six digits";
+    EXPECT_NEAR(a.tone.block[0].y, 5.55904 / 0.391302 / 199.5, 1e-6);
+    EXPECT_NEAR(a.tone.block[0].x, 0.5 * 0.391302 / 5.55904, 1e-6);
+    EXPECT_NEAR(a.tone.block[1].x, std::pow(1 - 0.49 / 9.99, 2) * 0.391302 / 0.402717, 5e-6) << "six digits";
     in.parameters.ceiling = shared::kCeilingEye;
-    EXPECT_NEAR(adapt(in).tone.linear_gain, a.tone.linear_gain, 1e-6) << "adapted, an eye in its state is the same";
+    EXPECT_NEAR(adapt(in).tone.block[0].y, a.tone.block[0].y, 1e-6) << "adapted, an eye in its state is the same";
 }
 
 // A street all in the light of sodium lamps: once adapted, its white is nearer to white by the degree of CIECAM02 at 1 cd/m^2, 0.8259; after a
 // change half of the way is gone at once, and half of the rest after 20 s (Rinner and Gegenfurtner 2000).
 TEST(AdaptReference, TheEyeAdaptsToColours) {
     AdaptInputs in = frame_of(night(), 1);
-    in.model = shared::kModelGains, in.parameters.ceiling = shared::kCeilingEye, in.parameters.rod_tint = {1, 1, 1};
+    in.tone_operator = Operator::Ferwerda, in.parameters.ceiling = shared::kCeilingEye, in.parameters.settings[0] = {1, 1, 1, 0};
     const dvec3 sodium = dvec3(2, 0.7, 0.1) / luminance({2, 0.7, 0.1});
-    const auto seen = [&](const Adapted& a, dvec3 rgb) { return dvec3(glm::dot(dvec3(a.tone.red), rgb), glm::dot(dvec3(a.tone.green), rgb), glm::dot(dvec3(a.tone.blue), rgb)); };
+    const auto seen = [&](const Adapted& a, dvec3 rgb) { return dvec3(glm::dot(dvec3(a.tone.block[2]), rgb), glm::dot(dvec3(a.tone.block[3]), rgb), glm::dot(dvec3(a.tone.block[4]), rgb)); };
     in.colours = {2, 1, {dvec4(0.5 * sodium, 800), dvec4(2.0 * sodium, 800)}};
     const Adapted adapted = adapt(in);
     const double degree = 1 - std::exp(-43.0 / 92) / 3.6;
@@ -98,8 +106,12 @@ TEST(AdaptReference, AnEmptyFrameIsBlack) {
     const Adapted a = adapt(in);
     for (uint32_t i = 0; i <= kBins; ++i) EXPECT_NEAR(a.tone.node[i].x, std::log(0.5), 1e-7);
     EXPECT_FLOAT_EQ(a.tone.log_average, 1e-4f);
-    EXPECT_TRUE(std::isfinite(a.tone.reinhard_white));
-    EXPECT_TRUE(std::isfinite(a.tone.linear_gain));
+    in.parameters.settings[0] = {0.18f, 0, 0, 0};
+    for (const Operator op : {Operator::Reinhard, Operator::Linear}) {
+        in.tone_operator = op;
+        EXPECT_TRUE(std::isfinite(adapt(in).tone.block[0].y));
+        EXPECT_GT(adapt(in).tone.block[0].y, 0);
+    }
 }
 
 // What is empty between two frames changes nothing but the time.

@@ -2,7 +2,7 @@
 // Displayed light is relative: 0 at the display's darkest luminance, 1 at its brightest.
 #pragma once
 
-#include "passes/pyramid_reference.h"
+#include "passes/operators/operator_reference.h"
 #include "vision/display.h"
 #include "vision/thresholds.h"
 #include "shared/composite.h"
@@ -34,15 +34,17 @@ inline double scotopic(dvec3 rgb, uint32_t tone) {
 
 /// Displayed luminance of a scene colour, relative, before the display's limits.
 inline double tone_mapped(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high) {
-    const double y = std::max(luminance(rgb), 0.0), x = c.reinhard_scale * y;
+    const double y = std::max(luminance(rgb), 0.0), low = c.block[0].x, gain = c.block[0].y;
     switch (tone & shared::kToneForm) {
         case shared::kToneCurve: return (std::exp(node_at(y, c).x) - display_low) / (display_high - display_low);
-        case shared::kToneReinhard: return x * (1 + x * c.reinhard_white) / (1 + x);  // Reinhard et al. 2002, Eq. 4
+        case shared::kToneReinhard: return low * y * (1 + low * y * gain) / (1 + low * y);  // Reinhard et al. 2002, Eq. 4
         case shared::kToneColour: {  // Pattanaik et al. 2000, Eq. 13
-            const double r = std::clamp(node_at(y, c).x + node_at(scotopic(rgb, tone), c).z + c.response_offset, 0.0, 0.9999999);
-            return std::min(c.response_unit * std::pow(r / (1 - r), 1 / 0.73), 1000.0);
+            const double r = std::clamp(node_at(y, c).x + node_at(scotopic(rgb, tone), c).z + low, 0.0, 0.9999999);
+            return std::min(gain * std::pow(r / (1 - r), 1 / 0.73), 1000.0);
         }
-        default: return (y - c.linear_low) * c.linear_gain;
+        case shared::kToneLinear:
+        case shared::kToneRods: return (y - low) * gain;
+        default: return y;  // of an operator that maps colours
     }
 }
 
@@ -55,14 +57,21 @@ inline double tone_mapped(double y, uint32_t tone, const shared::ToneCurve& c, d
 /// and 0.00562 cd/m^2 (Ward Larson et al. 1997), and luminance weighted as rods do.
 inline dvec3 perceived(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c) {
     if ((tone & shared::kToneForm) == shared::kToneRods) {
-        const dvec3 grey = scotopic(rgb, tone) * dvec3(c.rods);
-        rgb = dvec3(glm::dot(dvec3(c.red), rgb), glm::dot(dvec3(c.green), rgb), glm::dot(dvec3(c.blue), rgb)) + grey;
+        const dvec3 grey = scotopic(rgb, tone) * dvec3(c.block[1]);
+        rgb = dvec3(glm::dot(dvec3(c.block[2]), rgb), glm::dot(dvec3(c.block[3]), rgb), glm::dot(dvec3(c.block[4]), rgb)) + grey;
     }
     const bool loss = tone & shared::kToneColourLoss, purkinje = tone & shared::kTonePurkinje;
     const double y = luminance(rgb);
     if ((tone & shared::kToneForm) == shared::kToneLdr || !(loss || purkinje) || !(y > 0)) return rgb;
     const double cones = std::clamp((y - 0.00562) / (5.62 - 0.00562), 0.0, 1.0), grey = std::max(purkinje ? scotopic(rgb, tone) : y, 0.0);
     return loss ? cones * rgb + (1 - cones) * dvec3(grey) : rgb * ((cones * y + (1 - cones) * grey) / y);
+}
+
+/// The light that an operator which maps colours shows of a finite pixel.
+inline dvec3 colour_mapped(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c) {
+    const auto found = operator_references().find(Operator(tone & shared::kToneForm));
+    const bool maps = found != operator_references().end() && found->second.rgb && std::isfinite(luminance(rgb));
+    return maps ? found->second.rgb(c, rgb) : rgb;
 }
 
 /// From linear Rec. 709 to a display's primaries: the same XYZ (Lindbloom, "RGB/XYZ matrices").
@@ -136,7 +145,7 @@ inline dvec3 towards_white(dvec3 light, const glm::dmat3& to_own) {
 inline dvec3 displayed(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, double display_low, double display_high,
                        const glm::dmat3& to_own = glm::dmat3(1)) {
     if (!finite(rgb)) return dvec3(0);
-    rgb = perceived(rgb, tone, c);
+    rgb = colour_mapped(perceived(rgb, tone, c), tone, c);
     if ((tone & shared::kToneForm) == shared::kToneLdr) return glm::clamp(to_own * rgb, 0.0, 1.0);
     const double d = std::clamp(tone_mapped(rgb, tone, c, display_low, display_high), 0.0, 1.0);
     dvec3 colour = coloured(rgb, to_own * rgb, d, tone, c);
@@ -225,7 +234,7 @@ inline dvec3 display_light(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c,
     const uint32_t form = tone & shared::kToneForm;
     if (form == shared::kToneLdr) return low + range * displayed(rgb, tone, c, low, low + range);
     if (!finite(rgb)) return dvec3(low);
-    rgb = perceived(rgb, tone, c);
+    rgb = colour_mapped(perceived(rgb, tone, c), tone, c);
     return low + range * coloured(rgb, rgb, std::max(tone_mapped(rgb, tone, c, low, low + range), 0.0), tone, c);
 }
 

@@ -23,8 +23,8 @@ shared::ToneCurve identity() {
 
 shared::ToneCurve reinhard(double log_average, double key, double white) {
     shared::ToneCurve c{};
-    c.reinhard_scale = float(key / log_average);
-    c.reinhard_white = float(std::pow(log_average / (key * white), 2));
+    c.block[0].x = float(key / log_average);
+    c.block[0].y = float(std::pow(log_average / (key * white), 2));
     return c;
 }
 
@@ -54,7 +54,7 @@ TEST(CompositeReference, CurveIsRelativeToTheDisplaysRange) {
 
 TEST(CompositeReference, LinearRunsFromLowToHigh) {
     shared::ToneCurve c{};
-    c.linear_low = 10, c.linear_gain = 1.0f / 40;
+    c.block[0].x = 10, c.block[0].y = 1.0f / 40;
     EXPECT_EQ(tone_mapped(5, shared::kToneLinear, c, 0, 1), 0);
     EXPECT_NEAR(tone_mapped(20, shared::kToneLinear, c, 0, 1), 0.25, 1e-7);
     EXPECT_EQ(tone_mapped(1e6, shared::kToneLinear, c, 0, 1), 1);
@@ -83,7 +83,7 @@ TEST(CompositeReference, ColoursAreKeptAndAsBrightAsTheDisplayIsInThem) {
 // A tail lamp stays red, however bright. Nothing else could be as bright and red.
 TEST(CompositeReference, BrightRedStaysRed) {
     shared::ToneCurve c{};
-    c.linear_gain = 1;
+    c.block[0].y = 1;
     EXPECT_EQ(displayed({2, 0, 0}, kLinearKept, c, 0, 1), dvec3(1, 0, 0));
     EXPECT_EQ(displayed({2000, 0, 0}, kLinearKept, c, 0, 1), dvec3(1, 0, 0));
     EXPECT_NEAR(glm::length(displayed({2, 1, 0.5}, kLinearKept, c, 0, 1) - dvec3(1, 0.5, 0.25)), 0, 1e-12);
@@ -106,7 +106,7 @@ TEST(CompositeReference, OklabIsThePublishedOne) {
 
 dvec3 bright(dvec3 colour, double d, uint32_t gamut = shared::kGamutLuminance, const glm::dmat3& to_own = glm::dmat3(1)) {
     shared::ToneCurve c{};
-    c.linear_gain = 1;
+    c.block[0].y = 1;
     return displayed(colour * (d / luminance(colour)), shared::kToneLinear | gamut, c, 0, 1, to_own);
 }
 
@@ -226,7 +226,7 @@ TEST(CompositeReference, ClippedChannelsEndOneByOne) {
 // Outside the primaries: the same luminance and dominant wavelength, on the edge of the triangle.
 TEST(CompositeReference, ColoursOutsideGoTowardsGreyNoFartherThanTheyMust) {
     shared::ToneCurve c{};
-    c.linear_gain = 1;
+    c.block[0].y = 1;
     const dvec3 rgb(0.4, 0.6, -0.2), shown = displayed(rgb, shared::kToneLinear, c, 0, 1), grey(luminance(rgb));
     EXPECT_NEAR(shown.z, 0, 1e-12);
     EXPECT_NEAR(luminance(shown), luminance(rgb), 1e-7);
@@ -237,8 +237,8 @@ TEST(CompositeReference, ColoursOutsideGoTowardsGreyNoFartherThanTheyMust) {
 shared::ToneCurve evening(uint32_t form) {
     shared::ToneCurve c{};
     if (form == shared::kToneRods) {
-        c.linear_low = 0.01f, c.linear_gain = 0.2f, c.rods = glm::vec3(0.4f);
-        c.red.x = c.green.y = c.blue.z = 1;
+        c.block[0].x = 0.01f, c.block[0].y = 0.2f, c.block[1] = glm::vec4(0.4f);
+        c.block[2].x = c.block[3].y = c.block[4].z = 1;
         return c;
     }
     const pattanaik::Appearance appearance(pattanaik::adapted(1, 2.57), 5e5);
@@ -247,7 +247,7 @@ shared::ToneCurve evening(uint32_t form) {
         const double luminance = std::pow(10, -4 + 12.0 * i / shared::kMaxNodes);
         c.node[i] = glm::vec4(float(appearance.cones(luminance)), float(appearance(luminance, luminance).colour_exponent), float(appearance.rods(2.57 * luminance)), 0);
     }
-    c.response_offset = float(appearance.offset()), c.response_unit = float(pattanaik::cone_sigma(25) / 125);
+    c.block[0].x = float(appearance.offset()), c.block[0].y = float(pattanaik::cone_sigma(25) / 125);
     return c;
 }
 
@@ -276,7 +276,7 @@ TEST(CompositeReference, NoLightIsShownAsHardlyAny) {
     for (auto& node : c.node) node.x += 1;  // a curve that begins above the darkest
     EXPECT_EQ(displayed(dvec3(0), shared::kToneCurve, c, 1, 100), displayed(dvec3(1e-9), shared::kToneCurve, c, 1, 100));
     EXPECT_GT(displayed(dvec3(0), shared::kToneCurve, c, 1, 100).x, 0.01);
-    c.response_offset = 0.1f, c.response_unit = 5;
+    c.block[0].x = 0.1f, c.block[0].y = 5;
     for (auto& node : c.node) node = {0.01f, 0.2f, 0.02f, 0};
     EXPECT_EQ(displayed(dvec3(0), shared::kToneColour, c, 1, 100), displayed(dvec3(1e-9), shared::kToneColour, c, 1, 100));
 }
@@ -336,7 +336,7 @@ TEST(CompositeReference, PrimariesKeepTheColour) {
 
 TEST(CompositeReference, BloomIsAdded) {
     shared::ToneCurve c{};
-    c.linear_gain = 0.01f;
+    c.block[0].y = 0.01f;
     const std::vector<dvec3> scene(25, dvec3(20)), bloom(4, dvec3(0.1));
     Display display{.peak = 1, .black = 0, .gamma = 1, .ambient = 0};
     const auto value = [&](bool with_bloom) {

@@ -139,7 +139,7 @@ TEST(Composite, SweepsOfHueAndLuminance) {
     PassRig rig;
     const VkExtent2D extent{121, 75};
     Inputs in{extent, {}, {}, crooked_curve({}), {}};
-    in.curve.linear_low = 0, in.curve.linear_gain = 1;
+    in.curve.block[0] = {0, 1, 0, 0};
     for (uint32_t y = 0; y < extent.height; ++y)
         for (uint32_t x = 0; x < extent.width; ++x) {
             const float hue = 6 * float(x) / float(extent.width), purity = 1 - 0.4f * float(y % 3);

@@ -21,7 +21,6 @@ inline shared::ToneParameters parameters_of(double low = 0.5, double high = 200,
     p.ln_low = float(std::log(1e-4)), p.bins_per_ln = float(10 / std::log(10.0));  // tenths of a decade
     p.display_low = float(low), p.display_high = float(high);
     p.viewer_sigma = float(kCones.adapted_sigma(0.3 * high)), p.viewer_step = float(kCones.response_step());
-    p.key = 0.18f;
     p.scotopic = 1;
     return p;
 }

@@ -32,7 +32,7 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
     shared::Histogram histogram = votes.counted;
     for (size_t i = 0; i < votes.count.size(); ++i) histogram.count[i] = uint32_t(std::lround(votes.count[i]));
     const shared::ToneParameters parameters = tone_parameters(op, bins, settings.tone, display, {foveal_level, {level.width, level.height}, extent}, seconds);
-    const auto adapted = reference::adapt({histogram, levels.back().texels.at(0), level, previous, parameters, settings.tone.observer, op.model,
+    const auto adapted = reference::adapt({histogram, levels.back().texels.at(0), level, previous, parameters, settings.tone.observer, op.tone_operator,
                                            op.chromatic ? reference::colour_tiles(scene, extent.width, extent.height) : reference::PyramidLevel{}});
     std::vector<glm::vec4> banded(scene.begin(), scene.end());
     if (op.bands) {

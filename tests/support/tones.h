@@ -22,15 +22,10 @@ constexpr uint32_t kEveryTone[]{shared::kToneCurve, shared::kToneReinhard, share
                                 shared::kToneReinhard | shared::kGamutChromaticity, shared::kToneLinear | shared::kGamutClip,
                                 shared::kToneColour | shared::kGamutChromaticity, shared::kToneRods | shared::kGamutClip};
 
-/// A tone curve with parameters for every operator: a crooked table from 0.01 to 1e4 cd/m^2, Reinhard with white at
-/// 3000, linear from 0.05 to 80.
+/// A crooked table from 0.01 to 1e4 cd/m^2.
 inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 100) {
     shared::ToneCurve c{};
     c.adaptation = c.log_average = 0.7f, c.maximum = 3000;
-    c.reinhard_scale = 0.18f / 0.7f, c.reinhard_white = 1 / (c.reinhard_scale * 3000 * c.reinhard_scale * 3000);
-    c.linear_low = 0.05f, c.linear_gain = 1 / 79.95f;
-    c.rods = {0.2f, 0.1f, 0.4f};
-    c.red = {0.8f, 0.15f, 0, 0}, c.green = {0.02f, 1.1f, -0.03f, 0}, c.blue = {0, -0.1f, 1.7f, 0};
     c.ln_low = std::log(0.01f), c.bins_per_ln = float(bins) / std::log(1e6f), c.bins = float(bins);
     const double low = std::log(double(display.low())), range = std::log(double(display.high())) - low;
     double sum = 0;
@@ -47,7 +42,7 @@ inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 1
 /// The same for kToneColour: responses of cones and rods, as crooked.
 inline shared::ToneCurve crooked_responses(const Display& display, uint32_t bins = 100) {
     shared::ToneCurve c = crooked_curve(display, bins);
-    c.response_offset = -0.01f, c.response_unit = 5.17f;
+    c.block[0] = {-0.01f, 5.17f, 0, 0};
     for (uint32_t i = 0; i <= bins; ++i) {
         const float along = (c.node[i].x - std::log(display.low())) / (std::log(display.high()) - std::log(display.low()));
         c.node[i] = {0.7f * along, c.node[i].y, 0.3f * float(i) / float(bins), 0};
@@ -55,8 +50,22 @@ inline shared::ToneCurve crooked_responses(const Display& display, uint32_t bins
     return c;
 }
 
+/// For any form: also Reinhard with white at 3000, linear from 0.05 to 80.
 inline shared::ToneCurve crooked_curve_of(uint32_t tone, const Display& display) {
-    return (tone & shared::kToneForm) == shared::kToneColour ? crooked_responses(display) : crooked_curve(display);
+    const uint32_t form = tone & shared::kToneForm;
+    if (form == shared::kToneColour) return crooked_responses(display);
+    shared::ToneCurve c = crooked_curve(display);
+    if (form == shared::kToneReinhard) {
+        const float scale = 0.18f / 0.7f;
+        c.block[0] = {scale, 1 / (scale * 3000 * scale * 3000), 0, 0};
+    } else if (form == shared::kToneLinear || form == shared::kToneRods) {
+        c.block[0] = {0.05f, 1 / 79.95f, 0, 0};
+    }
+    if (form == shared::kToneRods) {
+        c.block[1] = {0.2f, 0.1f, 0.4f, 0};
+        c.block[2] = {0.8f, 0.15f, 0, 0}, c.block[3] = {0.02f, 1.1f, -0.03f, 0}, c.block[4] = {0, -0.1f, 1.7f, 0};
+    }
+    return c;
 }
 
 /// Pixels from 1e-4 to 1e8 cd/m^2, saturated and grey, some black.

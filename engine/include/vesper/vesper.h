@@ -21,6 +21,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <vesper/operators.h>
+
 #ifdef __cplusplus
 extern "C++" {
 /** Behind VESPER_INIT. */
@@ -98,16 +100,12 @@ const char *vesper_device_name(const VesperDevice *device);
 /** @name Tone mapping settings
  * @{ */
 
-/** Tone operators (docs/tone.md). */
+/** Tone operators (docs/tone.md), by the names of vesper/operators.h: VESPER_IRAWAN is 0. VESPER_LDR shows no luminances and is
+ * refused. */
 typedef enum VesperOperator {
-    VESPER_IRAWAN = 0,    /**< Irawan, Ferwerda and Marschner 2005, reconstructed: an eye that adapts over time */
-    VESPER_WARD = 1,      /**< Ward Larson, Rushmeier and Piatko 1997 */
-    VESPER_REINHARD = 2,  /**< Reinhard, Stark, Shirley and Ferwerda 2002, global */
-    VESPER_LINEAR = 3,    /**< linear between two luminances */
-    VESPER_PATTANAIK = 5, /**< Pattanaik, Tumblin, Yee and Greenberg 2000: an eye that adapts over time */
-    VESPER_FERWERDA = 6,  /**< Ferwerda, Pattanaik, Shirley and Greenberg 1996 */
-    VESPER_DURAND = 7,    /**< Durand and Dorsey 2000, reconstructed: an eye that adapts over time, also to colour */
-    VESPER_GRAVE = 8      /**< Grave and Bremond 2008, reconstructed: bands of contrast */
+#define VESPER_OPERATOR_VALUE(NAME, Name, name, value, summary) VESPER_##NAME = (value),
+    VESPER_OPERATORS(VESPER_OPERATOR_VALUE)
+#undef VESPER_OPERATOR_VALUE
 } VesperOperator;
 
 /** Light scattered in the eye before it adapts (docs/glare.md). */

@@ -32,6 +32,7 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
     const ThresholdBreaks breaks = ceiling == shared::kCeilingEye || op.bands ? ThresholdBreaks::continuous() : ThresholdBreaks::published();
     const ReceptorModel viewer(ReceptorKind::Cones, Receptors::cones());
     const float texel = float(1u << fovea.level);
+    const OperatorBlock block = tone.operators.block(op.tone_operator, display);
     return {.bins = bins.bins,
             .steps_per_bin = bins.steps_per_bin(),
             .window = bins.window(),
@@ -39,11 +40,6 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
             .bins_per_ln = bins.bins_per_ln(),
             .display_low = display.low(),
             .display_high = display.high(),
-            .key = tone.key,
-            .white = tone.white,
-            // What comes out of bands is luminance of the display.
-            .linear_low = op.bands ? display.low() : tone.linear_low,
-            .linear_high = op.bands ? display.high() : tone.linear_high,
             .seconds = seconds,
             .smoothing_seconds = tone.smoothing_seconds,
             .adapt_to = tone.adapt_to.value_or(op.adapt_to),
@@ -53,15 +49,13 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
             .use_rods = tone.observer.use_rods ? 1u : 0u,
             .cone_break = float(breaks.cones),
             .rod_break = float(breaks.rods),
-            .rod_constant = tone.rod_constant,
-            .automatic = tone.automatic ? 1u : 0u,
-            .rod_tint = op.rod_tint[0] > 0 ? glm::vec3(op.rod_tint[0], op.rod_tint[1], op.rod_tint[2]) : glm::vec3(1),
             .scotopic = tone.photopic_rods ? 1 : shared::kScotopicOfWhite,
             .colour_tiles = {},
             .viewer_sigma = float(viewer.adapted_sigma(double(display.high()) * double(shared::kViewerOfWhite))),
             .viewer_step = float(viewer.response_step()),
             .cones = receptors_of(ReceptorKind::Cones, tone.observer.observed_cones(), breaks),
-            .rods = receptors_of(ReceptorKind::Rods, tone.observer.observed_rods(), breaks)};
+            .rods = receptors_of(ReceptorKind::Rods, tone.observer.observed_rods(), breaks),
+            .settings = {block[0], block[1]}};
 }
 
 Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inputs, const OperatorInfo& op,
@@ -72,7 +66,7 @@ Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inp
     const History history = frame.graph.history(kEyeHistory, buffer_shape(sizeof(shared::EyeState)));
     // Declared in both cases: frames with the same resources keep their memory.
     const Resource value = frame.graph.upload("eye of the host", std::vector{eye.value});
-    frame.graph.dispatch("adapt", frame.kernels.get(kAdapt, {op.model}),
+    frame.graph.dispatch("adapt", frame.kernels.get(kAdapt, {uint32_t(op.tone_operator)}),
                          {load(pyramid.levels.back()), load(pyramid.levels.at(foveal_level - 1)), load(histogram),
                           load(frame.graph.upload("tone parameters", std::vector{parameters})),
                           load(eye.on_device ? history.previous : value), store(history.current), store(curve),

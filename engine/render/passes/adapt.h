@@ -16,13 +16,7 @@
 namespace vesper {
 
 struct ToneSettings {
-    float key = 0.18f;         ///< Reinhard 2002
-    float white = 0;           ///< Reinhard 2002: cd/m^2 shown as white; 0: the frame's maximum
-    float linear_low = 0;      ///< cd/m^2 shown as black
-    float linear_high = 0;     ///< cd/m^2 shown as white; 0: the frame's maximum
-    bool automatic = false;    ///< Reinhard 2003: key and white from the log average and the 1st and 99th percentile
-    float log_epsilon = 0;     ///< Reinhard: cd/m^2 added before logarithms (1e-5 as in his program); 0: none, at least 1e-4 cd/m^2 instead
-    float rod_constant = 5e5f; ///< Pattanaik: of the half saturation of rods; pfstmo_pattanaik00 has 5e4
+    OperatorSettings operators;
     bool colour_loss = false;  ///< dim light loses its colour
     bool acuity_loss = false;  ///< dim light is blurred as far as it cannot be resolved
     bool purkinje = false;     ///< dim light is weighted as rods do

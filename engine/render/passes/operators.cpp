@@ -1,32 +1,68 @@
 #include "render/passes/operators.h"
 
-#include "shared/tone.h"
-
 namespace vesper {
 namespace {
 
-using namespace shared;
-
 constexpr OperatorInfo kOperators[]{
-    {Operator::Irawan, "irawan", "Irawan, Ferwerda, Marschner 2005 (reconstructed): histogram adjustment for an eye that adapts over time",
-     kToneCurve, kModelHistogram, kCeilingEye, kAdaptGaze, true},
-    {Operator::Ward, "ward", "Ward Larson, Rushmeier, Piatko 1997: histogram adjustment for an adapted eye",
-     kToneCurve, kModelTrimmed, kCeilingHuman, kAdaptAverage, false},
-    {Operator::Reinhard, "reinhard", "Reinhard, Stark, Shirley, Ferwerda 2002, global", kToneReinhard, kModelFixed, kCeilingEye, kAdaptGaze, false},
-    {Operator::Linear, "linear", "linear between two luminances", kToneLinear, kModelFixed, kCeilingEye, kAdaptGaze, false},
-    {Operator::Ldr, "ldr", "no HDR: lamps of 1.0, sums clamped to 1", kToneLdr, kModelFixed, kCeilingEye, kAdaptGaze, false},
-    {Operator::Pattanaik, "pattanaik", "Pattanaik, Tumblin, Yee, Greenberg 2000: responses of an eye that adapts over time", kToneColour, kModelPattanaik, kCeilingEye, kAdaptAverage, true},
-    {Operator::Ferwerda, "ferwerda", "Ferwerda, Pattanaik, Shirley, Greenberg 1996: linear gains of cones and rods", kToneRods, kModelGains, kCeilingHuman, kAdaptGaze, false},
-    {Operator::Durand, "durand", "Durand, Dorsey 2000 (reconstructed): gains of cones and rods of an eye that adapts over time, also to colour", kToneRods, kModelGains, kCeilingEye, kAdaptGaze, true,
-     {1.05f, 0.97f, 1.27f}, true},
-    {.tone_operator = Operator::Grave, .name = "grave", .summary = "Grave, Bremond 2008 (reconstructed): bands of contrast, each with the visibility level it has in the scene",
-     .form = kToneCurve, .model = kModelHistogram, .ceiling = kCeilingCones, .adapt_to = kAdaptGaze, .remembers = false, .bands = true},
+#define VESPER_INFO(NAME, Name, name, value, summary) {Name##Settings::traits, Operator::Name, #name, summary},
+    VESPER_OPERATORS(VESPER_INFO)
+#undef VESPER_INFO
 };
+
+constexpr bool values_are_indices() {
+    for (size_t i = 0; i < std::size(kOperators); ++i)
+        if (size_t(kOperators[i].tone_operator) != i) return false;
+    return true;
+}
+static_assert(values_are_indices());
+
+/// Pixels are mapped by a form of shared/tone.h or by the operator's own shader.
+constexpr bool forms_are_known() {
+    for (const OperatorInfo& info : kOperators)
+        if (info.form > shared::kToneRods && info.form != uint32_t(info.tone_operator)) return false;
+    return true;
+}
+static_assert(forms_are_known());
+
+/// Calls visit(settings) for one operator.
+template <class Visit>
+void visit_one(const OperatorSettings& all, Operator wanted, const Visit& visit) {
+    switch (wanted) {
+#define VESPER_CASE(NAME, Name, name, value, summary) \
+    case Operator::Name:                              \
+        return visit(all.name);
+        VESPER_OPERATORS(VESPER_CASE)
+#undef VESPER_CASE
+    }
+}
 
 }  // namespace
 
 std::span<const OperatorInfo> operators() { return kOperators; }
 
 const OperatorInfo& operator_info(Operator tone_operator) { return kOperators[size_t(tone_operator)]; }
+
+OperatorBlock OperatorSettings::block(Operator wanted, const Display& display) const {
+    OperatorBlock made{};
+    visit_one(*this, wanted, [&](const auto& settings) {
+        if constexpr (requires { settings.block(display); }) made = settings.block(display);
+    });
+    return made;
+}
+
+bool OperatorSettings::uses_histogram(Operator wanted) const {
+    bool uses = operator_info(wanted).histogram;
+    visit_one(*this, wanted, [&](const auto& settings) {
+        if constexpr (requires { settings.counts_finely(); }) uses |= settings.counts_finely();
+    });
+    return uses;
+}
+
+void OperatorSettings::check() const {
+    for (const OperatorInfo& info : operators())
+        visit_one(*this, info.tone_operator, [](const auto& settings) {
+            if constexpr (requires { settings.check(); }) settings.check();
+        });
+}
 
 }  // namespace vesper

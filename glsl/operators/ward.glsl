@@ -1,5 +1,7 @@
-// Histogram adjustment as Ward Larson, Rushmeier and Piatko 1997 do it, and Radiance's pcond: clip what exceeds its ceiling,
-// again with the new total, until little is clipped; a linear scale where hardly anything is left. For adapt.comp.
+// Ward Larson, Rushmeier and Piatko 1997, as Radiance's pcond: clip votes that exceed their ceiling, again with the new
+// total, until little is clipped; a linear scale where hardly anything is left.
+
+#ifdef OPERATOR_FRAMES
 
 const float kTolerance = 0.025;  // of the total: what may still be clipped, and what has to be left
 
@@ -55,3 +57,13 @@ float trim(float share, float h, Thresholds eye, float average, out float lowest
     }
     return here;
 }
+
+void ward_frame(Frame frame) {
+    const float h = per_step(frame.share);
+    float lowest = log(parameters.display_low), here = lowest;
+    const Thresholds eye = Thresholds(frame.cone_sigma, frame.rod_sigma / parameters.scotopic);
+    if (!frame.empty) here = trim(frame.share, h, eye, frame.adaptation, lowest, made.under_full);
+    write_smoothed_nodes(frame, here, lowest);
+}
+
+#endif

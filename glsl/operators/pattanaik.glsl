@@ -1,9 +1,10 @@
-// Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000 (vision/pattanaik.h): responses of cones and rods and
-// the exponent of colour, as a table over ln luminance. For adapt.comp.
+// Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000 (vision/pattanaik.h): responses of cones and rods
+// and the exponent of colour, as a table over ln luminance. Settings: the constant of the rods.
+
+#ifdef OPERATOR_FRAMES
 
 const float kDisplayCones = 25.0;  // cd/m^2 that the display's observer is adapted to
 const float kWhiteOver = 5.0, kBlackOver = 5.0 / 32.0;  // reference luminances over the adaptation luminance
-const float kTableLow = -9.210340372, kTableHigh = 18.420680744;  // ln of 1e-4 and 1e8 cd/m^2
 
 float hunt_cone_sigma(float a) {
     const float k = 1.0 / (5.0 * a + 1.0), k4 = k * k * k * k;
@@ -11,7 +12,7 @@ float hunt_cone_sigma(float a) {
 }
 
 float hunt_rod_sigma(float a) {
-    const float j = 1.0 / (parameters.rod_constant * a + 1.0), rest = 1.0 - j * j;
+    const float j = 1.0 / (parameters.settings[0].x * a + 1.0), rest = 1.0 - j * j;
     return 2.5874 * a / (19000.0 * j * j * a + 0.2615 * rest * rest * rest * rest * pow(a, 1.0 / 6.0));
 }
 
@@ -36,7 +37,7 @@ PattanaikState lagging_after(PattanaikState before, float goal, float scotopic, 
 // From responses of the eye to those of the display's observer: R scale + offset.
 struct Appearance {
     float scale, offset;
-    float unit;   // see ToneCurve::response_unit
+    float unit;   // display luminance over its white is this times (R / (1 - R))^(1 / kResponsePower)
     float range;  // of the observer's responses, from black to white
 };
 
@@ -55,9 +56,31 @@ Appearance appearance_of(PattanaikState eye, float cone_sigma, float rod_sigma) 
 vec4 lagging_node(PattanaikState eye, uint index) {
     const float cone_sigma = hunt_cone_sigma(eye.cones), rod_sigma = hunt_rod_sigma(eye.rods);
     const Appearance as = appearance_of(eye, cone_sigma, rod_sigma);
-    const float luminance = exp(mix(kTableLow, kTableHigh, float(index) / float(kMaxNodes)));
+    const float luminance = table_luminance(index);
     const float x = excitation(luminance, cone_sigma);
     const float cones = eye.cone_pigment * x / (1.0 + x), rods = eye.rod_pigment * response(parameters.scotopic * luminance, rod_sigma);
     const float exponent = eye.cone_pigment * kResponsePower * x / ((1.0 + x) * (1.0 + x)) / (as.range / log10_of(32.0));
     return vec4(as.scale * cones, exponent, as.scale * rods, 0.0);
 }
+
+void pattanaik_frame(Frame frame) {
+    begin_table();
+    made.pattanaik = lagging_after(made.pattanaik, frame.adaptation, frame.scotopic, parameters.seconds, frame.first);
+    for (uint i = gl_LocalInvocationIndex; i <= kMaxNodes; i += kMaxBins) curve.node[i] = lagging_node(made.pattanaik, i);
+    const float cone_sigma = hunt_cone_sigma(made.pattanaik.cones), rod_sigma = hunt_rod_sigma(made.pattanaik.rods);
+    const Appearance as = appearance_of(made.pattanaik, cone_sigma, rod_sigma);
+    made.block[0] = vec4(as.offset, as.unit, 0.0, 0.0);
+}
+
+#else
+
+Mapped pattanaik_mapped(samplerBuffer curve, Tone tone, vec3 rgb, float luminance) {
+    const vec4 node = node_at(curve, tone, luminance);
+    const float rods = node_at(curve, tone, scotopic_of(rgb)).b;
+    const float seen = clamp(node.r + rods + tone.block[0].x, 0.0, 0.9999999);
+    // Far beyond white all is the same.
+    const float shown = min(tone.block[0].y * pow(seen / (1.0 - seen), 1.0 / kResponsePower), 1000.0);
+    return Mapped(shown, node.g, node.r / max(node.r + rods, 1e-30));
+}
+
+#endif

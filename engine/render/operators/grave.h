@@ -1,0 +1,12 @@
+// Grave and Bremond 2008, reconstructed. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/operators/operator.h"
+
+namespace vesper {
+
+struct GraveSettings : NoOptions {
+    static constexpr OperatorTraits traits{.ceiling = shared::kCeilingCones, .histogram = true, .bands = true};
+};
+
+}  // namespace vesper

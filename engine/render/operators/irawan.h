@@ -1,0 +1,12 @@
+// Irawan, Ferwerda and Marschner 2005, reconstructed. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/operators/operator.h"
+
+namespace vesper {
+
+struct IrawanSettings : NoOptions {
+    static constexpr OperatorTraits traits{.remembers = true, .histogram = true};
+};
+
+}  // namespace vesper

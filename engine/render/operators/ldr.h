@@ -1,0 +1,12 @@
+// No HDR: the baseline of Petit, Bremond and Vienne. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/operators/operator.h"
+
+namespace vesper {
+
+struct LdrSettings : NoOptions {
+    static constexpr OperatorTraits traits{.form = shared::kToneLdr};
+};
+
+}  // namespace vesper

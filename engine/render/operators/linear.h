@@ -1,0 +1,28 @@
+// Linear between two luminances. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/error.h"
+#include "render/operators/operator.h"
+
+namespace vesper {
+
+struct LinearSettings {
+    static constexpr OperatorTraits traits{.form = shared::kToneLinear};
+
+    float low = 0;   ///< cd/m^2 shown as black
+    float high = 0;  ///< cd/m^2 shown as white; 0: the frame's maximum
+
+    template <class Visit>
+    void options(const Visit& visit) {
+        visit(OperatorOption{"--linear-min", "linear: luminance shown as black, cd/m^2", 0, 1e9}, low);
+        visit(OperatorOption{"--linear-max", "linear: luminance shown as white, cd/m^2 (default: the maximum)", 0, 1e9,
+                             false},
+              high);
+    }
+    void check() const {
+        if (high > 0 && high <= low) throw Error("--linear-max must be more than --linear-min");
+    }
+    OperatorBlock block(const Display&) const { return {glm::vec4(low, high, 0, 0)}; }
+};
+
+}  // namespace vesper

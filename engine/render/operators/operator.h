@@ -1,0 +1,46 @@
+// What every operator says of itself, in its file of this folder. SPDX-License-Identifier: MIT
+//
+// engine/render/operators/NAME.h defines NameSettings for every line of vesper/operators.h, with
+//   traits                     what the operator needs of the tone chain
+//   fields, with defaults      what users may set
+//   options(visit)             calls visit(OperatorOption, field) for each of them
+//   block(Display)             the settings as glsl/operators/NAME.glsl reads them; may be left out
+//   counts_finely()            whether it uses the histogram as set, beside traits.histogram; may be left out
+//   check()                    throws Error for settings that contradict each other; may be left out
+#pragma once
+
+#include <array>
+
+#include "shared/tone.h"
+#include "vision/display.h"
+
+namespace vesper {
+
+struct OperatorTraits {
+    uint32_t form = shared::kToneCurve;      ///< how pixels are mapped: shared::kTone*, or the operator's own value
+    uint32_t ceiling = shared::kCeilingEye;  ///< default of the thresholds: shared::kCeiling*
+    uint32_t adapt_to = shared::kAdaptGaze;  ///< default of what the eye adapts to: shared::kAdapt*
+    bool remembers = false;  ///< the picture depends on the frames before, and not only to smooth flicker
+    bool histogram = false;  ///< it adjusts a histogram
+    bool chromatic = false;  ///< the eye adapts to the colour it looks at
+    bool bands = false;      ///< contrast is mapped in bands (add_bands), and only what lies above them by the curve
+};
+
+/// A setting on the command line: a number from `low` to `high`, or a flag.
+struct OperatorOption {
+    const char* name;
+    const char* help;
+    double low = 0, high = 0;
+    bool shows_default = true;
+};
+
+/// Numbers for ToneParameters::settings.
+using OperatorBlock = std::array<glm::vec4, shared::kOperatorSettings>;
+
+/// Of operators that nothing can be set of.
+struct NoOptions {
+    template <class Visit>
+    void options(const Visit&) {}
+};
+
+}  // namespace vesper

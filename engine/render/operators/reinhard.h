@@ -1,0 +1,37 @@
+// Reinhard, Stark, Shirley and Ferwerda 2002, global; Reinhard 2003. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/operators/operator.h"
+
+namespace vesper {
+
+struct ReinhardSettings {
+    static constexpr OperatorTraits traits{.form = shared::kToneReinhard};
+
+    float key = 0.18f;       ///< luminance the log average is mapped to, relative to white
+    bool automatic = false;  ///< Reinhard 2003: key and white from the log average and the 1st and 99th percentile
+    float log_epsilon = 0;  ///< cd/m^2 added before logarithms (1e-5 as in his program); 0: none, at least 1e-4 instead
+    float white = 0;        ///< cd/m^2 shown as white; 0: the frame's maximum
+
+    template <class Visit>
+    void options(const Visit& visit) {
+        visit(OperatorOption{"--key",
+                             "reinhard: what the log average is scaled to, relative to white, before compression", 1e-4,
+                             10},
+              key);
+        visit(OperatorOption{"--automatic", "reinhard: key and white from the frame (Reinhard 2003)"}, automatic);
+        visit(
+            OperatorOption{"--log-epsilon",
+                           "reinhard: added to luminance before logarithms, cd/m^2 (his program: 1e-5; default: none, "
+                           "but not below 1e-4)",
+                           0, 1, false},
+            log_epsilon);
+        visit(OperatorOption{"--white", "reinhard: luminance shown as white, cd/m^2 (default: the maximum)", 0, 1e9,
+                             false},
+              white);
+    }
+    bool counts_finely() const { return automatic; }
+    OperatorBlock block(const Display&) const { return {glm::vec4(key, white, automatic ? 1 : 0, 0)}; }
+};
+
+}  // namespace vesper

@@ -25,7 +25,8 @@
       "over time, also to colour") \
     X(GRAVE, Grave, grave, 8, \
       "Grave, Bremond 2008 (reconstructed): bands of contrast, each with the visibility level " \
-      "it has in the scene")
+      "it has in the scene") \
+    X(DRAGO, Drago, drago, 9, "Drago, Myszkowski, Annen, Chiba 2003: logarithms of a base that goes with luminance")
 /* clang-format on */
 
 #endif

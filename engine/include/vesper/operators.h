@@ -26,7 +26,8 @@
     X(GRAVE, Grave, grave, 8, \
       "Grave, Bremond 2008 (reconstructed): bands of contrast, each with the visibility level " \
       "it has in the scene") \
-    X(DRAGO, Drago, drago, 9, "Drago, Myszkowski, Annen, Chiba 2003: logarithms of a base that goes with luminance")
+    X(DRAGO, Drago, drago, 9, "Drago, Myszkowski, Annen, Chiba 2003: logarithms of a base that goes with luminance") \
+    X(DEVLIN, Devlin, devlin, 10, "Reinhard, Devlin 2005: each channel is the response of a photoreceptor")
 /* clang-format on */
 
 #endif

@@ -1,0 +1,37 @@
+// Reinhard and Devlin 2005. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "render/operators/operator.h"
+
+namespace vesper {
+
+struct DevlinSettings {
+    static constexpr OperatorTraits traits{.form = 10, .chromatic = true};
+
+    float intensity = 0;             ///< f'
+    float contrast = 0;              ///< m; 0: from the key of the frame
+    float light_adaptation = 1;      ///< a: 0 to the frame, 1 to the pixel
+    float chromatic_adaptation = 0;  ///< c: 0 to luminance, 1 to each channel
+
+    template <class Visit>
+    void options(const Visit& visit) {
+        visit(OperatorOption{"--intensity", "devlin: more is brighter", -8, 8}, intensity);
+        visit(
+            OperatorOption{"--contrast", "devlin: exponent of the half saturation, 0.3 to 1; 0: from the frame", 0, 1},
+            contrast);
+        visit(OperatorOption{"--light-adaptation", "devlin: receptors adapt to the frame (0) or to their pixel (1)", 0,
+                             1},
+              light_adaptation);
+        visit(OperatorOption{"--chromatic-adaptation",
+                             "devlin: receptors adapt to luminance (0) or to their channel (1)", 0, 1},
+              chromatic_adaptation);
+    }
+    bool counts_finely() const { return true; }
+    OperatorBlock block(const Display&) const {
+        return {glm::vec4(std::exp(-intensity), contrast, light_adaptation, chromatic_adaptation)};
+    }
+};
+
+}  // namespace vesper

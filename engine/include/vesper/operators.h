@@ -27,7 +27,8 @@
       "Grave, Bremond 2008 (reconstructed): bands of contrast, each with the visibility level " \
       "it has in the scene") \
     X(DRAGO, Drago, drago, 9, "Drago, Myszkowski, Annen, Chiba 2003: logarithms of a base that goes with luminance") \
-    X(DEVLIN, Devlin, devlin, 10, "Reinhard, Devlin 2005: each channel is the response of a photoreceptor")
+    X(DEVLIN, Devlin, devlin, 10, "Reinhard, Devlin 2005: each channel is the response of a photoreceptor") \
+    X(NEUTRAL, Neutral, neutral, 11, "Khronos PBR Neutral 2024, a baseline for comparison, not psychophysical")
 /* clang-format on */
 
 #endif

@@ -17,14 +17,14 @@ struct DevlinSettings {
 
     template <class Visit>
     void options(const Visit& visit) {
-        visit(OperatorOption{"--intensity", "devlin: more is brighter", -8, 8}, intensity);
-        visit(
-            OperatorOption{"--contrast", "devlin: exponent of the half saturation, 0.3 to 1; 0: from the frame", 0, 1},
-            contrast);
-        visit(OperatorOption{"--light-adaptation", "devlin: receptors adapt to the frame (0) or to their pixel (1)", 0,
-                             1},
+        visit(OperatorOption{"--devlin-intensity", "devlin: more is brighter", -8, 8}, intensity);
+        visit(OperatorOption{"--devlin-contrast",
+                             "devlin: exponent of the half saturation, 0.3 to 1; 0: from the frame", 0, 1},
+              contrast);
+        visit(OperatorOption{"--devlin-light-adaptation",
+                             "devlin: receptors adapt to the frame (0) or to their pixel (1)", 0, 1},
               light_adaptation);
-        visit(OperatorOption{"--chromatic-adaptation",
+        visit(OperatorOption{"--devlin-chromatic-adaptation",
                              "devlin: receptors adapt to luminance (0) or to their channel (1)", 0, 1},
               chromatic_adaptation);
     }

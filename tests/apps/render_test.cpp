@@ -76,7 +76,7 @@ TEST_F(Program, DrawsLampsThatHaveAnOpening) {
             << R"("extras":{"vesper":{"version":1,"openings":[)"
             << (opening ? R"({"light":0,"width_m":0.1,"height_m":0.1})" : "") << "]}}}";
         ASSERT_EQ(render("--plan"), 0) << said;
-        EXPECT_EQ(text_of(folder / "out.txt").find("\nsources\n") != std::string::npos, opening);
+        EXPECT_EQ(text_of(folder / "out.txt").find("\nluminaires\n") != std::string::npos, opening);
         for (const char* tone : {"ward", "ldr"}) EXPECT_EQ(render("-o a.png --operator " + std::string(tone)), 0) << said;
     }
 }

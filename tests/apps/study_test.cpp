@@ -150,7 +150,7 @@ TEST_F(StudyProgram, OperatorsShowContrastAndVisibility) {
     write_layout(folder / "street.exr", street(), {.white_luminance = 1});
     ASSERT_EQ(run("study operators street.exr -o out --contrast 0.5"), 0) << said;
     auto rows = csv("out/operators.csv", "picture,operator,range_scene,range_shown,contrast_scene,contrast_shown,vl_scene,vl_shown,visible_scene,visible_shown,lost,gained");
-    ASSERT_EQ(rows.size(), 8u) << "all but ldr";
+    ASSERT_EQ(rows.size(), operators().size() - 1) << "all but ldr";
     for (Row row : rows) {
         EXPECT_EQ(row["contrast_scene"], "0.5");
         EXPECT_EQ(row["vl_scene"], rows[0]["vl_scene"]);

@@ -15,7 +15,7 @@ export LD_LIBRARY_PATH=$work/$library PKG_CONFIG_PATH=$work/$library/pkgconfig
 
 echo "== headers: each alone, and without Vulkan where that is promised"
 for header in installed/include/vesper/*; do
-    printf '#include <vesper/%s>\n' "$(basename "$header")" >alone.cpp
+    printf '#include <vesper/%s>\nextern int not_empty;\n' "$(basename "$header")" >alone.cpp
     "${CXX:-c++}" -std=c++17 -Wall -Wextra -Wpedantic -Werror -Iinstalled/include -fsyntax-only alone.cpp
     [[ $header == *.hpp ]] || "${CC:-cc}" -std=c99 -Wall -Wextra -Wpedantic -Werror -Iinstalled/include -fsyntax-only -x c alone.cpp
     [[ $header == */vulkan.h ]] || [[ $("${CXX:-c++}" -std=c++17 -Iinstalled/include -M alone.cpp) != *vulkan_core* ]] || { echo "$header brings Vulkan"; exit 1; }

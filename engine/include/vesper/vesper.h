@@ -103,9 +103,11 @@ const char *vesper_device_name(const VesperDevice *device);
 /** Tone operators (docs/tone.md), by the names of vesper/operators.h: VESPER_IRAWAN is 0. VESPER_LDR shows no luminances and is
  * refused. */
 typedef enum VesperOperator {
+/** @cond */
 #define VESPER_OPERATOR_VALUE(NAME, Name, name, value, summary) VESPER_##NAME = (value),
     VESPER_OPERATORS(VESPER_OPERATOR_VALUE)
 #undef VESPER_OPERATOR_VALUE
+/** @endcond */
 } VesperOperator;
 
 /** Light scattered in the eye before it adapts (docs/glare.md). */

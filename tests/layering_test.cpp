@@ -67,7 +67,8 @@ std::string objection(const fs::path& from, const std::string& what) {
     const std::string layer = glsl ? "glsl" : top;
     // Pictures are part of a scene and are decoded by io; that is all io knows of it, and no header of scene knows io.
     if (folder == "io" && what == "scene/scene.h") return {};
-    if ((folder == "scene" || folder == "traffic") && layer == "io" && from.extension() != ".cpp") return "is a header of " + folder + "/";
+    if ((folder == "scene" || folder == "traffic") && layer == "io" && from.extension() != ".cpp")
+        return "is a header of " + folder + "/";
     if (layer != folder && !kMayInclude.at(folder).contains(layer)) return "is a step up";
     return {};
 }
@@ -109,9 +110,12 @@ TEST(Layering, TheRulesRefuse) {
 
 /// The files that a pass of this name lacks.
 std::vector<std::string> missing_of(const std::string& pass) {
-    const fs::path files[]{"engine/render/passes/" + pass + ".h",      "engine/render/passes/" + pass + ".cpp",
-                           "glsl/" + pass,                             "tests/passes/" + pass + "_reference.h",
-                           "tests/passes/" + pass + "_reference_test.cpp", "tests/passes/" + pass + "_test.cpp"};
+    const fs::path files[]{"engine/render/passes/" + pass + ".h",
+                           "engine/render/passes/" + pass + ".cpp",
+                           "glsl/" + pass,
+                           "tests/passes/" + pass + "_reference.h",
+                           "tests/passes/" + pass + "_reference_test.cpp",
+                           "tests/passes/" + pass + "_test.cpp"};
     std::vector<std::string> missing;
     for (const fs::path& file : files)
         if (!fs::exists(kSource / file)) missing.push_back(file.string());
@@ -128,7 +132,8 @@ TEST(Layering, EveryPassHasItsFilesUnderOneName) {
         EXPECT_EQ(missing_of(pass), std::vector<std::string>()) << pass;
         if (file.extension() != ".cpp") continue;
         const std::string text = text_of(file);
-        EXPECT_TRUE(text.find(".dispatch(") != text.npos || text.find(".raster(") != text.npos) << pass << " declares no pass";
+        EXPECT_TRUE(text.find(".dispatch(") != text.npos || text.find(".raster(") != text.npos)
+            << pass << " declares no pass";
         ++passes;
     }
     EXPECT_GT(passes, 15u);
@@ -158,7 +163,8 @@ TEST(Layering, EveryTestOfAPassHasAReference) {
 
 /// The types that a file defines outside of anonymous namespaces, with their namespaces.
 std::vector<std::string> types_of(const std::string& text) {
-    static const std::regex line(R"((?:^|\n)(?:namespace ([\w:]*) ?\{|\}  // (namespace)|(?:template <[^\n]*>\n?)?(?:struct|class|enum|enum class|union) (\w+)(?: final)?(?: :[^:\n][^\n;]*)? \{))");
+    static const std::regex line(
+        R"((?:^|\n)(?:namespace ([\w:]*) ?\{|\}  // (namespace)|(?:template <[^\n]*>\n?)?(?:struct|class|enum|enum class|union) (\w+)(?: final)?(?: :[^:\n][^\n;]*)? \{))");
     std::vector<std::string> inside, found;
     // Matches begin with the end of the line before: one at a time, that none is passed over.
     for (auto at = text.begin(); at != text.end();) {
@@ -180,12 +186,14 @@ std::vector<std::string> types_of(const std::string& text) {
 
 // Two types of one name and namespace are one to the linker: it takes the functions of either for both.
 TEST(Layering, NoTypeIsDefinedTwice) {
-    EXPECT_EQ(types_of("namespace a {\nnamespace {\nstruct X {\n};\n}  // namespace\nstruct Y : Z {\nenum class E { f };\n}  // namespace a\nclass V;\nstruct W {"),
+    EXPECT_EQ(types_of("namespace a {\nnamespace {\nstruct X {\n};\n}  // namespace\nstruct Y : Z {\nenum class E { f "
+                       "};\n}  // namespace a\nclass V;\nstruct W {"),
               (std::vector<std::string>{"a::Y", "a::E", "W"}));
     std::map<std::string, fs::path> defined;
     for (const char* folder : {"engine", "apps", "tests"})
         for (const fs::path& file : files_under(kSource / folder, {".h", ".cpp"})) {
-            if (fs::relative(file, kSource / "apps").begin()->string() == "examples") continue;  // programs of their own
+            if (fs::relative(file, kSource / "apps").begin()->string() == "examples")
+                continue;  // programs of their own
             for (const std::string& type : types_of(text_of(file))) {
                 const auto [other, is_new] = defined.emplace(type, file);
                 EXPECT_TRUE(is_new) << type << " is defined in " << other->second << " and in " << file;
@@ -194,9 +202,11 @@ TEST(Layering, NoTypeIsDefinedTwice) {
     EXPECT_GT(defined.size(), 300u);
 }
 
-// Hosts set locales (Qt does), and then these take and write a comma for the decimal point, or know no i of other letters: base/decimal.h, base/lower.h and std::from_chars instead.
+// Hosts set locales (Qt does), and then these take and write a comma for the decimal point, or know no i of other
+// letters: base/decimal.h, base/lower.h and std::from_chars instead.
 TEST(Layering, NothingFollowsTheLocaleOfTheHost) {
-    const std::regex follows(R"re(\b(strtof|strtol?d|atof|stof|stol?d|toupper|tolower|[a-z]*stringstream)\s*[({ ]|scanf\([^;]*%[0-9]*l?[efg]|printf\([^;]*%[-+#0-9.]*[efgEFG])re");
+    const std::regex follows(
+        R"re(\b(strtof|strtol?d|atof|stof|stol?d|toupper|tolower|[a-z]*stringstream)\s*[({ ]|scanf\([^;]*%[0-9]*l?[efg]|printf\([^;]*%[-+#0-9.]*[efgEFG])re");
     for (const auto& entry : fs::recursive_directory_iterator(kSource / "engine")) {
         const std::string text = entry.is_regular_file() ? text_of(entry.path()) : std::string();
         std::smatch found;

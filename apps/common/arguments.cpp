@@ -14,7 +14,8 @@ namespace vesper {
 // One name for each file, whatever links and dots lead to it.
 static std::string true_name(const std::string& file) {
     std::error_code failed;
-    const std::filesystem::path name = std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
+    const std::filesystem::path name =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
     return failed ? file : name.string();
 }
 
@@ -27,7 +28,8 @@ void Files::writes(const std::string& option, const std::string& file) {
     const std::string place = option + " " + one_line(file) + ": ";
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     std::error_code failed;
-    if (!folder.empty() && !std::filesystem::is_directory(folder, failed)) throw Error(place + "there is no folder " + one_line(folder.string()));
+    if (!folder.empty() && !std::filesystem::is_directory(folder, failed))
+        throw Error(place + "there is no folder " + one_line(folder.string()));
     const std::string name = true_name(file);
     if (read_.contains(name)) throw Error(place + "would replace what is read");
     if (!written_.try_emplace(name, option, file).second) throw Error(place + "would be written twice");
@@ -38,7 +40,8 @@ void Files::refuse_overwriting(const FilesRead& read) const {
 }
 
 void refuse_overwriting(const FilesRead& read, const std::string& option, const std::string& file) {
-    if (!file.empty() && read.contains(file)) throw Error(option + " " + one_line(file) + ": would replace what is read");
+    if (!file.empty() && read.contains(file))
+        throw Error(option + " " + one_line(file) + ": would replace what is read");
 }
 
 std::string in_shell(const std::string& value) {

@@ -83,7 +83,8 @@ void Canvas::disc(glm::dvec2 centre, double radius, CanvasColour c) {
     cairo_fill(drawing_->cairo);
 }
 
-void Canvas::text(glm::dvec2 at, const std::string& words, double size, Align align, CanvasColour c, bool halo, bool turned) {
+void Canvas::text(glm::dvec2 at, const std::string& words, double size, Align align, CanvasColour c, bool halo,
+                  bool turned) {
     cairo_t* cairo = drawing_->cairo;
     const double width = text_width(words, size);
     cairo_save(cairo);

@@ -32,9 +32,10 @@ public:
     void fill(glm::dvec2 corner, glm::dvec2 size, CanvasColour);
     void circle(glm::dvec2 centre, double radius, CanvasColour, double thickness = 1);
     void disc(glm::dvec2 centre, double radius, CanvasColour);
-    /// One line of UTF-8, its middle at the height of `at`; `halo` outlines it against what lies below. `turned` runs up.
-    void text(glm::dvec2 at, const std::string&, double size, Align = Align::Left, CanvasColour = CanvasColour(0), bool halo = false,
-              bool turned = false);
+    /// One line of UTF-8, its middle at the height of `at`; `halo` outlines it against what lies below. `turned` runs
+    /// up.
+    void text(glm::dvec2 at, const std::string&, double size, Align = Align::Left, CanvasColour = CanvasColour(0),
+              bool halo = false, bool turned = false);
     double text_width(const std::string&, double size);
     /// A block of RGBA pixels with its upper left corner at (x, y), clipped.
     void pixels(int x, int y, uint32_t width, uint32_t height, std::span<const uint8_t> rgba);

@@ -22,8 +22,8 @@
 namespace vesper {
 namespace {
 
-// A CPU device builds tens of MiB of its own lists in every frame. glibc would give them back to the system after each, and
-// have every page cleared again in the next: a twentieth of the frame.
+// A CPU device builds tens of MiB of its own lists in every frame. glibc would give them back to the system after each,
+// and have every page cleared again in the next: a twentieth of the frame.
 void keep_freed_memory() {
 #ifdef __GLIBC__
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
@@ -42,7 +42,8 @@ bool output_ended(const std::string& program) {
 }  // namespace
 
 Check::Check(const std::function<std::string(const std::string&)>& complaint, const std::string& words)
-    : validator_(std::make_shared<CLI::Validator>([complaint](const std::string& given) { return complaint(given); }, words)) {}
+    : validator_(std::make_shared<CLI::Validator>([complaint](const std::string& given) { return complaint(given); },
+                                                  words)) {}
 
 Check::Check(const CLI::Validator& validator) : validator_(std::make_shared<CLI::Validator>(validator)) {}
 
@@ -51,7 +52,8 @@ Check between(double low, double high) {
     return {[=](const std::string& given) {
                 char* end = nullptr;
                 const double value = std::strtod(given.c_str(), &end);
-                return *end == 0 && value >= low && value <= high ? std::string() : given + " is not a number from " + words;
+                return *end == 0 && value >= low && value <= high ? std::string()
+                                                                  : given + " is not a number from " + words;
             },
             words};
 }
@@ -61,7 +63,9 @@ Check range(int low, int high) { return Check(CLI::Range(low, high)); }
 Check range(unsigned low, unsigned high) { return Check(CLI::Range(low, high)); }
 Check not_negative() { return Check(CLI::NonNegativeNumber); }
 Check one_of(const std::vector<std::string>& words) { return Check(CLI::IsMember(words)); }
-Check one_of(std::initializer_list<const char*> words) { return one_of(std::vector<std::string>(words.begin(), words.end())); }
+Check one_of(std::initializer_list<const char*> words) {
+    return one_of(std::vector<std::string>(words.begin(), words.end()));
+}
 Check one_of(std::initializer_list<int> numbers) { return Check(CLI::IsMember(std::vector<int>(numbers))); }
 
 Option& Option::check(const Check& check) { return option_->check(check.validator()), *this; }
@@ -90,7 +94,8 @@ bool Option::is_positional() const { return option_->get_positional(); }
 
 std::string Option::as_given() const {
     const std::string name = option_->get_name();
-    if (option_->get_items_expected_max() == 0) return name + (results().back() == "true" ? "" : "=" + results().back());
+    if (option_->get_items_expected_max() == 0)
+        return name + (results().back() == "true" ? "" : "=" + results().back());
     std::string text;
     for (const std::string& value : results()) {
         const bool first = &value == &results().front(), separate = option_->get_delimiter() == 0;
@@ -120,9 +125,15 @@ template Option Command::add_option(const std::string&, std::vector<double>&, co
 template Option Command::add_option(const std::string&, std::vector<float>&, const std::string&);
 template Option Command::add_option(const std::string&, std::vector<unsigned>&, const std::string&);
 
-Option Command::add_option(const std::string& names, const std::string& help) { return Option(app_->add_option(names, help)); }
-Option Command::add_flag(const std::string& names, bool& value, const std::string& help) { return Option(app_->add_flag(names, value, help)); }
-Command Command::add_command(const std::string& name, const std::string& help) { return Command(app_->add_subcommand(name, help)); }
+Option Command::add_option(const std::string& names, const std::string& help) {
+    return Option(app_->add_option(names, help));
+}
+Option Command::add_flag(const std::string& names, bool& value, const std::string& help) {
+    return Option(app_->add_flag(names, value, help));
+}
+Command Command::add_command(const std::string& name, const std::string& help) {
+    return Command(app_->add_subcommand(name, help));
+}
 void Command::requires_command() { app_->require_subcommand(1); }
 void Command::footer(const std::string& text) { app_->footer(text); }
 void Command::callback(const std::function<void()>& run) { app_->callback(run); }
@@ -141,10 +152,15 @@ std::vector<Option> Command::options() const {
 }
 Command Command::command(const std::string& name) const { return Command(app_->get_subcommand(name)); }
 std::string Command::name() const { return app_->get_name(); }
-std::string Command::listed_name(const Option& option) { return option.option_->get_name(option.is_positional(), !option.is_positional()); }
-std::string Command::help(bool all) const { return app_->help("", all ? CLI::AppFormatMode::All : CLI::AppFormatMode::Normal); }
+std::string Command::listed_name(const Option& option) {
+    return option.option_->get_name(option.is_positional(), !option.is_positional());
+}
+std::string Command::help(bool all) const {
+    return app_->help("", all ? CLI::AppFormatMode::All : CLI::AppFormatMode::Normal);
+}
 
-Program::Program(const std::string& description, const std::string& name) : owned_(std::make_unique<CLI::App>(description, name)) {
+Program::Program(const std::string& description, const std::string& name)
+    : owned_(std::make_unique<CLI::App>(description, name)) {
     app_ = owned_.get();
     if (name.empty()) {
         app_->set_help_flag();
@@ -198,7 +214,8 @@ void Program::parse(const std::vector<std::string>& words) {
 std::string options_of(const Command& command, const std::vector<std::string>& but) {
     std::string text;
     for (const Option& option : command.options()) {
-        if (option.is_positional() || option.count() == 0 || std::count(but.begin(), but.end(), option.name())) continue;
+        if (option.is_positional() || option.count() == 0 || std::count(but.begin(), but.end(), option.name()))
+            continue;
         text += (text.empty() ? "" : " ") + option.as_given();
     }
     return one_line(text, 4000);

@@ -18,7 +18,7 @@ class Validator;
 namespace vesper {
 
 constexpr const char* kFirstPage = "Options";  ///< group of the options that --help lists
-constexpr int kBadInput = 2;  ///< exit code for a file, device or argument that cannot be used
+constexpr int kBadInput = 2;                   ///< exit code for a file, device or argument that cannot be used
 
 /// A test of one argument, and the words that --help-all shows for it.
 class Check {
@@ -90,8 +90,8 @@ public:
     Command() = default;
     explicit Command(CLI::App* app) : app_(app) {}
 
-    /// T: std::string, double, float, int, unsigned, uint64_t, optional float and double, vectors of strings, doubles, floats and unsigned numbers.
-    /// `names`: "--long,-s", or "name" of a positional one.
+    /// T: std::string, double, float, int, unsigned, uint64_t, optional float and double, vectors of strings, doubles,
+    /// floats and unsigned numbers. `names`: "--long,-s", or "name" of a positional one.
     template <class T>
     Option add_option(const std::string& names, T& value, const std::string& help);
     /// Without a variable: see Option::results().
@@ -122,7 +122,8 @@ protected:
     CLI::App* app_ = nullptr;
 };
 
-/// Options without a program: to parse words of other origin. Without a name it has no options of its own, such as --help.
+/// Options without a program: to parse words of other origin. Without a name it has no options of its own, such as
+/// --help.
 class Program : public Command {
 public:
     explicit Program(const std::string& description = "", const std::string& name = "");

@@ -110,10 +110,12 @@ void draw_contours(Canvas& canvas, const ValuePicture& picture, std::span<const 
             }
 }
 
-void draw_colour_bar(Canvas& canvas, glm::dvec2 corner, double height, const ColourScale& scale, const std::string& unit) {
+void draw_colour_bar(Canvas& canvas, glm::dvec2 corner, double height, const ColourScale& scale,
+                     const std::string& unit) {
     constexpr double kWide = 24;
     canvas.text(corner + glm::dvec2(0, -14), unit, 13);
-    for (double y = 0; y < height; ++y) canvas.fill(corner + glm::dvec2(0, y), {kWide, 1.5}, map_colour(1 - y / height));
+    for (double y = 0; y < height; ++y)
+        canvas.fill(corner + glm::dvec2(0, y), {kWide, 1.5}, map_colour(1 - y / height));
     canvas.rectangle(corner, {kWide, height}, CanvasColour(0));
     double free = HUGE_VAL;
     for (const double tick : log_ticks(scale.low, scale.high)) {

@@ -17,8 +17,8 @@ struct ColourScale {
     double low = 0.1, high = 10;
     double position(double value) const;  ///< in [0, 1], clamped
 };
-/// One that begins at the 1st percentile of the positive values, ends at the 99.9th, both rounded to 1, 2 or 5, and spans
-/// at least one decade and at most eight.
+/// One that begins at the 1st percentile of the positive values, ends at the 99.9th, both rounded to 1, 2 or 5, and
+/// spans at least one decade and at most eight.
 ColourScale scale_of(std::span<const float> values);
 
 /// A picture of one value per pixel.

@@ -22,11 +22,16 @@ struct Named {
     const char* name;
     double GlareReport::*value;
 };
-constexpr Named kNames[]{{"veil", &GlareReport::veil},           {"road_veil", &GlareReport::road_veil},
-                         {"ti", &GlareReport::increment},        {"background", &GlareReport::background},
-                         {"glare_lux", &GlareReport::illuminance}, {"target", &GlareReport::target},
-                         {"around", &GlareReport::around},       {"target_veil", &GlareReport::target_veil},
-                         {"visibility", &GlareReport::visibility}, {"pupil", &GlareReport::pupil},
+constexpr Named kNames[]{{"veil", &GlareReport::veil},
+                         {"road_veil", &GlareReport::road_veil},
+                         {"ti", &GlareReport::increment},
+                         {"background", &GlareReport::background},
+                         {"glare_lux", &GlareReport::illuminance},
+                         {"target", &GlareReport::target},
+                         {"around", &GlareReport::around},
+                         {"target_veil", &GlareReport::target_veil},
+                         {"visibility", &GlareReport::visibility},
+                         {"pupil", &GlareReport::pupil},
                          {"eye_seed", &GlareReport::eye_seed}};
 
 /// A row of words: no cell of it begins as a number does.
@@ -39,17 +44,22 @@ bool is_heading(const std::vector<std::string_view>& cells) {
 
 /// Headings name the columns, or their units, and nothing else.
 void check_heading(const LineReader& lines, const std::vector<std::string_view>& cells) {
-    static const std::set<std::string> kColumns[]{{"azimuth", "az", "right", "horizontal", "h", "deg", "degree", "degrees"},
-                                                  {"elevation", "el", "up", "vertical", "v", "deg", "degree", "degrees"},
-                                                  {"illuminance", "e", "ev", "lx", "lux"}};
-    static const std::set<std::string> kOthers{"angle", "to", "the", "of", "at", "in", "eye", "lamp", "light", "source", "glare", "direction", "position", "intensity", "v"};
-    constexpr const char* kWanted = "the columns are azimuth (to the right, degrees), elevation (up, degrees) and illuminance at the eye (lx)";
+    static const std::set<std::string> kColumns[]{
+        {"azimuth", "az", "right", "horizontal", "h", "deg", "degree", "degrees"},
+        {"elevation", "el", "up", "vertical", "v", "deg", "degree", "degrees"},
+        {"illuminance", "e", "ev", "lx", "lux"}};
+    static const std::set<std::string> kOthers{"angle", "to",        "the",      "of",        "at",
+                                               "in",    "eye",       "lamp",     "light",     "source",
+                                               "glare", "direction", "position", "intensity", "v"};
+    constexpr const char* kWanted =
+        "the columns are azimuth (to the right, degrees), elevation (up, degrees) and illuminance at the eye (lx)";
     if (cells.size() != 3) lines.fail(kWanted);
     for (size_t i = 0; i < cells.size(); ++i) {
         bool named = false;
         for (const std::string& word : words_of(cells[i])) {
             named |= kColumns[i].contains(word);
-            if (!kColumns[i].contains(word) && !kOthers.contains(word)) lines.fail(vesper::quoted(word) + " in " + quoted(cells[i]) + ": " + kWanted);
+            if (!kColumns[i].contains(word) && !kOthers.contains(word))
+                lines.fail(vesper::quoted(word) + " in " + quoted(cells[i]) + ": " + kWanted);
         }
         if (!named) lines.fail(quoted(cells[i]) + ": " + kWanted);
     }
@@ -65,8 +75,16 @@ char separator_of(std::string_view line) {
 
 void add_glare_options(Command command, GlareArguments& a) {
     command.help_group("Glare");
-    command.add_option("--lamps", a.lamps, "CSV file of lamps on other screens, to be scattered into this one with --glare cie, spencer or ward: degrees to the right, degrees up, lx at the eye");
-    command.add_option("--target", a.target, "X,Y,WIDTH,HEIGHT, parts of the image from its top left: prints how visible it is, as logs and .exr files say it, too").separated_by(',').values(4).check(between(0.0, 1.0));
+    command.add_option("--lamps", a.lamps,
+                       "CSV file of lamps on other screens, to be scattered into this one with --glare cie, spencer or "
+                       "ward: degrees to the right, degrees up, lx at the eye");
+    command
+        .add_option("--target", a.target,
+                    "X,Y,WIDTH,HEIGHT, parts of the image from its top left: prints how visible it is, as logs and "
+                    ".exr files say it, too")
+        .separated_by(',')
+        .values(4)
+        .check(between(0.0, 1.0));
     command.help_group();
 }
 
@@ -88,7 +106,8 @@ std::vector<OffscreenLamp> read_lamps(const std::string& file) {
         for (size_t i = 0; i < 3 && fields.size() == 3; ++i) values[i] = number_of(fields[i], separator != ',');
         if (!values[0] || !values[1] || !values[2]) lines.fail("expected degrees to the right, degrees up, lx");
         const double azimuth = *values[0], elevation = *values[1], lux = *values[2];
-        if (std::abs(azimuth) > 180 || std::abs(elevation) > 90 || lux < 0 || lux > 1e9) lines.fail("degrees of -180 to 180 and -90 to 90 and 0 to 1e9 lx are expected");
+        if (std::abs(azimuth) > 180 || std::abs(elevation) > 90 || lux < 0 || lux > 1e9)
+            lines.fail("degrees of -180 to 180 and -90 to 90 and 0 to 1e9 lx are expected");
         if (lamps.size() == kMostLamps) lines.fail("more than " + std::to_string(kMostLamps) + " lamps");
         const double a = azimuth / kDegreesPerRadian, e = elevation / kDegreesPerRadian;
         lamps.push_back({{std::sin(a) * std::cos(e), std::sin(e), -std::cos(a) * std::cos(e)}, glm::dvec3(lux)});
@@ -96,7 +115,8 @@ std::vector<OffscreenLamp> read_lamps(const std::string& file) {
     return lamps;
 }
 
-GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& settings, const ToneMapped& shown, const ImageAngles& image, const std::vector<OffscreenLamp>& outside) {
+GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& settings, const ToneMapped& shown,
+                     const ImageAngles& image, const std::vector<OffscreenLamp>& outside) {
     std::vector<DazzlingLight> lamps;
     for (const OffscreenLamp& lamp : outside) lamps.push_back({lamp.direction, luminance(lamp.illuminance)});
     GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze)};
@@ -108,21 +128,26 @@ GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& s
         throw Error(std::string("--target: ") + error.what());
     }
     report.pupil = shown.pupil;
-    if (settings.glare == Glare::Scatter && settings.scatter.has_corona()) report.eye_seed = settings.scatter.aperture.seed;
+    if (settings.glare == Glare::Scatter && settings.scatter.has_corona())
+        report.eye_seed = settings.scatter.aperture.seed;
     return report;
 }
 
 void check_target(const GlareArguments& arguments, const ToneChainSettings& settings) {
-    if (!arguments.target.empty() && settings.tone_operator == Operator::Ldr) throw Error("--target: the ldr operator has no luminances to measure");
+    if (!arguments.target.empty() && settings.tone_operator == Operator::Ldr)
+        throw Error("--target: the ldr operator has no luminances to measure");
 }
 
 std::string target_line(const GlareReport& r) {
-    return format("target %.4g cd/m^2 on %.4g cd/m^2, veil %.4g cd/m^2, visibility level %.3g\n", r.target, r.around, r.target_veil, r.visibility);
+    return format("target %.4g cd/m^2 on %.4g cd/m^2, veil %.4g cd/m^2, visibility level %.3g\n", r.target, r.around,
+                  r.target_veil, r.visibility);
 }
 
 Header describe_glare(const ToneChainSettings& settings, const GlareReport& report) {
     const ScatterSettings& s = settings.scatter;
-    Header header{{"vesper:glare", settings.glare == Glare::None ? "none" : settings.glare == Glare::Ldr ? "ldr" : name_of(s.model)},
+    Header header{{"vesper:glare", settings.glare == Glare::None  ? "none"
+                                   : settings.glare == Glare::Ldr ? "ldr"
+                                                                  : name_of(s.model)},
                   {"vesper:glare:age", digits(s.eye.age)},
                   {"vesper:glare:iris", digits(s.eye.pigmentation)}};
     for (const Named& n : kNames) header.emplace_back(std::string("vesper:glare:") + n.name, digits(report.*n.value));
@@ -143,15 +168,22 @@ std::string glare_values(const GlareReport& report) {
 
 std::string glare_sources_heading() { return "frame,lamp,azimuth,elevation,distance,candela,lux,veil,inside\n"; }
 
-std::string glare_sources_lines(unsigned frame, const Scene& scene, std::vector<GlareSource> sources, const ScatteringEye& eye) {
-    std::stable_sort(sources.begin(), sources.end(), [](const GlareSource& a, const GlareSource& b) { return luminance(a.illuminance) > luminance(b.illuminance); });
+std::string glare_sources_lines(unsigned frame, const Scene& scene, std::vector<GlareSource> sources,
+                                const ScatteringEye& eye) {
+    std::stable_sort(sources.begin(), sources.end(), [](const GlareSource& a, const GlareSource& b) {
+        return luminance(a.illuminance) > luminance(b.illuminance);
+    });
     std::string text;
     for (const GlareSource& s : sources) {
-        const double cosine = -s.direction.z, theta = std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegreesPerRadian, lux = luminance(s.illuminance);
+        const double cosine = -s.direction.z, theta = std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegreesPerRadian,
+                     lux = luminance(s.illuminance);
         std::string name = scene.nodes[s.node].name;
-        std::replace_if(name.begin(), name.end(), [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }, ' ');
-        text += format("%u,%s,%.4f,%.4f,%.3f,%.6g,%.6g,%.6g,%.3f\n", frame, name.c_str(), std::atan2(s.direction.x, -s.direction.z) * kDegreesPerRadian, std::asin(s.direction.y) * kDegreesPerRadian,
-                       s.distance, s.candela, lux, lux * cosine * cie_general_glare(std::max(theta, 0.1), eye), s.inside);
+        std::replace_if(
+            name.begin(), name.end(), [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }, ' ');
+        text += format("%u,%s,%.4f,%.4f,%.3f,%.6g,%.6g,%.6g,%.3f\n", frame, name.c_str(),
+                       std::atan2(s.direction.x, -s.direction.z) * kDegreesPerRadian,
+                       std::asin(s.direction.y) * kDegreesPerRadian, s.distance, s.candela, lux,
+                       lux * cosine * cie_general_glare(std::max(theta, 0.1), eye), s.inside);
     }
     return text;
 }

@@ -6,12 +6,12 @@
 
 #include "command_line.h"
 
-#include "io/image_file.h"
-#include "vision/glare_report.h"
 #include "gpu_scene/eye_scatter.h"
 #include "gpu_scene/luminaires.h"
-#include "scene/scene.h"
+#include "io/image_file.h"
 #include "render/tone_chain.h"
+#include "scene/scene.h"
+#include "vision/glare_report.h"
 
 namespace vesper {
 
@@ -21,12 +21,15 @@ struct GlareArguments {
 };
 void add_glare_options(Command, GlareArguments&);
 
-/// Lamps on other screens, one a line: azimuth to the right, elevation, degrees from the middle of the view, lx at the eye, on a
-/// plane facing the lamp. Empty lines, lines of # and a heading of words are passed by. Throws Error, naming file and line.
+/// Lamps on other screens, one a line: azimuth to the right, elevation, degrees from the middle of the view, lx at the
+/// eye, on a plane facing the lamp. Empty lines, lines of # and a heading of words are passed by. Throws Error, naming
+/// file and line.
 std::vector<OffscreenLamp> read_lamps(const std::string& file);
 
-/// What glare hides in a frame, whose `scene` was brought back: a pixel of more than 100 times the log average is a source.
-GlareReport glare_of(const GlareArguments&, const ToneChainSettings&, const ToneMapped&, const ImageAngles&, const std::vector<OffscreenLamp>& outside);
+/// What glare hides in a frame, whose `scene` was brought back: a pixel of more than 100 times the log average is a
+/// source.
+GlareReport glare_of(const GlareArguments&, const ToneChainSettings&, const ToneMapped&, const ImageAngles&,
+                     const std::vector<OffscreenLamp>& outside);
 /// Throws Error where a target is asked of an operator that shows no luminances.
 void check_target(const GlareArguments&, const ToneChainSettings&);
 /// How visible the marked target is, in a line.

@@ -9,8 +9,8 @@ class FormatterBase;
 
 namespace vesper {
 
-/// --help lists the options of the first page (kFirstPage), each with the first line of its description; --help-all lists
-/// all options by groups, with all lines.
+/// --help lists the options of the first page (kFirstPage), each with the first line of its description; --help-all
+/// lists all options by groups, with all lines.
 std::shared_ptr<CLI::FormatterBase> help_pages();
 
 }  // namespace vesper

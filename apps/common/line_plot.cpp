@@ -9,7 +9,8 @@ namespace vesper {
 namespace {
 
 const CanvasColour kGrid(0.86), kInk(0.15);
-const CanvasColour kLines[]{{0.12, 0.36, 0.71}, {0.84, 0.15, 0.16}, {0.17, 0.55, 0.2}, {0.85, 0.5, 0.05}, {0.5, 0.25, 0.65}, {0.1, 0.6, 0.65}, {0.55, 0.35, 0.2}, {0.45, 0.45, 0.45}};
+const CanvasColour kLines[]{{0.12, 0.36, 0.71}, {0.84, 0.15, 0.16}, {0.17, 0.55, 0.2}, {0.85, 0.5, 0.05},
+                            {0.5, 0.25, 0.65},  {0.1, 0.6, 0.65},   {0.55, 0.35, 0.2}, {0.45, 0.45, 0.45}};
 
 struct Axis {
     bool log = false;
@@ -57,7 +58,8 @@ void save_plot(const std::string& file, const LinePlot& plot) {
     canvas.rectangle(corner, size, kInk);
     canvas.text({corner.x + size.x / 2, end.y + 40}, plot.x_name, 13, Canvas::Align::Centre);
     canvas.text({20, corner.y + size.y / 2}, plot.y_name, 13, Canvas::Align::Centre, kInk, false, true);
-    if (plot.rule != 0) canvas.line({corner.x, at({1, plot.rule}).y}, {end.x, at({1, plot.rule}).y}, CanvasColour(0), 1.5, true);
+    if (plot.rule != 0)
+        canvas.line({corner.x, at({1, plot.rule}).y}, {end.x, at({1, plot.rule}).y}, CanvasColour(0), 1.5, true);
     for (size_t i = 0; i < plot.lines.size(); ++i) {
         const PlotLine& line = plot.lines[i];
         const CanvasColour colour = kLines[i % std::size(kLines)];

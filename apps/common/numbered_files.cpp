@@ -19,20 +19,25 @@ std::optional<NumberedName> numbered_name(const std::string& option, const std::
     if (percent == name.npos) return std::nullopt;
     const size_t d = name.find('d', percent);
     const std::string count = d == name.npos ? "x" : name.substr(percent + 1, d - percent - 1);
-    const bool sound = count.size() <= 2 && (count.size() < 2 || count <= "10") && name.find('%', percent + 1) == name.npos &&
+    const bool sound = count.size() <= 2 && (count.size() < 2 || count <= "10") &&
+                       name.find('%', percent + 1) == name.npos &&
                        std::all_of(count.begin(), count.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
     if (!sound) throw Error(option + " " + one_line(name) + ": only one number such as %04d may follow a %");
-    return NumberedName{name.substr(0, percent), name.substr(d + 1), count.empty() ? 1u : std::max(1u, unsigned(std::stoi(count)))};
+    return NumberedName{name.substr(0, percent), name.substr(d + 1),
+                        count.empty() ? 1u : std::max(1u, unsigned(std::stoi(count)))};
 }
 
 std::optional<unsigned> number_in(const NumberedName& name, const std::string& path) {
-    const std::string start = fs::path(name.before + "0").filename().string(), before = start.substr(0, start.size() - 1), file = fs::path(path).filename().string();
-    if (file.size() <= before.size() + name.after.size() || !file.starts_with(before) || !file.ends_with(name.after)) return std::nullopt;
+    const std::string start = fs::path(name.before + "0").filename().string(),
+                      before = start.substr(0, start.size() - 1), file = fs::path(path).filename().string();
+    if (file.size() <= before.size() + name.after.size() || !file.starts_with(before) || !file.ends_with(name.after))
+        return std::nullopt;
     const char *first = file.data() + before.size(), *last = file.data() + file.size() - name.after.size();
     unsigned number = 0;
     const auto [rest, error] = std::from_chars(first, last, number);
     // What printf would have written for that number, so that each file is found once.
-    if (error != std::errc() || rest != last || file != before + format("%0*u", int(name.digits), number) + name.after) return std::nullopt;
+    if (error != std::errc() || rest != last || file != before + format("%0*u", int(name.digits), number) + name.after)
+        return std::nullopt;
     return number;
 }
 
@@ -48,7 +53,9 @@ std::vector<NumberedFile> existing_files(const NumberedName& name) {
 
 std::vector<NumberedFile> numbered_files(const NumberedName& name) {
     std::vector<NumberedFile> found = existing_files(name);
-    if (found.empty()) throw Error(one_line(name.before + "%0" + std::to_string(name.digits) + "d" + name.after) + ": there are no such files");
+    if (found.empty())
+        throw Error(one_line(name.before + "%0" + std::to_string(name.digits) + "d" + name.after) +
+                    ": there are no such files");
     return found;
 }
 

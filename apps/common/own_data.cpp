@@ -13,15 +13,19 @@ namespace fs = std::filesystem;
 constexpr std::string_view kOwn = "vesper:";
 
 /// Whether a path goes on below the folder that it starts from.
-bool stays(const fs::path& relative) { return relative.is_relative() && !relative.empty() && *relative.begin() != ".."; }
+bool stays(const fs::path& relative) {
+    return relative.is_relative() && !relative.empty() && *relative.begin() != "..";
+}
 
 }  // namespace
 
 fs::path own_data() {
     std::error_code failed;
     const fs::path programs = fs::read_symlink("/proc/self/exe", failed).parent_path();
-    if (failed) throw Error("Vesper's own scenes: /proc/self/exe does not say where this program lies: " + failed.message());
-    const fs::path beside = programs / "share/vesper", installed = (programs / VESPER_DATA_FROM_PROGRAMS).lexically_normal();
+    if (failed)
+        throw Error("Vesper's own scenes: /proc/self/exe does not say where this program lies: " + failed.message());
+    const fs::path beside = programs / "share/vesper",
+                   installed = (programs / VESPER_DATA_FROM_PROGRAMS).lexically_normal();
     for (const fs::path& folder : {beside, installed}) {
         const fs::path found = fs::canonical(folder, failed);
         if (!failed && fs::is_directory(found, failed)) return found;

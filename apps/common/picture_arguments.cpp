@@ -21,8 +21,8 @@ double degrees_between(double bottom, double top) {
     return degrees >= 0.1 && degrees <= 170 ? degrees : 0;
 }
 
-/// The view of a Radiance picture: each VIEW of its header changes what those before said. Only perspectives (-vtv) have an angle of their
-/// height, -vv degrees, moved up by -vl of it.
+/// The view of a Radiance picture: each VIEW of its header changes what those before said. Only perspectives (-vtv)
+/// have an angle of their height, -vv degrees, moved up by -vl of it.
 class RadianceView {
 public:
     void add(const std::string& options) {
@@ -48,7 +48,9 @@ double angle_of(const Header& header) {
     std::optional<RadianceView> view;
     for (const auto& [key, value] : header) {
         double left = 0, bottom = 0, right = 0, top = 0;
-        if (key == "vesper:tangents" && std::sscanf(value.c_str(), "%lf %lf %lf %lf", &left, &bottom, &right, &top) == 4) return degrees_between(bottom, top);
+        if (key == "vesper:tangents" &&
+            std::sscanf(value.c_str(), "%lf %lf %lf %lf", &left, &bottom, &right, &top) == 4)
+            return degrees_between(bottom, top);
         if (key != "VIEW") continue;
         if (!view) view.emplace();
         view->add(value);
@@ -60,7 +62,9 @@ double angle_of(const Header& header) {
 double pixel_aspect_of(const Header& header) {
     double aspect = 1;
     for (const auto& [key, value] : header)
-        if (double factor = 0; (key == "pixelAspectRatio" || key == "PIXASPECT") && std::sscanf(value.c_str(), "%lf", &factor) == 1) aspect *= factor;
+        if (double factor = 0;
+            (key == "pixelAspectRatio" || key == "PIXASPECT") && std::sscanf(value.c_str(), "%lf", &factor) == 1)
+            aspect *= factor;
     return aspect;
 }
 
@@ -72,13 +76,16 @@ void find_unit(PictureMeaning& meaning, const HdrImage& image, const PictureRequ
         meaning.scale_source = "none";
     } else if (image.exposure != 1) {
         meaning.scale_source = "header";
-        meaning.notes.emplace_back("its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are Radiance's watts)");
+        meaning.notes.emplace_back(
+            "its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are Radiance's watts)");
     } else if (request.held > 0) {
         meaning.unit = request.held, meaning.scale_source = "sequence";
     } else if (const RelativeLuminance found = relative_luminance(image.rgb); found.log_average > 0) {
         meaning.unit = plausible_scale(found), meaning.scale_source = "auto";
-        meaning.scale_note = format("its header names no unit: 1.0 is taken as %.6g cd/m^2, so that its log average is %.3g cd/m^2 "
-                                    "(--scale tells another)", meaning.unit, meaning.unit * found.log_average);
+        meaning.scale_note = format(
+            "its header names no unit: 1.0 is taken as %.6g cd/m^2, so that its log average is %.3g cd/m^2 "
+            "(--scale tells another)",
+            meaning.unit, meaning.unit * found.log_average);
     } else {
         meaning.unit = 0, meaning.scale_source = "none";
         meaning.notes.emplace_back("its header names no unit, and it has no light");
@@ -89,17 +96,20 @@ void find_unit(PictureMeaning& meaning, const HdrImage& image, const PictureRequ
 
 void add_scale_options(Command command, ScaleArguments& a) {
     constexpr double kLeast = 1e-12, kMost = 1e12, kStops = 40;
-    const Check scale([=](const std::string& given) {
-        char* end = nullptr;
-        const double value = std::strtod(given.c_str(), &end);
-        const bool sound = given == "auto" || (*end == 0 && value >= kLeast && value <= kMost);
-        return sound ? std::string() : given + format(" is neither auto nor a number from %g to %g", kLeast, kMost);
-    }, "auto|N");
-    const char* help = "cd/m^2 of a picture's 1.0; auto: as its header says, or, where it names no unit, as such a scene may have";
-    command.add_option("--scale", a.scale, help)
-        .check(scale)
-        .shows_default();
-    command.add_option("--exposure", a.exposure, "Stops by which pictures are brighter than by --scale: luminance times 2^EV")
+    const Check scale(
+        [=](const std::string& given) {
+            char* end = nullptr;
+            const double value = std::strtod(given.c_str(), &end);
+            const bool sound = given == "auto" || (*end == 0 && value >= kLeast && value <= kMost);
+            return sound ? std::string() : given + format(" is neither auto nor a number from %g to %g", kLeast, kMost);
+        },
+        "auto|N");
+    const char* help =
+        "cd/m^2 of a picture's 1.0; auto: as its header says, or, where it names no unit, as such a scene may have";
+    command.add_option("--scale", a.scale, help).check(scale).shows_default();
+    command
+        .add_option("--exposure", a.exposure,
+                    "Stops by which pictures are brighter than by --scale: luminance times 2^EV")
         .check(between(-kStops, kStops))
         .shows_default();
 }
@@ -109,7 +119,8 @@ VkExtent2D parse_size(const std::string& text, unsigned least, unsigned most) {
     char rest = 0;
     const auto fits = [&](unsigned side) { return side >= least && side <= most; };
     if (std::sscanf(text.c_str(), "%5ux%5u%c", &width, &height, &rest) != 2 || !fits(width) || !fits(height))
-        throw Error("--size " + one_line(text) + format(": expected WIDTHxHEIGHT, %ux%u to %ux%u", least, least, most, most));
+        throw Error("--size " + one_line(text) +
+                    format(": expected WIDTHxHEIGHT, %ux%u to %ux%u", least, least, most, most));
     return {width, height};
 }
 
@@ -121,13 +132,15 @@ PictureMeaning meaning_of(const HdrImage& image, const PictureRequest& request) 
         const double told = image.white_luminance;
         meaning.unit = std::strtod(scale.c_str(), nullptr), meaning.scale_source = "option";
         if (told > 0 && std::abs(meaning.unit - told) > 1e-6 * told)
-            meaning.notes.push_back(format("its header says that 1.0 is %.6g cd/m^2: --scale %.6g is taken", told, meaning.unit));
+            meaning.notes.push_back(
+                format("its header says that 1.0 is %.6g cd/m^2: --scale %.6g is taken", told, meaning.unit));
     }
     meaning.scale = (meaning.unit > 0 ? meaning.unit : 1) * std::exp2(request.scale.exposure);
     if (const double angle = request.fov > 0 ? request.fov : angle_of(image.header); angle > 0)
         meaning.fov = angle;
     else if (request.angle_matters)
-        meaning.notes.push_back(format("its header names no angle of a perspective: taken as %g degrees high (--fov tells another)", meaning.fov));
+        meaning.notes.push_back(format(
+            "its header names no angle of a perspective: taken as %g degrees high (--fov tells another)", meaning.fov));
     if (const double aspect = pixel_aspect_of(image.header); std::abs(aspect - 1) > 1e-3)
         meaning.notes.push_back(format("its pixels are not square (%.4g): shown and measured as if they were", aspect));
     return meaning;

@@ -6,7 +6,8 @@
 
 namespace vesper {
 
-Progress::Progress(std::string what, unsigned total) : what_(std::move(what)), total_(total), visible_(total > 1 && isatty(STDERR_FILENO)) {}
+Progress::Progress(std::string what, unsigned total)
+    : what_(std::move(what)), total_(total), visible_(total > 1 && isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
     if (visible_) std::fputc('\n', stderr);

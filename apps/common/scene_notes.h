@@ -11,7 +11,10 @@ namespace vesper {
 
 /// For who forgot to convert a scene; empty for those who did not.
 inline std::string photometry_note(const LoadedScene& loaded, const std::string& file) {
-    return loaded.photometric ? "" : one_line(file) + " has no photometry: read as plain glTF (sRGB textures, no ambient light, a black sky); see vesper convert --help";
+    return loaded.photometric ? ""
+                              : one_line(file) +
+                                    " has no photometry: read as plain glTF (sRGB textures, no ambient light, a black "
+                                    "sky); see vesper convert --help";
 }
 
 /// That, and the notes of its reading.

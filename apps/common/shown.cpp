@@ -28,7 +28,8 @@ double shown_luminance(const shared::ToneCurve& curve, uint32_t form, double lum
         const double ln = std::log(std::max(luminance, double(shared::kLuminanceFloor)));
         const double at = std::clamp((ln - curve.ln_low) * double(curve.bins_per_ln), 0.0, double(curve.bins));
         const size_t below = std::min(size_t(at), size_t(curve.bins) - 1);
-        const glm::dvec4 node = glm::mix(glm::dvec4(curve.node[below]), glm::dvec4(curve.node[below + 1]), at - double(below));
+        const glm::dvec4 node =
+            glm::mix(glm::dvec4(curve.node[below]), glm::dvec4(curve.node[below + 1]), at - double(below));
         if (form != shared::kToneColour) return std::min(high, std::exp(node.x));
         const double seen = std::clamp(node.x + node.z + double(curve.block[0].x), 0.0, 0.9999999);
         relative = double(curve.block[0].y) * std::pow(seen / (1 - seen), 1 / double(shared::kResponsePower));

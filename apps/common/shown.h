@@ -1,8 +1,8 @@
 // What a tone curve does to one luminance, on the host. SPDX-License-Identifier: MIT
 #pragma once
 
-#include "vision/display.h"
 #include "shared/tone.h"
+#include "vision/display.h"
 
 namespace vesper {
 

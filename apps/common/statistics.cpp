@@ -20,7 +20,8 @@ LuminanceStatistics luminance_statistics(std::span<const float> pixels, size_t c
     std::vector<float> luminances;
     luminances.reserve(pixels.size() / channels);
     for (size_t i = 0; i + channels <= pixels.size(); i += channels) {
-        const double y = double(shared::kRed) * double(pixels[i]) + double(shared::kGreen) * double(pixels[i + 1]) + double(shared::kBlue) * double(pixels[i + 2]);
+        const double y = double(shared::kRed) * double(pixels[i]) + double(shared::kGreen) * double(pixels[i + 1]) +
+                         double(shared::kBlue) * double(pixels[i + 2]);
         if (!std::isfinite(y)) {
             ++s.non_finite;
             continue;
@@ -51,7 +52,8 @@ std::string text_of(const LuminanceStatistics& s, const std::string& heading) {
         label.resize(10, ' ');
         text += "  " + label + number(luminance) + "\n";
     }
-    text += "  maximum   " + number(s.maximum) + "\n  mean      " + number(s.mean) + "\n  log mean  " + number(s.log_mean) + "\n";
+    text += "  maximum   " + number(s.maximum) + "\n  mean      " + number(s.mean) + "\n  log mean  " +
+            number(s.log_mean) + "\n";
     if (s.zero || s.negative) {
         text += "  least > 0 " + number(s.least_positive) + "\n  pixels of 0: " + std::to_string(s.zero);
         text += ", negative: " + std::to_string(s.negative) + "\n";
@@ -62,11 +64,12 @@ std::string text_of(const LuminanceStatistics& s, const std::string& heading) {
 
 std::string json_of(const LuminanceStatistics& s) {
     std::string text = "{\"minimum_cd_m2\": " + number(s.minimum) + ", \"maximum_cd_m2\": " + number(s.maximum) +
-                       ", \"mean_cd_m2\": " + number(s.mean) + ", \"log_mean_cd_m2\": " + number(s.log_mean) + ", \"percentiles_cd_m2\": {";
+                       ", \"mean_cd_m2\": " + number(s.mean) + ", \"log_mean_cd_m2\": " + number(s.log_mean) +
+                       ", \"percentiles_cd_m2\": {";
     for (size_t i = 0; i < s.percentiles.size(); ++i)
         text += (i ? ", \"" : "\"") + number(s.percentiles[i].first) + "\": " + number(s.percentiles[i].second);
-    return text + "}, \"least_positive_cd_m2\": " + number(s.least_positive) + ", \"zero_pixels\": " + std::to_string(s.zero) +
-           ", \"negative_pixels\": " + std::to_string(s.negative) +
+    return text + "}, \"least_positive_cd_m2\": " + number(s.least_positive) +
+           ", \"zero_pixels\": " + std::to_string(s.zero) + ", \"negative_pixels\": " + std::to_string(s.negative) +
            ", \"non_finite_pixels\": " + std::to_string(s.non_finite) + "}";
 }
 

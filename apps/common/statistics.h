@@ -11,11 +11,11 @@ namespace vesper {
 
 /// Statistics of the finite pixels, cd/m^2.
 struct LuminanceStatistics {
-    double minimum = 0, maximum = 0, mean = 0, log_mean = 0;      ///< log_mean: exp(mean ln max(L, 1e-4))
-    std::vector<std::pair<double, double>> percentiles;          ///< percent, luminance
-    uint64_t finite = 0, non_finite = 0;                         ///< pixels
-    double least_positive = 0;                                   ///< 0: none is
-    uint64_t zero = 0, negative = 0;                             ///< pixels
+    double minimum = 0, maximum = 0, mean = 0, log_mean = 0;  ///< log_mean: exp(mean ln max(L, 1e-4))
+    std::vector<std::pair<double, double>> percentiles;       ///< percent, luminance
+    uint64_t finite = 0, non_finite = 0;                      ///< pixels
+    double least_positive = 0;                                ///< 0: none is
+    uint64_t zero = 0, negative = 0;                          ///< pixels
 };
 
 /// Of pixels in cd/m^2 RGB, of 4 (RGBA) or 3 values each.

@@ -24,14 +24,19 @@ constexpr NamedGlare kGlares[]{{"none", Glare::None},
                                {"spencer", Glare::Scatter, ScatterSettings::Model::Spencer},
                                {"ward", Glare::Scatter, ScatterSettings::Model::Ward},
                                {"ldr", Glare::Ldr}};
-const std::map<std::string, uint32_t> kGamuts{{"luminance", shared::kGamutLuminance}, {"chromaticity", shared::kGamutChromaticity}, {"clip", shared::kGamutClip}};
-const std::map<std::string, SpencerState> kPupils{{"photopic", SpencerState::Photopic}, {"mesopic", SpencerState::Mesopic}, {"scotopic", SpencerState::Scotopic}};
+const std::map<std::string, uint32_t> kGamuts{
+    {"luminance", shared::kGamutLuminance}, {"chromaticity", shared::kGamutChromaticity}, {"clip", shared::kGamutClip}};
+const std::map<std::string, SpencerState> kPupils{
+    {"photopic", SpencerState::Photopic}, {"mesopic", SpencerState::Mesopic}, {"scotopic", SpencerState::Scotopic}};
 
 Display display_of(const ToneArguments& arguments) {
     Display display = arguments.display.empty() ? known_displays().front().display : find_display(arguments.display);
     const bool table = display.eotf == Eotf::Table;
-    if (table && (arguments.peak || arguments.black)) throw Error("--display " + arguments.display + ": --display-peak and --display-black cannot change a measured table");
-    if (display.eotf != Eotf::Gamma && arguments.gamma) throw Error("--display " + arguments.display + ": --display-gamma: the display has no gamma");
+    if (table && (arguments.peak || arguments.black))
+        throw Error("--display " + arguments.display +
+                    ": --display-peak and --display-black cannot change a measured table");
+    if (display.eotf != Eotf::Gamma && arguments.gamma)
+        throw Error("--display " + arguments.display + ": --display-gamma: the display has no gamma");
     display.peak = arguments.peak.value_or(display.peak);
     display.black = arguments.black.value_or(display.black);
     display.gamma = arguments.gamma.value_or(display.gamma);
@@ -57,50 +62,80 @@ struct OperatorOptions {
 
 void add_tone_options(Command command, ToneArguments& a) {
     add_eye_options(command, a.eye, a.histogram, a.tone);
-    command.add_option("--glare", a.glare,
-                       "Light scattered in the eye\n"
-                       "  cie: CIE 135/1 total glare function\n"
-                       "  spencer: 1995, with needles and halo\n"
-                       "  ward: the veil of 1997\n"
-                       "  temporal: cie with needles and halo that move, after Ritschel 2009\n"
-                       "  ldr: the paper's, on the tone-mapped image; the others are in cd/m^2 before the operator")
+    command
+        .add_option("--glare", a.glare,
+                    "Light scattered in the eye\n"
+                    "  cie: CIE 135/1 total glare function\n"
+                    "  spencer: 1995, with needles and halo\n"
+                    "  ward: the veil of 1997\n"
+                    "  temporal: cie with needles and halo that move, after Ritschel 2009\n"
+                    "  ldr: the paper's, on the tone-mapped image; the others are in cd/m^2 before the operator")
         .check(one_of(glare_names()))
         .shows_default();
     command.help_group("Glare");
-    command.add_option("--iris", a.iris, "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue").check(between(0.0, 1.5)).shows_default();
-    command.add_option("--pupil", a.pupil, "spencer: of what size, for the eye's adaptation").check(one_of({"photopic", "mesopic", "scotopic"})).shows_default();
-    command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: whose eye: what needles it has, and when it moves").check(range(0u, 0xffffffffu)).shows_default();
+    command
+        .add_option("--iris", a.iris,
+                    "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")
+        .check(between(0.0, 1.5))
+        .shows_default();
+    command.add_option("--pupil", a.pupil, "spencer: of what size, for the eye's adaptation")
+        .check(one_of({"photopic", "mesopic", "scotopic"}))
+        .shows_default();
+    command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: whose eye: what needles it has, and when it moves")
+        .check(range(0u, 0xffffffffu))
+        .shows_default();
     command.add_flag("--lashes", a.lashes, "temporal: the eye squints, and lashes hang before its pupil");
     command.help_group("Operators and their curves");
-    command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2").check(between(1e-6, 1e9)).shows_default();
-    command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2").check(between(1e-6, 1e9)).shows_default();
+    command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2")
+        .check(between(1e-6, 1e9))
+        .shows_default();
+    command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2")
+        .check(between(1e-6, 1e9))
+        .shows_default();
     a.tone.operators.each([&](auto& settings) { settings.options(OperatorOptions{command}); });
     command.help_group();
-    command.add_option("--display", a.display, "NAME (" + known_display_names() + ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
+    command.add_option("--display", a.display,
+                       "NAME (" + known_display_names() +
+                           ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
     command.help_group("Display");
-    command.add_option("--gamut", a.gamut, "What a colour keeps that the display cannot show as bright: luminance (brighter is brighter, and goes towards white), chromaticity (as bright as it can be), clip (neither: each channel ends by itself)").check(one_of(gamut_names())).shows_default();
-    command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2").check(between(0.1, 1e5));
-    command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2").check(between(1e-6, 1e3));
+    command
+        .add_option(
+            "--gamut", a.gamut,
+            "What a colour keeps that the display cannot show as bright: luminance (brighter is brighter, and goes "
+            "towards white), chromaticity (as bright as it can be), clip (neither: each channel ends by itself)")
+        .check(one_of(gamut_names()))
+        .shows_default();
+    command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2")
+        .check(between(0.1, 1e5));
+    command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2")
+        .check(between(1e-6, 1e3));
     command.add_option("--display-gamma", a.gamma, "Display: exponent").check(between(0.5, 5.0));
-    command.add_option("--display-ambient", a.ambient, "Display: illuminance on the screen, lx").check(between(0.0, 1e5));
+    command.add_option("--display-ambient", a.ambient, "Display: illuminance on the screen, lx")
+        .check(between(0.0, 1e5));
     command.add_option("--display-reflection", a.reflection, "Display: diffuse reflectance").check(between(0.0, 1.0));
     command.help_group();
 }
 
 ToneChainSettings tone_settings(const ToneArguments& arguments) {
     ToneChainSettings settings;
-    const NamedGlare& glare = *std::find_if(std::begin(kGlares), std::end(kGlares), [&](const NamedGlare& one) { return arguments.glare == one.name; });
+    const NamedGlare& glare = *std::find_if(std::begin(kGlares), std::end(kGlares),
+                                            [&](const NamedGlare& one) { return arguments.glare == one.name; });
     settings.glare = glare.glare;
-    settings.scatter = {glare.model, {arguments.tone.observer.age, arguments.iris}, kPupils.at(arguments.pupil), {arguments.eye_seed, arguments.lashes}};
+    settings.scatter = {glare.model,
+                        {arguments.tone.observer.age, arguments.iris},
+                        kPupils.at(arguments.pupil),
+                        {arguments.eye_seed, arguments.lashes}};
     settings.histogram = arguments.histogram;
     settings.tone = arguments.tone;
     settings.tone.gamut = kGamuts.at(arguments.gamut);
     apply(arguments.eye, settings);
     settings.histogram.log10_low = float(std::log10(arguments.histogram_low));
     settings.histogram.log10_high = float(std::log10(arguments.histogram_high));
-    if (!(arguments.histogram_high >= 1.01 * arguments.histogram_low)) throw Error("--histogram-high must be more than --histogram-low");
+    if (!(arguments.histogram_high >= 1.01 * arguments.histogram_low))
+        throw Error("--histogram-high must be more than --histogram-low");
     settings.tone.operators.check();
-    if (settings.glare == Glare::Scatter && settings.tone_operator == Operator::Ldr) throw Error("--glare " + arguments.glare + ": the ldr operator has no luminances to scatter");
+    if (settings.glare == Glare::Scatter && settings.tone_operator == Operator::Ldr)
+        throw Error("--glare " + arguments.glare + ": the ldr operator has no luminances to scatter");
     settings.display = display_of(arguments);
     return settings;
 }
@@ -120,7 +155,9 @@ const std::vector<std::string>& gamut_names() {
 }
 
 std::string name_of(ScatterSettings::Model wanted) {
-    return std::find_if(std::begin(kGlares), std::end(kGlares), [&](const NamedGlare& one) { return one.glare == Glare::Scatter && one.model == wanted; })->name;
+    return std::find_if(std::begin(kGlares), std::end(kGlares),
+                        [&](const NamedGlare& one) { return one.glare == Glare::Scatter && one.model == wanted; })
+        ->name;
 }
 
 std::string name_of(Operator wanted) { return std::string(operator_info(wanted).name); }
@@ -142,9 +179,12 @@ Header describe_tone(const ToneChainSettings& settings, const ToneMapped& shown)
         for (size_t i = 0; i < count; ++i) text += (i ? " " : "") + digits(double(values[i]));
         return text;
     };
-    const std::vector<double> curve = curve_samples(shown.curve, operator_info(settings.tone_operator).form, settings.display);
-    header.emplace_back("vesper:eye:nodes", list(shown.eye.node, shown.eye.steps > 0 ? size_t(shown.eye.steps) + 1 : 0));
-    header.emplace_back("vesper:toneCurve", "display cd/m^2 at 1e-4 to 1e6 cd/m^2 in tenths of a decade: " + list(curve, curve.size()));
+    const std::vector<double> curve =
+        curve_samples(shown.curve, operator_info(settings.tone_operator).form, settings.display);
+    header.emplace_back("vesper:eye:nodes",
+                        list(shown.eye.node, shown.eye.steps > 0 ? size_t(shown.eye.steps) + 1 : 0));
+    header.emplace_back("vesper:toneCurve",
+                        "display cd/m^2 at 1e-4 to 1e6 cd/m^2 in tenths of a decade: " + list(curve, curve.size()));
     return header;
 }
 
@@ -157,8 +197,10 @@ PngColour png_colour_of(const Display& display) {
         if (display.primaries == primaries) colour.primaries = uint8_t(code);
     const bool square = display.eotf == Eotf::Gamma && display.gamma == 2.2f;
     if (display.eotf == Eotf::Pq) colour.transfer = 16;
-    if (display.eotf == Eotf::Srgb || (square && colour.primaries == kPngSrgb.primaries)) colour.transfer = kPngSrgb.transfer;
-    else if (square) colour.transfer = 4;
+    if (display.eotf == Eotf::Srgb || (square && colour.primaries == kPngSrgb.primaries))
+        colour.transfer = kPngSrgb.transfer;
+    else if (square)
+        colour.transfer = 4;
     return colour;
 }
 

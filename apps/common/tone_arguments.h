@@ -20,7 +20,7 @@ struct ToneArguments {
     uint32_t eye_seed = ApertureSettings{}.seed;
     bool lashes = false;
     std::optional<float> peak, black, gamma, ambient, reflection;  ///< in place of the display's
-    double histogram_low = 1e-4, histogram_high = 1e6;  ///< cd/m^2
+    double histogram_low = 1e-4, histogram_high = 1e6;             ///< cd/m^2
     HistogramSettings histogram;
     ToneSettings tone;
 };

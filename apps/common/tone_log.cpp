@@ -16,10 +16,26 @@ namespace vesper {
 namespace {
 
 // The floats of EyeState before the nodes of the curve, in order.
-constexpr const char* kStateNames[]{"adaptation", "eye_seconds", "eye_seconds_lost", "pupil_at_rest", "cone_pigment", "cone_fast", "cone_slow", "rod_pigment",
-                                    "rod_fast",   "rod_slow",    "steps",        "ln_low",    "steps_per_ln",
-                                    "lagging_cones", "lagging_rods", "lagging_cone_pigment", "lagging_rod_pigment",
-                                    "chroma_long", "chroma_middle", "chroma_short"};
+constexpr const char* kStateNames[]{"adaptation",
+                                    "eye_seconds",
+                                    "eye_seconds_lost",
+                                    "pupil_at_rest",
+                                    "cone_pigment",
+                                    "cone_fast",
+                                    "cone_slow",
+                                    "rod_pigment",
+                                    "rod_fast",
+                                    "rod_slow",
+                                    "steps",
+                                    "ln_low",
+                                    "steps_per_ln",
+                                    "lagging_cones",
+                                    "lagging_rods",
+                                    "lagging_cone_pigment",
+                                    "lagging_rod_pigment",
+                                    "chroma_long",
+                                    "chroma_middle",
+                                    "chroma_short"};
 constexpr size_t kNamed = std::size(kStateNames);
 constexpr size_t kFloats = sizeof(shared::EyeState) / sizeof(float);
 static_assert(kFloats == kNamed + shared::kMaxBins + 1);
@@ -38,7 +54,8 @@ std::vector<float> floats_of(const shared::EyeState& eye) {
 
 std::vector<double> curve_samples(const shared::ToneCurve& curve, uint32_t form, const Display& display) {
     std::vector<double> shown;
-    for (int i = 0; i < kSamples; ++i) shown.push_back(shown_luminance(curve, form, std::pow(10.0, sample_log10(i)), display));
+    for (int i = 0; i < kSamples; ++i)
+        shown.push_back(shown_luminance(curve, form, std::pow(10.0, sample_log10(i)), display));
     return shown;
 }
 
@@ -58,10 +75,14 @@ std::string log_heading() {
     return line + glare_columns() + "\n";
 }
 
-std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form, const Display& display, const GlareReport& glare) {
-    std::string line = format("%u,%.17g,%.9g,%s", index, frame.seconds, double(frame.step), frame.tone_operator.c_str());
+std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form,
+                     const Display& display, const GlareReport& glare) {
+    std::string line =
+        format("%u,%.17g,%.9g,%s", index, frame.seconds, double(frame.step), frame.tone_operator.c_str());
     for (float value : floats_of(frame.eye)) line += format(",%.9g", double(value));
-    for (float value : {curve.cone_sigma, curve.rod_sigma, curve.log_average, curve.maximum, curve.under_full, curve.slack}) line += format(",%.9g", double(value));
+    for (float value :
+         {curve.cone_sigma, curve.rod_sigma, curve.log_average, curve.maximum, curve.under_full, curve.slack})
+        line += format(",%.9g", double(value));
     for (double shown : curve_samples(curve, form, display)) line += format(",%.6g", shown);
     return line + glare_values(glare) + "\n";
 }
@@ -81,8 +102,11 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
         std::vector<double> values(columns);
         for (size_t i = 0; i < columns; ++i) {
             if (i == kName) continue;
-            const auto value = fields[i] == "inf" && i > kName + kFloats ? std::optional(0.0) : number_of(fields[i], false);  // a threshold increment
-            if (!value || std::abs(*value) > double(FLT_MAX)) lines.fail("a number is expected in column " + std::to_string(i + 1));
+            const auto value = fields[i] == "inf" && i > kName + kFloats
+                                   ? std::optional(0.0)
+                                   : number_of(fields[i], false);  // a threshold increment
+            if (!value || std::abs(*value) > double(FLT_MAX))
+                lines.fail("a number is expected in column " + std::to_string(i + 1));
             values[i] = *value;
         }
         frame.tone_operator = fields[kName];

@@ -4,22 +4,23 @@
 #include <string>
 #include <vector>
 
-#include "vision/glare_report.h"
 #include "render/tone_chain.h"
+#include "vision/glare_report.h"
 
 namespace vesper {
 
 /// One line: a frame, what the eye remembers after it, and its tone curve.
 struct LoggedFrame {
-    double seconds = 0;      ///< of the scene
-    float step = 0;          ///< since the frame before, s
+    double seconds = 0;         ///< of the scene
+    float step = 0;             ///< since the frame before, s
     std::string tone_operator;  ///< its name
     shared::EyeState eye{};
 };
 
 /// Lines of a log. The first names the columns; numbers are written so that they read back to the last bit.
 std::string log_heading();
-std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form, const Display& display, const GlareReport& glare);
+std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form,
+                     const Display& display, const GlareReport& glare);
 
 /// Reads a log. Throws Error, naming file and line.
 std::vector<LoggedFrame> read_log(const std::string& file);

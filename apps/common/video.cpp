@@ -23,20 +23,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> command_line(const std::string& to, uint32_t width, uint32_t height, double fps, const Display& display) {
+std::vector<std::string> command_line(const std::string& to, uint32_t width, uint32_t height, double fps,
+                                      const Display& display) {
     const bool wide = display.bits == 10, pq = display.eotf == Eotf::Pq;
-    std::vector<std::string> words{"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-y",  // without -xerror a film that the disk has no room to end is a success
-                                    "-f", "rawvideo",
-                                   "-pixel_format", wide ? "x2bgr10le" : "rgba", "-video_size", format("%ux%u", width, height),
-                                   "-framerate", format("%.9g", fps), "-i", "-"};
+    std::vector<std::string> words{"ffmpeg",
+                                   "-hide_banner",
+                                   "-loglevel",
+                                   "error",
+                                   "-xerror",
+                                   "-y",  // without -xerror a film that the disk has no room to end is a success
+                                   "-f",
+                                   "rawvideo",
+                                   "-pixel_format",
+                                   wide ? "x2bgr10le" : "rgba",
+                                   "-video_size",
+                                   format("%ux%u", width, height),
+                                   "-framerate",
+                                   format("%.9g", fps),
+                                   "-i",
+                                   "-"};
     // Colours are halved: sides must be even, so a black column or row is added where they are not.
     std::string filter = format("pad=%u:%u:0:0:black", width + width % 2, height + height % 2);
     filter += pq ? ",scale=out_color_matrix=bt2020:out_range=tv" : ",scale=out_color_matrix=bt709:out_range=tv";
-    const auto add = [&](std::initializer_list<const char*> more) { words.insert(words.end(), more.begin(), more.end()); };
-    add({"-vf", filter.c_str(), "-c:v", wide ? "libx265" : "libx264", "-crf", "14", "-preset", "medium", "-pix_fmt", wide ? "yuv420p10le" : "yuv420p"});
+    const auto add = [&](std::initializer_list<const char*> more) {
+        words.insert(words.end(), more.begin(), more.end());
+    };
+    add({"-vf", filter.c_str(), "-c:v", wide ? "libx265" : "libx264", "-crf", "14", "-preset", "medium", "-pix_fmt",
+         wide ? "yuv420p10le" : "yuv420p"});
     if (wide) add({"-x265-params", "log-level=error", "-tag:v", "hvc1"});
-    add({"-color_primaries", display.primaries == kRec2020 ? "bt2020" : display.primaries == kDisplayP3 ? "smpte432" : "bt709"});
-    add({"-color_trc", pq ? "smpte2084" : "iec61966-2-1", "-colorspace", pq ? "bt2020nc" : "bt709", "-color_range", "tv"});
+    add({"-color_primaries", display.primaries == kRec2020     ? "bt2020"
+                             : display.primaries == kDisplayP3 ? "smpte432"
+                                                               : "bt709"});
+    add({"-color_trc", pq ? "smpte2084" : "iec61966-2-1", "-colorspace", pq ? "bt2020nc" : "bt709", "-color_range",
+         "tv"});
     add({"-movflags", "+faststart", "-f", "mp4", to.c_str()});
     return words;
 }
@@ -71,7 +90,8 @@ Video::Video(std::string file, uint32_t width, uint32_t height, double fps, cons
     process_ = -1;
     ::close(pipe_);
     ::unlink(log_.c_str());
-    throw Error(one_line(file_) + (code == ENOENT ? ": the program ffmpeg, which encodes films, is not installed" : std::string(": ffmpeg cannot be started: ") + std::strerror(code)));
+    throw Error(one_line(file_) + (code == ENOENT ? ": the program ffmpeg, which encodes films, is not installed"
+                                                  : std::string(": ffmpeg cannot be started: ") + std::strerror(code)));
 }
 
 Video::~Video() {
@@ -88,7 +108,8 @@ int Video::wait() {
     pipe_ = -1;
     int status = -1;
     if (process_ > 0)
-        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {}
+        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
     process_ = -1;
     return status;
 }
@@ -118,7 +139,8 @@ void Video::add(std::span<const uint8_t> codes) {
 void Video::finish() {
     const int status = wait();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail();
-    if (::rename(temporary_.c_str(), file_.c_str()) != 0) throw Error(one_line(file_) + ": cannot be written: " + std::strerror(errno));
+    if (::rename(temporary_.c_str(), file_.c_str()) != 0)
+        throw Error(one_line(file_) + ": cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace vesper

@@ -11,8 +11,8 @@
 
 namespace vesper {
 
-/// Pipes frames to the program `ffmpeg`, which encodes them to a file of its own beside the target. finish() puts that in
-/// place; without it nothing is left behind. No shell is involved.
+/// Pipes frames to the program `ffmpeg`, which encodes them to a file of its own beside the target. finish() puts that
+/// in place; without it nothing is left behind. No shell is involved.
 class Video {
 public:
     /// Throws Error if there is no ffmpeg, or the size cannot be a film's.

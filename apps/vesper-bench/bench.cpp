@@ -66,7 +66,8 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
     ToneArguments tone = a.tone;
     const std::vector<std::string> operators = a.operators.empty() ? std::vector{tone.eye.tone_operator} : a.operators;
     const std::vector<std::string> glares = a.glares.empty() ? std::vector{tone.glare} : a.glares;
-    const auto plan = [&](Planned run, const std::string& size, uint32_t channels, const std::string& glare, const std::string& op) {
+    const auto plan = [&](Planned run, const std::string& size, uint32_t channels, const std::string& glare,
+                          const std::string& op) {
         tone.eye.tone_operator = op, tone.glare = glare;
         static_cast<ToneChainSettings&>(run.plan.render) = tone_settings(tone);
         RunSettings& s = run.plan.settings;
@@ -82,7 +83,8 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
                 for (const std::string& size : a.sizes)
                     for (const uint32_t channels : a.channels)
                         for (const std::string& glare : glares)
-                            for (const std::string& op : operators) plan({a.run, scene, luminaire, lamps}, size, channels, glare, op);
+                            for (const std::string& op : operators)
+                                plan({a.run, scene, luminaire, lamps}, size, channels, glare, op);
     return runs;
 }
 
@@ -97,25 +99,35 @@ void check_files(const BenchArguments& a) {
     if (!a.growth.empty() && !std::filesystem::is_directory(a.growth)) {
         files.writes("--matrix", a.growth);
         std::error_code failed;
-        if (!std::filesystem::create_directory(a.growth, failed)) throw Error("--matrix " + one_line(a.growth) + ": cannot be made a folder");
+        if (!std::filesystem::create_directory(a.growth, failed))
+            throw Error("--matrix " + one_line(a.growth) + ": cannot be made a folder");
     }
     files.writes("--json", a.json);
     files.writes("--picture", a.picture);
-    if (!a.picture.empty() && !a.picture.ends_with(".png")) throw Error("--picture " + one_line(a.picture) + ": a .png file is expected");
+    if (!a.picture.empty() && !a.picture.ends_with(".png"))
+        throw Error("--picture " + one_line(a.picture) + ": a .png file is expected");
 }
 
 std::string command_line(const BenchArguments& a) {
     std::string text;
     for (const Option& option : a.command.options())
         if (option.count())
-            for (const std::string& value : option.results()) text += (text.empty() ? "" : " ") + option.name() + "=" + value;
+            for (const std::string& value : option.results())
+                text += (text.empty() ? "" : " ") + option.name() + "=" + value;
     return text;
 }
 
 BenchResult machine_of(const BenchArguments& a) {
     const Device device({.select = a.run.device});
-    return {.version = VESPER_VERSION, .command = command_line(a), .device = device.name(), .driver = device.driver(), .host = processor_name(),
-            .threads = std::thread::hardware_concurrency(), .cpu = device.is_cpu(), .copy_bandwidth = copy_bandwidth(device), .runs = {}};
+    return {.version = VESPER_VERSION,
+            .command = command_line(a),
+            .device = device.name(),
+            .driver = device.driver(),
+            .host = processor_name(),
+            .threads = std::thread::hardware_concurrency(),
+            .cpu = device.is_cpu(),
+            .copy_bandwidth = copy_bandwidth(device),
+            .runs = {}};
 }
 
 void run(BenchArguments& a) {
@@ -127,22 +139,28 @@ void run(BenchArguments& a) {
     const std::vector<Planned> planned = planned_runs(a);
     Scenes scenes;
     for (const std::string& scene : a.scenes) scenes.prepare(scene);
-    const auto load = [&](size_t i) { return scenes.load(planned[i].scene, planned[i].lamps, a.triangles, planned[i].luminaire, a.run.camera); };
+    const auto load = [&](size_t i) {
+        return scenes.load(planned[i].scene, planned[i].lamps, a.triangles, planned[i].luminaire, a.run.camera);
+    };
 
     // Starts come before this process opens a device.
     std::vector<Start> starts;
     if (planned.size() == 1 && !a.no_start)
-        starts = time_starts(scenes.folder("shaders"), [&](const auto& shown) { first_frame(planned[0].plan, load(0), shown); });
+        starts = time_starts(scenes.folder("shaders"),
+                             [&](const auto& shown) { first_frame(planned[0].plan, load(0), shown); });
 
     BenchResult result = machine_of(a);
-    const auto title = [&](const RunResult& measured) { return headline(result, measured) + (planned.size() > 1 ? measured.settings.details() : ""); };
+    const auto title = [&](const RunResult& measured) {
+        return headline(result, measured) + (planned.size() > 1 ? measured.settings.details() : "");
+    };
     Frame last;
     for (size_t i = 0; i < planned.size(); ++i) {
         const RunSettings& s = planned[i].plan.settings;
         RunResult measured;
         {
             Progress progress(s.title(), s.frames * s.laps);
-            measured = measure(planned[i].plan, load(i), [&] { progress.step(); }, &last);
+            measured = measure(
+                planned[i].plan, load(i), [&] { progress.step(); }, &last);
         }
         measured.starts = starts;
         result.runs.push_back(std::move(measured));
@@ -150,7 +168,9 @@ void run(BenchArguments& a) {
         std::printf("%s\n", title(result.runs.back()).c_str());
         std::fflush(stdout);
     }
-    for (const RunResult& measured : result.runs) std::printf("\n%s%s", planned.size() > 1 ? (title(measured) + "\n").c_str() : "", text_of(result, measured).c_str());
+    for (const RunResult& measured : result.runs)
+        std::printf("\n%s%s", planned.size() > 1 ? (title(measured) + "\n").c_str() : "",
+                    text_of(result, measured).c_str());
     if (!a.picture.empty()) write_codes(a.picture, last, planned.back().plan.render.display);
     if (!a.growth.empty())
         for (const std::string& file : save_growth(a.growth, result)) std::printf("%s\n", file.c_str());
@@ -171,32 +191,72 @@ void add_bench(Command program) {
     const auto a = std::make_shared<BenchArguments>();
     RunSettings& s = a->run.settings;
     a->command = program;
-    program.add_option("--scene", a->scenes, "rivoli: the night street; rivoli-measured: with measured lamps and road; street: generated; or a .gltf or .glb").separated_by(',').shows_default();
+    program
+        .add_option("--scene", a->scenes,
+                    "rivoli: the night street; rivoli-measured: with measured lamps and road; street: generated; or a "
+                    ".gltf or .glb")
+        .separated_by(',')
+        .shows_default();
     program.add_option("--camera,-c", a->run.camera, "Name of a camera of the scene (default: the first)");
     program.add_option("--size,-s", a->sizes, "WIDTHxHEIGHT of a channel, px").separated_by(',').shows_default();
-    program.add_option("--lamps", a->lamps, "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)").separated_by(',').check(range(0u, kMaxLamps));
-    program.add_option("--luminaire", a->luminaires, "Of the street, in place of its spots of 1,500 cd: point (1,500 cd), none, or a file of a distribution (.ies, .ldt, .csv, .exr), scaled to the flux that the point sends down").separated_by(',');
-    program.add_option("--triangles", a->triangles, "Of the street: at least so many").check(range(0u, 100'000'000u)).shows_default();
-    program.add_option("--channels", a->channels, "Views in every frame, side by side").separated_by(',').check(range(1u, 16u)).shows_default();
-    program.add_option("--frames", s.frames, "Of a lap: the path of the scene's camera in equal steps").check(range(1u, 100000u)).shows_default();
+    program
+        .add_option(
+            "--lamps", a->lamps,
+            "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")
+        .separated_by(',')
+        .check(range(0u, kMaxLamps));
+    program
+        .add_option("--luminaire", a->luminaires,
+                    "Of the street, in place of its spots of 1,500 cd: point (1,500 cd), none, or a file of a "
+                    "distribution (.ies, .ldt, .csv, .exr), scaled to the flux that the point sends down")
+        .separated_by(',');
+    program.add_option("--triangles", a->triangles, "Of the street: at least so many")
+        .check(range(0u, 100'000'000u))
+        .shows_default();
+    program.add_option("--channels", a->channels, "Views in every frame, side by side")
+        .separated_by(',')
+        .check(range(1u, 16u))
+        .shows_default();
+    program.add_option("--frames", s.frames, "Of a lap: the path of the scene's camera in equal steps")
+        .check(range(1u, 100000u))
+        .shows_default();
     program.add_option("--laps", s.laps, "How often the path is driven").check(range(1u, 1000u)).shows_default();
-    program.add_option("--warm-up", s.warm_up, "Frames from all along the path before the first lap, not counted").check(range(0u, 10000u)).shows_default();
-    program.add_option("--threshold", a->run.render.clusters.threshold, "Illuminance below which a lamp counts as dark, lx").check(between(1e-9, 1e3)).shows_default();
-    program.add_option("--device", a->run.device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    program.add_option("--warm-up", s.warm_up, "Frames from all along the path before the first lap, not counted")
+        .check(range(0u, 10000u))
+        .shows_default();
+    program
+        .add_option("--threshold", a->run.render.clusters.threshold,
+                    "Illuminance below which a lamp counts as dark, lx")
+        .check(between(1e-9, 1e3))
+        .shows_default();
+    program.add_option("--device", a->run.device,
+                       "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");
     Option picture = program.add_option("--picture", a->picture, "Write the last frame to a .png file");
     program.add_flag("--no-start", a->no_start, "Do not time starts with a cold and a warm cache of shaders");
-    Option matrix = program.add_option("--matrix", a->growth, "Drive the street with 64 to 4096 lamps at several sizes with several operators, and draw how time grows into a folder");
-    Option compare = program.add_option("--compare", a->compared, "A.json B.json: print what B takes relative to A").values(2).excludes(matrix).excludes(json).excludes(picture);
-    program.add_option("--tables", a->tables, "FILE.json: print what was measured as tables of Markdown").excludes(matrix).excludes(compare).excludes(json).excludes(picture);
+    Option matrix = program.add_option("--matrix", a->growth,
+                                       "Drive the street with 64 to 4096 lamps at several sizes with several "
+                                       "operators, and draw how time grows into a folder");
+    Option compare = program.add_option("--compare", a->compared, "A.json B.json: print what B takes relative to A")
+                         .values(2)
+                         .excludes(matrix)
+                         .excludes(json)
+                         .excludes(picture);
+    program.add_option("--tables", a->tables, "FILE.json: print what was measured as tables of Markdown")
+        .excludes(matrix)
+        .excludes(compare)
+        .excludes(json)
+        .excludes(picture);
     add_tone_options(program, a->tone);
     program.option("--operator").takes_list(a->operators);
     program.option("--glare").takes_list(a->glares);
-    program.footer("Lists (scenes, sizes, lamps, luminaires, channels, operators, glare) are separated by commas; every combination is a run.\n"
-                   "Examples:\n  vesper-bench --json now.json\n"
-                   "  vesper-bench --compare before.json now.json\n"
-                   "  vesper-bench --scene street --lamps 1024 --operator ward,reinhard --size 1680x1050,2560x1600\n"
-                   "  vesper-bench --matrix out/growth --json out/growth/growth.json\n");
+    program.footer(
+        "Lists (scenes, sizes, lamps, luminaires, channels, operators, glare) are separated by commas; every "
+        "combination is a run.\n"
+        "Examples:\n  vesper-bench --json now.json\n"
+        "  vesper-bench --compare before.json now.json\n"
+        "  vesper-bench --scene street --lamps 1024 --operator ward,reinhard --size 1680x1050,2560x1600\n"
+        "  vesper-bench --matrix out/growth --json out/growth/growth.json\n");
     program.callback([a] { work(*a); });
 }
 

@@ -65,28 +65,33 @@ double device_copy_bandwidth(const Device& device, uint64_t bytes) {
             for (uint32_t i = 0; i < times; ++i) {
                 const VkBufferCopy whole{0, 0, bytes};
                 vkCmdCopyBuffer(commands, buffers[i % 2].get(), buffers[1 - i % 2].get(), 1, &whole);
-                const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                               .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                               .srcAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                               .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                               .dstAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
-                const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
+                const VkMemoryBarrier2 barrier{
+                    .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                    .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                    .srcAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                    .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                    .dstAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+                const VkDependencyInfo dependency{
+                    .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
                 vkCmdPipelineBarrier2(commands, &dependency);
             }
         });
         return watch.milliseconds();
     };
-    copy(1);  // the memory is touched, the clocks are up
+    copy(1);                         // the memory is touched, the clocks are up
     constexpr uint32_t kTimes = 40;  // the way to the device and back is shared by so many
     double best = 0;
     for (int i = 0; i < kTries; ++i) best = std::max(best, 2 * double(bytes) * kTimes / (copy(kTimes) * 1e-3));
     return best;
 }
 
-double copy_bandwidth(const Device& device) { return device.is_cpu() ? host_copy_bandwidth() : device_copy_bandwidth(device); }
+double copy_bandwidth(const Device& device) {
+    return device.is_cpu() ? host_copy_bandwidth() : device_copy_bandwidth(device);
+}
 
 uint64_t peak_host_bytes() {
-    if (const std::string peak = value_in("/proc/self/status", "VmHWM"); !peak.empty()) return std::strtoull(peak.c_str(), nullptr, 10) << 10;  // kB
+    if (const std::string peak = value_in("/proc/self/status", "VmHWM"); !peak.empty())
+        return std::strtoull(peak.c_str(), nullptr, 10) << 10;  // kB
     rusage use{};
     getrusage(RUSAGE_SELF, &use);
     return uint64_t(use.ru_maxrss) << 10;

@@ -35,7 +35,8 @@ struct RunSamples {
         total_ms += ms;
         for (size_t i = 0; i < parts.size(); ++i) host[i].add(parts[i]);
         for (const Timing& timing : timings) {
-            auto found = std::find_if(passes.begin(), passes.end(), [&](const PassSamples& pass) { return pass.name == timing.pass; });
+            auto found = std::find_if(passes.begin(), passes.end(),
+                                      [&](const PassSamples& pass) { return pass.name == timing.pass; });
             if (found == passes.end()) found = passes.insert(passes.end(), {timing.pass, {}, {}, {}});
             found->ms.add(timing.milliseconds);
             found->bytes_read.add(double(timing.bytes_read)), found->bytes_written.add(double(timing.bytes_written));
@@ -47,13 +48,17 @@ struct RunSamples {
 class Drive {
 public:
     Drive(const RunPlan& plan, const Scene& scene, Device& device)
-        : plan_(plan), scene_(scene), seconds_(animation_length(scene) > 0 ? animation_length(scene) : kStanding), renderer_(device, scene) {}
+        : plan_(plan),
+          scene_(scene),
+          seconds_(animation_length(scene) > 0 ? animation_length(scene) : kStanding),
+          renderer_(device, scene) {}
 
     /// Renders every channel at a part [0, 1) of the path, `step` s after the frame before.
     void frame(double part, double step, RunSamples* samples) {
         Stopwatch whole, watch;
         const SceneFrame moment{world_transforms(scene_, part * seconds_)};
-        const std::vector<View> views = channel_views(camera_view(scene_, moment, plan_.camera, plan_.extent()), plan_.settings.channels);
+        const std::vector<View> views =
+            channel_views(camera_view(scene_, moment, plan_.camera, plan_.extent()), plan_.settings.channels);
         std::array<double, kHostParts.size()> host{watch.lap()};
         std::vector<Timing> timings;
         for (const View& view : views) {
@@ -75,7 +80,8 @@ private:
     static void add(std::vector<Timing>& all, const Timing& timing) {
         for (Timing& known : all)
             if (known.pass == timing.pass) {
-                known.milliseconds += timing.milliseconds, known.bytes_read += timing.bytes_read, known.bytes_written += timing.bytes_written;
+                known.milliseconds += timing.milliseconds, known.bytes_read += timing.bytes_read,
+                    known.bytes_written += timing.bytes_written;
                 return;
             }
         all.push_back(timing);
@@ -96,7 +102,8 @@ void summarize(const RunSamples& samples, RunResult& result) {
     result.low_fps = one_percent_low(frames);
     for (size_t i = 0; i < result.host.size(); ++i) result.host[i] = samples.host[i].spread();
     for (const PassSamples& pass : samples.passes)
-        result.passes.push_back({pass.name, pass.ms.spread(), pass.bytes_read.spread().median, pass.bytes_written.spread().median});
+        result.passes.push_back(
+            {pass.name, pass.ms.spread(), pass.bytes_read.spread().median, pass.bytes_written.spread().median});
 }
 
 }  // namespace

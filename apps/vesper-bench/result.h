@@ -17,7 +17,7 @@ struct RunSettings {
     uint32_t channels = 1;           ///< views in every frame, side by side
     uint32_t lamps = 0;              ///< that shine
     uint64_t triangles = 0;
-    double threshold = 0;            ///< lx: lamps count where they give more
+    double threshold = 0;  ///< lx: lamps count where they give more
     uint32_t frames = 0, laps = 0, warm_up = 0;
 
     /// "1680x1050 rivoli ward".
@@ -31,7 +31,7 @@ constexpr std::array kHostParts{"update", "declare", "plan", "record", "submit",
 
 struct PassResult {
     std::string name;
-    Spread ms;                               ///< on the device's clock, of all channels
+    Spread ms;                                 ///< on the device's clock, of all channels
     double bytes_read = 0, bytes_written = 0;  ///< sizes of the resources it reads and writes (Plan::Step), median
     double bytes() const { return bytes_read + bytes_written; }
 };
@@ -44,10 +44,10 @@ struct Start {
 
 struct RunResult {
     RunSettings settings;
-    double fps = 0;            ///< frames by the time they took together
-    Spread frame;              ///< on the host's clock, ms
-    double p5 = 0, p95 = 0, p99 = 0;  ///< of frame times, ms
-    double low_fps = 0;        ///< of the slowest hundredth
+    double fps = 0;                              ///< frames by the time they took together
+    Spread frame;                                ///< on the host's clock, ms
+    double p5 = 0, p95 = 0, p99 = 0;             ///< of frame times, ms
+    double low_fps = 0;                          ///< of the slowest hundredth
     std::array<Spread, kHostParts.size()> host;  ///< ms
     std::vector<PassResult> passes;              ///< in the order they run; empty where the device has no timestamps
     double host_bytes = 0, device_bytes = 0;     ///< peaks: resident memory of the process, allocations on the device
@@ -82,7 +82,8 @@ std::string text_of(const BenchResult&, const RunResult&);
 std::string markdown_of(const BenchResult&);
 /// What B takes relative to A, run by run. Throws Error if no run of one has its like in the other.
 std::string comparison(const BenchResult& a, const BenchResult& b);
-/// Draws how time grows with lamps and with pixels into a folder, as far as runs differ in them. Gives the files' names.
+/// Draws how time grows with lamps and with pixels into a folder, as far as runs differ in them. Gives the files'
+/// names.
 std::vector<std::string> save_growth(const std::string& folder, const BenchResult&);
 
 }  // namespace vesper

@@ -18,15 +18,28 @@ using Json = nlohmann::ordered_json;
 Json of(const Spread& s) { return {{"median", s.median}, {"low", s.low}, {"high", s.high}}; }
 
 Json of(const RunSettings& s) {
-    return {{"scene", s.scene}, {"width", s.width}, {"height", s.height}, {"channels", s.channels}, {"operator", s.tone_operator}, {"glare", s.glare},
-            {"lamps", s.lamps}, {"triangles", s.triangles}, {"threshold_lx", s.threshold}, {"frames", s.frames}, {"laps", s.laps}, {"warm_up", s.warm_up}};
+    return {{"scene", s.scene},
+            {"width", s.width},
+            {"height", s.height},
+            {"channels", s.channels},
+            {"operator", s.tone_operator},
+            {"glare", s.glare},
+            {"lamps", s.lamps},
+            {"triangles", s.triangles},
+            {"threshold_lx", s.threshold},
+            {"frames", s.frames},
+            {"laps", s.laps},
+            {"warm_up", s.warm_up}};
 }
 
 Json of(const BenchResult& result, const RunResult& run) {
     Json host = Json::object(), passes = Json::array(), starts = Json::array();
     for (size_t i = 0; i < kHostParts.size(); ++i) host[kHostParts[i]] = of(run.host[i]);
     for (const PassResult& pass : run.passes)
-        passes.push_back({{"name", pass.name}, {"ms", of(pass.ms)}, {"bytes_read", pass.bytes_read}, {"bytes_written", pass.bytes_written},
+        passes.push_back({{"name", pass.name},
+                          {"ms", of(pass.ms)},
+                          {"bytes_read", pass.bytes_read},
+                          {"bytes_written", pass.bytes_written},
                           {"copy_fraction", result.copy_fraction(pass)}});
     for (const Start& start : run.starts) starts.push_back({{"cache", start.cache}, {"seconds", start.seconds}});
     return {{"settings", of(run.settings)},
@@ -71,16 +84,20 @@ RunResult read_run(const JsonValue& value) {
     run.settings = read_settings(value.at("settings"));
     run.fps = amount(value.at("fps"));
     run.frame = read_spread(value.at("frame_ms"));
-    const JsonValue percentiles = value.at("frame_ms_percentiles"), memory = value.at("memory_bytes"), pipelines = value.at("pipelines");
-    run.p5 = amount(percentiles.at("p5")), run.p95 = amount(percentiles.at("p95")), run.p99 = amount(percentiles.at("p99"));
+    const JsonValue percentiles = value.at("frame_ms_percentiles"), memory = value.at("memory_bytes"),
+                    pipelines = value.at("pipelines");
+    run.p5 = amount(percentiles.at("p5")), run.p95 = amount(percentiles.at("p95")),
+    run.p99 = amount(percentiles.at("p99"));
     run.low_fps = amount(value.at("one_percent_low_fps"));
     for (size_t i = 0; i < kHostParts.size(); ++i) run.host[i] = read_spread(value.at("host_ms").at(kHostParts[i]));
     for (const JsonValue& pass : value.at("passes").elements())
-        run.passes.push_back({words(pass.at("name")), read_spread(pass.at("ms")), amount(pass.at("bytes_read")), amount(pass.at("bytes_written"))});
+        run.passes.push_back({words(pass.at("name")), read_spread(pass.at("ms")), amount(pass.at("bytes_read")),
+                              amount(pass.at("bytes_written"))});
     run.host_bytes = amount(memory.at("host_peak")), run.device_bytes = amount(memory.at("device_peak"));
     run.pipelines = count(pipelines.at("count"));
     run.pipelines_ms = amount(pipelines.at("ms")), run.first_frame_ms = amount(pipelines.at("first_frame_ms"));
-    for (const JsonValue& start : value.at("starts").elements()) run.starts.push_back({words(start.at("cache")), amount(start.at("seconds"))});
+    for (const JsonValue& start : value.at("starts").elements())
+        run.starts.push_back({words(start.at("cache")), amount(start.at("seconds"))});
     return run;
 }
 
@@ -92,7 +109,11 @@ std::string json_of(const BenchResult& result) {
     const Json root{{"schema", kSchema},
                     {"version", result.version},
                     {"command", result.command},
-                    {"device", {{"name", result.device}, {"driver", result.driver}, {"cpu", result.cpu}, {"copy_bytes_per_second", result.copy_bandwidth}}},
+                    {"device",
+                     {{"name", result.device},
+                      {"driver", result.driver},
+                      {"cpu", result.cpu},
+                      {"copy_bytes_per_second", result.copy_bandwidth}}},
                     {"host", {{"processor", result.host}, {"threads", result.threads}}},
                     {"runs", runs}};
     return root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -106,7 +127,8 @@ BenchResult read_result(const std::string& file) {
     BenchResult result;
     result.version = words(root.at("version")), result.command = words(root.at("command"));
     const JsonValue device = root.at("device"), host = root.at("host");
-    result.device = words(device.at("name")), result.driver = words(device.at("driver")), result.cpu = device.at("cpu").boolean();
+    result.device = words(device.at("name")), result.driver = words(device.at("driver")),
+    result.cpu = device.at("cpu").boolean();
     result.copy_bandwidth = amount(device.at("copy_bytes_per_second"));
     result.host = words(host.at("processor")), result.threads = count(host.at("threads"));
     for (const JsonValue& run : root.at("runs").elements()) result.runs.push_back(read_run(run));

@@ -21,13 +21,16 @@ std::string cell(std::string name) {
 
 std::string start_text(const RunResult& run) {
     std::string text;
-    for (const Start& start : run.starts) text += (text.empty() ? "" : ", ") + start.cache + format(" %.1f s", start.seconds);
+    for (const Start& start : run.starts)
+        text += (text.empty() ? "" : ", ") + start.cache + format(" %.1f s", start.seconds);
     return text;
 }
 
 }  // namespace
 
-std::string RunSettings::title() const { return std::to_string(width) + "x" + std::to_string(height) + " " + scene + " " + tone_operator; }
+std::string RunSettings::title() const {
+    return std::to_string(width) + "x" + std::to_string(height) + " " + scene + " " + tone_operator;
+}
 
 std::string RunSettings::details() const {
     std::string text = ", " + std::to_string(lamps) + " lamps, glare " + glare;
@@ -51,48 +54,67 @@ std::string headline(const BenchResult& result, const RunResult& run) {
 
 std::string text_of(const BenchResult& result, const RunResult& run) {
     const RunSettings& s = run.settings;
-    std::string text = format("%u lamps, counted where they give %g lx, %llu triangles, glare %s, %u channel%s; %u lap%s of %u frames, after %u\n", s.lamps, s.threshold,
-                              static_cast<unsigned long long>(s.triangles), s.glare.c_str(), s.channels, s.channels == 1 ? "" : "s", s.laps, s.laps == 1 ? "" : "s", s.frames, s.warm_up);
-    text += "vesper " + result.version + ", " + result.driver + ", " + std::to_string(result.threads) + " threads of " + result.host + "\n\n";
-    text += "frame     median " + with_spread(run.frame, " ms") + format(" as laps differ; 5 %% %.1f, 95 %% %.1f, 99 %% %.1f ms; 1 %% low %.1f fps\n", run.p5, run.p95, run.p99, run.low_fps);
+    std::string text = format(
+        "%u lamps, counted where they give %g lx, %llu triangles, glare %s, %u channel%s; %u lap%s of %u frames, after "
+        "%u\n",
+        s.lamps, s.threshold, static_cast<unsigned long long>(s.triangles), s.glare.c_str(), s.channels,
+        s.channels == 1 ? "" : "s", s.laps, s.laps == 1 ? "" : "s", s.frames, s.warm_up);
+    text += "vesper " + result.version + ", " + result.driver + ", " + std::to_string(result.threads) + " threads of " +
+            result.host + "\n\n";
+    text += "frame     median " + with_spread(run.frame, " ms") +
+            format(" as laps differ; 5 %% %.1f, 95 %% %.1f, 99 %% %.1f ms; 1 %% low %.1f fps\n", run.p5, run.p95,
+                   run.p99, run.low_fps);
     text += "host, ms ";
-    for (size_t i = 0; i < kHostParts.size(); ++i) text += format(" %s %.2f%s", kHostParts[i], run.host[i].median, i + 1 < kHostParts.size() ? "," : "\n");
-    text += format("memory    %.0f MiB of the host, %.0f MiB of the device, at most\n", run.host_bytes / kMiB, run.device_bytes / kMiB);
-    text += format("compiling %u pipelines made in %.0f ms; first frame %.0f ms\n", run.pipelines, run.pipelines_ms, run.first_frame_ms);
+    for (size_t i = 0; i < kHostParts.size(); ++i)
+        text += format(" %s %.2f%s", kHostParts[i], run.host[i].median, i + 1 < kHostParts.size() ? "," : "\n");
+    text += format("memory    %.0f MiB of the host, %.0f MiB of the device, at most\n", run.host_bytes / kMiB,
+                   run.device_bytes / kMiB);
+    text += format("compiling %u pipelines made in %.0f ms; first frame %.0f ms\n", run.pipelines, run.pipelines_ms,
+                   run.first_frame_ms);
     if (!run.starts.empty()) text += "start     to the first frame: " + start_text(run) + "\n";
     if (run.passes.empty()) return text + "\nthe device has no timestamps: nothing is known of passes\n";
     text += "\n" + column("pass", 28) + "      ms            laps   of sum       MiB    GB/s  of copying\n";
     const double sum = run.passes_ms();
     for (const PassResult& pass : run.passes)
-        text += column(pass.name, 28) + format(" %7.2f %15s %8s %9.1f %7.1f %11s\n", pass.ms.median, format("%.2f-%.2f", pass.ms.low, pass.ms.high).c_str(),
+        text += column(pass.name, 28) + format(" %7.2f %15s %8s %9.1f %7.1f %11s\n", pass.ms.median,
+                                               format("%.2f-%.2f", pass.ms.low, pass.ms.high).c_str(),
                                                percent(sum > 0 ? pass.ms.median / sum : 0).c_str(), pass.bytes() / kMiB,
-                                               pass.ms.median > 0 ? pass.bytes() / pass.ms.median * 1e-6 : 0.0, percent(result.copy_fraction(pass)).c_str());
+                                               pass.ms.median > 0 ? pass.bytes() / pass.ms.median * 1e-6 : 0.0,
+                                               percent(result.copy_fraction(pass)).c_str());
     text += column("sum", 28) + format(" %7.2f\n", sum);
     return text + format("copying moves %.1f GB/s, read and written\n", result.copy_bandwidth * 1e-9);
 }
 
 std::string markdown_of(const BenchResult& result) {
-    std::string text = "Measured with `vesper-bench` (docs/benchmark.md), vesper " + result.version + ".\n\nDevice: " + result.device + " (" + result.driver + "), " +
-                       std::to_string(result.threads) + " threads of " + result.host + format("; copying moves %.1f GB/s.\n", result.copy_bandwidth * 1e-9);
+    std::string text = "Measured with `vesper-bench` (docs/benchmark.md), vesper " + result.version +
+                       ".\n\nDevice: " + result.device + " (" + result.driver + "), " + std::to_string(result.threads) +
+                       " threads of " + result.host +
+                       format("; copying moves %.1f GB/s.\n", result.copy_bandwidth * 1e-9);
     for (const RunResult& run : result.runs) {
         text += "\n## " + run.settings.title() + run.settings.details() + "\n\n| | measured |\n| --- | ---: |\n";
         text += "| whole frame, median (medians of the laps) | " + with_spread(run.frame, " ms") + " |\n";
         text += format("| 5, 95 and 99 %% of the frames | %.1f, %.1f, %.1f ms |\n", run.p5, run.p95, run.p99);
         text += format("| frames per second (slowest 1 %%) | %.1f (%.1f) |\n", run.fps, run.low_fps);
-        text += format("| recording and submission on the host | %.2f ms, %.2f ms |\n", run.host[3].median, run.host[4].median);
-        text += format("| memory of process and device | %.0f MiB, %.0f MiB |\n", run.host_bytes / kMiB, run.device_bytes / kMiB);
+        text += format("| recording and submission on the host | %.2f ms, %.2f ms |\n", run.host[3].median,
+                       run.host[4].median);
+        text += format("| memory of process and device | %.0f MiB, %.0f MiB |\n", run.host_bytes / kMiB,
+                       run.device_bytes / kMiB);
         if (!run.starts.empty()) text += "| start to first frame | " + start_text(run) + " |\n";
         if (run.passes.empty()) continue;
         text += "\n| pass | ms | MiB moved | of copying |\n| --- | ---: | ---: | ---: |\n";
         for (const PassResult& pass : run.passes)
-            text += "| " + cell(pass.name) + format(" | %.2f | %.1f | %s |\n", pass.ms.median, pass.bytes() / kMiB, percent(result.copy_fraction(pass)).c_str());
+            text += "| " + cell(pass.name) +
+                    format(" | %.2f | %.1f | %s |\n", pass.ms.median, pass.bytes() / kMiB,
+                           percent(result.copy_fraction(pass)).c_str());
         text += format("| sum | %.2f | | |\n", run.passes_ms());
     }
     if (result.runs.size() < 2) return text;
     text += "\n## Growth\n\n| run | lamps | frame | laps | passes |\n| --- | ---: | ---: | ---: | ---: |\n";
     for (const RunResult& run : result.runs)
-        text += "| " + cell(run.settings.title()) + format(", glare %s, %u ch. | %u | %.1f ms | %.1f to %.1f | %.1f ms |\n", run.settings.glare.c_str(), run.settings.channels,
-                                                     run.settings.lamps, run.frame.median, run.frame.low, run.frame.high, run.passes_ms());
+        text += "| " + cell(run.settings.title()) +
+                format(", glare %s, %u ch. | %u | %.1f ms | %.1f to %.1f | %.1f ms |\n", run.settings.glare.c_str(),
+                       run.settings.channels, run.settings.lamps, run.frame.median, run.frame.low, run.frame.high,
+                       run.passes_ms());
     return text;
 }
 

@@ -17,7 +17,8 @@ double median(std::vector<double> values) {
 double percentile(std::span<const double> ascending, double percent) {
     if (ascending.empty()) return 0;
     const double place = percent / 100 * double(ascending.size() - 1);
-    const size_t below = std::min(size_t(place), ascending.size() - 1), above = std::min(below + 1, ascending.size() - 1);
+    const size_t below = std::min(size_t(place), ascending.size() - 1),
+                 above = std::min(below + 1, ascending.size() - 1);
     return std::lerp(ascending[below], ascending[above], place - double(below));
 }
 

@@ -27,7 +27,8 @@ private:
     std::vector<std::vector<double>> laps_ = std::vector<std::vector<double>>(1);
 };
 
-/// Frames per second over the slowest hundredth of the frames, at least one of them: frames by the time they took together.
+/// Frames per second over the slowest hundredth of the frames, at least one of them: frames by the time they took
+/// together.
 double one_percent_low(std::span<const double> ascending_ms);
 
 /// How B relates to A, and between what it lies as laps differ: the least lap of one by the greatest of the other.

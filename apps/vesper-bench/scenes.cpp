@@ -6,9 +6,9 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "gpu_scene/cameras.h"
 #include "io/atomic_file.h"
 #include "own_data.h"
-#include "gpu_scene/cameras.h"
 #include "scene/convert.h"
 #include "street.h"
 
@@ -43,15 +43,18 @@ void Scenes::prepare(const std::string& name) {
     if (name == "rivoli" || name == "rivoli-measured") {
         const fs::path data = own_data() / "rivoli";
         files_[name] = folder_ + "/" + name + ".glb";
-        convert(data / "rivoli.gltf", data / (name == "rivoli" ? "rivoli.photometry.json" : "rivoli.measured.photometry.json"), files_[name]);
+        convert(data / "rivoli.gltf",
+                data / (name == "rivoli" ? "rivoli.photometry.json" : "rivoli.measured.photometry.json"), files_[name]);
     } else if (name.ends_with(".gltf") || name.ends_with(".glb")) {
         files_[name] = name;
     } else {
-        throw Error("--scene " + one_line(name) + ": rivoli, rivoli-measured, street or a .gltf or .glb file is expected");
+        throw Error("--scene " + one_line(name) +
+                    ": rivoli, rivoli-measured, street or a .gltf or .glb file is expected");
     }
 }
 
-Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire, const std::string& camera) const {
+Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
+                   const std::string& camera) const {
     if (name == "street") return lamp_street(lamps != kOwnLamps ? lamps : kStreetLamps, triangles, luminaire);
     Scene scene = read_gltf(files_.at(name)).scene;
     const View view = camera_view(scene, {world_transforms(scene, 0)}, camera, {1, 1});
@@ -64,7 +67,8 @@ void keep_nearest_lamps(Scene& scene, glm::vec3 eye, uint32_t count) {
     std::vector<uint32_t> lamps;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].lamp != kNone) lamps.push_back(i);
-    if (lamps.size() < count) throw Error("--lamps " + std::to_string(count) + ": the scene has " + std::to_string(lamps.size()));
+    if (lamps.size() < count)
+        throw Error("--lamps " + std::to_string(count) + ": the scene has " + std::to_string(lamps.size()));
     std::stable_sort(lamps.begin(), lamps.end(), [&](uint32_t a, uint32_t b) {
         return glm::distance(glm::vec3(world[a][3]), eye) < glm::distance(glm::vec3(world[b][3]), eye);
     });

@@ -11,8 +11,8 @@ namespace vesper {
 
 inline constexpr uint32_t kOwnLamps = ~0u;  ///< as many as a scene has
 
-/// The scenes of a benchmark by name: "rivoli", the night street; "rivoli-measured", the same with measured lamps and road;
-/// "street", generated; or a glTF file. Converted files live as long as this, in a temporary folder.
+/// The scenes of a benchmark by name: "rivoli", the night street; "rivoli-measured", the same with measured lamps and
+/// road; "street", generated; or a glTF file. Converted files live as long as this, in a temporary folder.
 class Scenes {
 public:
     Scenes();
@@ -22,10 +22,11 @@ public:
 
     /// Converts what has to be. Throws Error.
     void prepare(const std::string& name);
-    /// Reads or generates one that was prepared, from its file on. `lamps`: of the street, how many, 256 if kOwnLamps; of others, those
-    /// nearest the camera at the start of its path, all if kOwnLamps. `triangles`: of the street, at least; `luminaire`: of the street (street.h).
-    /// Throws Error.
-    Scene load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire, const std::string& camera) const;
+    /// Reads or generates one that was prepared, from its file on. `lamps`: of the street, how many, 256 if kOwnLamps;
+    /// of others, those nearest the camera at the start of its path, all if kOwnLamps. `triangles`: of the street, at
+    /// least; `luminaire`: of the street (street.h). Throws Error.
+    Scene load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
+               const std::string& camera) const;
 
     /// An empty folder of that name beside the files.
     std::string folder(const std::string& name) const;
@@ -35,8 +36,8 @@ private:
     std::map<std::string, std::string> files_;  // by name of the scene
 };
 
-/// Takes the light from all lamps but the `count` nearest to `eye` at the start; the first of equals stay. Throws Error if there
-/// are fewer.
+/// Takes the light from all lamps but the `count` nearest to `eye` at the start; the first of equals stay. Throws Error
+/// if there are fewer.
 void keep_nearest_lamps(Scene& scene, glm::vec3 eye, uint32_t count);
 
 }  // namespace vesper

@@ -16,7 +16,9 @@ using Work = std::function<void(const std::function<void()>&)>;
 
 /// The life of the fresh process: writes "+" for the first frame, or why there was none.
 [[noreturn]] void live(int out, const std::string& folder, const Work& work) {
-    for (const char* variable : {"MESA_SHADER_CACHE_DIR", "MESA_GLSL_CACHE_DIR", "__GL_SHADER_DISK_CACHE_PATH", "XDG_CACHE_HOME"}) setenv(variable, folder.c_str(), 1);
+    for (const char* variable :
+         {"MESA_SHADER_CACHE_DIR", "MESA_GLSL_CACHE_DIR", "__GL_SHADER_DISK_CACHE_PATH", "XDG_CACHE_HOME"})
+        setenv(variable, folder.c_str(), 1);
     const auto say = [&](const std::string& text) { return write(out, text.data(), text.size()); };
     try {
         work([&] { std::ignore = say("+"); });  // a driver may write its cache when its device is closed: let it
@@ -44,7 +46,8 @@ double seconds_to_first_frame(const std::string& folder, const Work& work) {
         if (said.empty()) milliseconds = watch.milliseconds();
     close(ends[0]);
     waitpid(child, nullptr, 0);
-    if (said != "+") throw Error("timing the start: " + (said.empty() ? std::string("the process ended without a frame") : said));
+    if (said != "+")
+        throw Error("timing the start: " + (said.empty() ? std::string("the process ended without a frame") : said));
     return milliseconds * 1e-3;
 }
 

@@ -43,7 +43,8 @@ Lamp luminaire_of(const std::string& name, Scene& scene) {
     scene.distributions.push_back(read_distribution(name));
     const double flux = luminous_flux(scene.distributions.back());
     if (!(flux > 1e-6)) throw Error(name + ": no light");
-    lamp.kind = Lamp::Kind::Measured, lamp.distribution = 0, lamp.intensity = float(2 * std::numbers::pi * double(kCandela) / flux);
+    lamp.kind = Lamp::Kind::Measured, lamp.distribution = 0,
+    lamp.intensity = float(2 * std::numbers::pi * double(kCandela) / flux);
     return lamp;
 }
 
@@ -52,7 +53,8 @@ Lamp luminaire_of(const std::string& name, Scene& scene) {
 Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminaire) {
     // Cut into pieces of one spacing, so that they can be culled; the first lies behind the eye.
     const uint32_t pieces = 1 + uint32_t(std::ceil(std::max(kShortest, float((lamps + 1) / 2) * kSpacing) / kSpacing));
-    const uint64_t cells = std::max<uint64_t>(1, (triangles + 6 * pieces - 1) / (6 * pieces));  // of each of three patches
+    const uint64_t cells =
+        std::max<uint64_t>(1, (triangles + 6 * pieces - 1) / (6 * pieces));  // of each of three patches
     const uint32_t across = uint32_t(std::max(1.0, std::floor(std::sqrt(double(cells)))));
     const uint32_t along = uint32_t((cells + across - 1) / across);
 
@@ -65,7 +67,8 @@ Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminai
     scene.meshes.push_back(patch("right wall", {w, 0, -kSpacing}, {0, 0, kSpacing}, {0, kWall, 0}, across, along));
     for (uint32_t piece = 0; piece < pieces; ++piece)
         for (uint32_t mesh = 0; mesh < 3; ++mesh)
-            scene.nodes.push_back({.name = scene.meshes[mesh].name, .translation = {0, 0, kSpacing * (1 - float(piece))}, .mesh = mesh});
+            scene.nodes.push_back(
+                {.name = scene.meshes[mesh].name, .translation = {0, 0, kSpacing * (1 - float(piece))}, .mesh = mesh});
 
     const bool dark = luminaire == "none";
     if (!dark) scene.lamps.push_back(luminaire_of(luminaire, scene));

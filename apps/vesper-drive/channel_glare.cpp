@@ -9,8 +9,10 @@ namespace {
 using glm::dvec2, glm::dvec3;
 constexpr int kGuard = LightElsewhere::kGuard;
 
-// Lamps of the scene, but for what any of the pictures has of them. One that several have a part of is taken to be wholly in them.
-std::vector<UnseenLamp> unseen(const std::vector<Frame>& frames, std::span<const EyePicture> pictures, const std::vector<OffscreenLamp>& others) {
+// Lamps of the scene, but for what any of the pictures has of them. One that several have a part of is taken to be
+// wholly in them.
+std::vector<UnseenLamp> unseen(const std::vector<Frame>& frames, std::span<const EyePicture> pictures,
+                               const std::vector<OffscreenLamp>& others) {
     struct Seen {
         UnseenLamp lamp;
         double inside = 0;
@@ -18,7 +20,8 @@ std::vector<UnseenLamp> unseen(const std::vector<Frame>& frames, std::span<const
     std::map<uint32_t, Seen> lamps;  // by their nodes
     for (size_t i = 0; i < frames.size(); ++i)
         for (const GlareSource& source : frames[i].glare_sources)
-            lamps.try_emplace(source.node, Seen{{pictures[i].turn * source.direction, source.illuminance}, 0}).first->second.inside += source.inside;
+            lamps.try_emplace(source.node, Seen{{pictures[i].turn * source.direction, source.illuminance}, 0})
+                .first->second.inside += source.inside;
     std::vector<UnseenLamp> left;
     for (const auto& [node, seen] : lamps)
         if (seen.inside < 1) left.push_back({seen.lamp.direction, (1 - seen.inside) * seen.lamp.illuminance});
@@ -27,13 +30,17 @@ std::vector<UnseenLamp> unseen(const std::vector<Frame>& frames, std::span<const
 }
 
 // Of the lamps, what lies beside what is shown; those in the border wholly.
-std::vector<OffscreenLamp> beside(const Frame& frame, const EyePicture& picture, const std::vector<OffscreenLamp>& others) {
+std::vector<OffscreenLamp> beside(const Frame& frame, const EyePicture& picture,
+                                  const std::vector<OffscreenLamp>& others) {
     std::vector<OffscreenLamp> lamps;
-    for (const OffscreenLamp& lamp : others) lamps.push_back({glm::transpose(picture.turn) * lamp.direction, lamp.illuminance});
+    for (const OffscreenLamp& lamp : others)
+        lamps.push_back({glm::transpose(picture.turn) * lamp.direction, lamp.illuminance});
     for (const GlareSource& source : frame.glare_sources) {
-        const dvec2 at = picture.image.pixels_at(dvec2(source.direction) / -source.direction.z), far = glm::abs(at - 0.5 * dvec2(picture.image.width, picture.image.height));
+        const dvec2 at = picture.image.pixels_at(dvec2(source.direction) / -source.direction.z),
+                    far = glm::abs(at - 0.5 * dvec2(picture.image.width, picture.image.height));
         const bool shown = far.x < 0.5 * picture.image.width - kGuard && far.y < 0.5 * picture.image.height - kGuard;
-        if (!shown || source.inside < 1) lamps.push_back({source.direction, (shown ? 1 - source.inside : 1) * source.illuminance});
+        if (!shown || source.inside < 1)
+            lamps.push_back({source.direction, (shown ? 1 - source.inside : 1) * source.illuminance});
     }
     return lamps;
 }
@@ -59,7 +66,8 @@ View ChannelGlare::guarded(const View& view) {
     return wider;
 }
 
-void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View> guarded, std::span<const glm::dmat3> turns, const std::optional<shared::EyeState>& eye, float seconds,
+void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View> guarded,
+                           std::span<const glm::dmat3> turns, const std::optional<shared::EyeState>& eye, float seconds,
                            std::vector<Frame>& frames) {
     std::vector<EyePicture> pictures;
     for (size_t i = 0; i < guarded.size(); ++i) pictures.push_back({angles_of(guarded[i]), turns[i], kGuard});
@@ -81,8 +89,13 @@ void ChannelGlare::scatter(const RenderSettings& settings, std::span<const View>
         Frame& frame = frames[i];
         mapper_->set_eye(eye.value_or(shared::EyeState{}));
         const VkExtent2D extent = guarded[i].extent;
-        ToneMapped seen = mapper_->map(settings, {.extent = extent, .values = frame.retina, .channels = 4, .angles = &pictures_[i].image, .beyond = &beyond[i]}, seconds,
-                                       {.display = false, .retina = true});
+        ToneMapped seen = mapper_->map(settings,
+                                       {.extent = extent,
+                                        .values = frame.retina,
+                                        .channels = 4,
+                                        .angles = &pictures_[i].image,
+                                        .beyond = &beyond[i]},
+                                       seconds, {.display = false, .retina = true});
         frame.scene = without_border(frame.retina, extent);
         frame.retina = without_border(seen.retina, extent);
         frame.extent = {extent.width - 2 * kGuard, extent.height - 2 * kGuard};

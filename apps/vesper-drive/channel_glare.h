@@ -6,14 +6,15 @@
 #include <span>
 #include <vector>
 
-#include "vision/light_elsewhere.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
+#include "vision/light_elsewhere.h"
 
 namespace vesper {
 
-/// Scatters the light of several pictures in the one eye that sees them, so that the veil of what one of them shows goes on in the others. Its memory of
-/// where light falls is made anew when pictures or eye change; with each pair of pictures it takes some megabytes of the host.
+/// Scatters the light of several pictures in the one eye that sees them, so that the veil of what one of them shows
+/// goes on in the others. Its memory of where light falls is made anew when pictures or eye change; with each pair of
+/// pictures it takes some megabytes of the host.
 class ChannelGlare {
 public:
     explicit ChannelGlare(Device& device) : device_(device) {}
@@ -21,10 +22,11 @@ public:
     /// A view with as many more pixels on every side as its glare needs.
     static View guarded(const View&);
 
-    /// Makes of the retinas of guarded views, which nothing was scattered in, what is seen where they are shown and what falls on the retina there.
-    /// `turns`: of each, from its view frame to that of the eye. `eye`: what the last frame left; nothing: there was none.
-    void scatter(const RenderSettings&, std::span<const View> guarded, std::span<const glm::dmat3> turns, const std::optional<shared::EyeState>& eye, float seconds,
-                 std::vector<Frame>& frames);
+    /// Makes of the retinas of guarded views, which nothing was scattered in, what is seen where they are shown and
+    /// what falls on the retina there. `turns`: of each, from its view frame to that of the eye. `eye`: what the last
+    /// frame left; nothing: there was none.
+    void scatter(const RenderSettings&, std::span<const View> guarded, std::span<const glm::dmat3> turns,
+                 const std::optional<shared::EyeState>& eye, float seconds, std::vector<Frame>& frames);
 
 private:
     Device& device_;

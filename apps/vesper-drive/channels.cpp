@@ -18,7 +18,8 @@ constexpr size_t kMost = 32;
 constexpr uint64_t kMostPixels = 1ull << 27;  // of all: sixteen times 3840 x 2160
 
 ScreenChannel channel_of(const JsonValue& value) {
-    value.allow_only({"name", "size_px", "yaw_deg", "pitch_deg", "roll_deg", "left_deg", "right_deg", "bottom_deg", "top_deg"});
+    value.allow_only(
+        {"name", "size_px", "yaw_deg", "pitch_deg", "roll_deg", "left_deg", "right_deg", "bottom_deg", "top_deg"});
     ScreenChannel c;
     c.name = value.at("name").text();
     const auto size = value.at("size_px").elements(2);
@@ -46,7 +47,8 @@ std::vector<float> side_by_side(const ChannelMosaic& wall, VkExtent2D extent, st
     for (size_t i = 0; i < wall.channels.size(); ++i) {
         const auto [width, height] = wall.channels[i].extent;
         for (size_t y = 0; y < height; ++y)
-            std::copy_n(&(wall.channels[i].*picture)[4 * y * width], 4 * width, &pixels[4 * (y * extent.width + wall.columns[i])]);
+            std::copy_n(&(wall.channels[i].*picture)[4 * y * width], 4 * width,
+                        &pixels[4 * (y * extent.width + wall.columns[i])]);
     }
     return pixels;
 }
@@ -57,20 +59,24 @@ Channels read_channels(const std::filesystem::path& file) {
     const JsonFile text = parse_json(read_file(file, 1u << 20), file.string());
     const JsonValue root(text);
     root.allow_only({"$schema", "version", "gaze", "channels"});
-    if (root.at("version").integer() != 1) root.at("version").fail("this version of Vesper reads channels of version 1");
+    if (root.at("version").integer() != 1)
+        root.at("version").fail("this version of Vesper reads channels of version 1");
     Channels channels;
     for (const JsonValue& value : root.at("channels").elements()) {
         ScreenChannel c = channel_of(value);
-        if (std::any_of(channels.screens.begin(), channels.screens.end(), [&](const ScreenChannel& other) { return other.name == c.name; }))
+        if (std::any_of(channels.screens.begin(), channels.screens.end(),
+                        [&](const ScreenChannel& other) { return other.name == c.name; }))
             value.at("name").fail("two channels have the name " + one_line(c.name));
         channels.screens.push_back(std::move(c));
     }
-    if (channels.screens.empty() || channels.screens.size() > kMost) root.at("channels").fail("1 to " + std::to_string(kMost) + " are expected");
+    if (channels.screens.empty() || channels.screens.size() > kMost)
+        root.at("channels").fail("1 to " + std::to_string(kMost) + " are expected");
     uint64_t pixels = 0;
     for (const ScreenChannel& c : channels.screens) pixels += uint64_t(c.extent.width) * c.extent.height;
     if (pixels > kMostPixels) root.at("channels").fail("have more than " + std::to_string(kMostPixels) + " px in all");
     if (const auto gaze = root.find("gaze")) {
-        const auto named = std::find_if(channels.screens.begin(), channels.screens.end(), [&](const ScreenChannel& c) { return c.name == gaze->text(); });
+        const auto named = std::find_if(channels.screens.begin(), channels.screens.end(),
+                                        [&](const ScreenChannel& c) { return c.name == gaze->text(); });
         if (named == channels.screens.end()) gaze->fail("there is no channel " + one_line(gaze->text()));
         channels.gaze = size_t(named - channels.screens.begin());
     }
@@ -97,8 +103,8 @@ Frame looked_at(ChannelMosaic& wall, const Channels& channels) {
     return frame;
 }
 
-ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channels, const RenderSettings& settings, const View& driver, const SceneFrame& frame,
-                             float seconds, Outputs outputs) {
+ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channels, const RenderSettings& settings,
+                                      const View& driver, const SceneFrame& frame, float seconds, Outputs outputs) {
     ChannelMosaic wall;
     VkExtent2D extent{0, 0};
     for (const ScreenChannel& c : channels.screens) {
@@ -106,7 +112,8 @@ ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channe
         extent = {extent.width + c.extent.width, std::max(extent.height, c.extent.height)};
     }
     // Light that the eye scatters from one screen to others is known when there are pictures of all.
-    const bool scatters = settings.glare == Glare::Scatter && settings.tone_operator != Operator::Ldr, together = scatters && channels.screens.size() > 1;
+    const bool scatters = settings.glare == Glare::Scatter && settings.tone_operator != Operator::Ldr,
+               together = scatters && channels.screens.size() > 1;
     RenderSettings drawn = settings;
     if (together) drawn.glare = Glare::None;
     std::vector<View> views;
@@ -115,7 +122,8 @@ ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channe
         const View view = channel_view(c, driver);
         views.push_back(together ? ChannelGlare::guarded(view) : view);
         turns.emplace_back(turned(c));
-        wall.channels.push_back(renderer.render(drawn, views.back(), frame, 0, {.display = false, .scene = scatters && !together, .retina = true}));
+        wall.channels.push_back(renderer.render(drawn, views.back(), frame, 0,
+                                                {.display = false, .scene = scatters && !together, .retina = true}));
         if (!scatters) wall.channels.back().scene = std::exchange(wall.channels.back().retina, {});
     }
     if (together) glare_.scatter(settings, views, turns, eye_, seconds, wall.channels);
@@ -127,10 +135,13 @@ ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channe
     const glm::vec2 size(looked_at.extent.width, looked_at.extent.height), corner(wall.columns[channels.gaze], 0);
     shown.tone.gaze = (corner + settings.tone.gaze * size) / glm::vec2(extent.width, extent.height);
     // A pixel of the wall covers the angle that one in the middle of that channel does.
-    const double tangent = (std::tan(looked_at.top) - std::tan(looked_at.bottom)) / looked_at.extent.height * extent.height;
+    const double tangent =
+        (std::tan(looked_at.top) - std::tan(looked_at.bottom)) / looked_at.extent.height * extent.height;
     const bool wants_scene = outputs.scene;
     outputs.scene = wants_scene && !scatters, outputs.retina = false;
-    wall.shown = mapper_.map(shown, {.extent = extent, .values = pixels, .channels = 4, .vertical_fov = 2 * std::atan(tangent / 2)}, seconds, outputs);
+    wall.shown = mapper_.map(
+        shown, {.extent = extent, .values = pixels, .channels = 4, .vertical_fov = 2 * std::atan(tangent / 2)}, seconds,
+        outputs);
     if (wants_scene && scatters) wall.shown.scene = side_by_side(wall, extent, &Frame::scene);
     eye_ = wall.shown.eye;
     return wall;

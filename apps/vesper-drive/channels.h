@@ -15,9 +15,10 @@ namespace vesper {
 /// One screen, or one projector.
 struct ScreenChannel {
     std::string name;
-    VkExtent2D extent{1680, 1050};          ///< px
-    double yaw = 0, pitch = 0, roll = 0;    ///< of its axis against the driver's: left, up, clockwise; in that order; rad
-    double left = 0, right = 0, bottom = 0, top = 0;  ///< edges of the picture, from the axis, rad; left and bottom negative
+    VkExtent2D extent{1680, 1050};        ///< px
+    double yaw = 0, pitch = 0, roll = 0;  ///< of its axis against the driver's: left, up, clockwise; in that order; rad
+    double left = 0, right = 0, bottom = 0,
+           top = 0;  ///< edges of the picture, from the axis, rad; left and bottom negative
 };
 
 struct Channels {
@@ -32,21 +33,23 @@ View channel_view(const ScreenChannel&, const View& driver);
 
 /// All channels of a moment, side by side, tops aligned; what lies below the shorter ones is black.
 struct ChannelMosaic {
-    ToneMapped shown;                ///< the picture of all of them; `scene`: before anything is scattered in the eye
-    std::vector<uint32_t> columns;   ///< where each begins
-    std::vector<Frame> channels;     ///< each with its lamps and times; of `retina` and `scene` the first is empty where nothing is scattered
+    ToneMapped shown;               ///< the picture of all of them; `scene`: before anything is scattered in the eye
+    std::vector<uint32_t> columns;  ///< where each begins
+    std::vector<Frame> channels;    ///< each with its lamps and times; of `retina` and `scene` the first is empty where
+                                    ///< nothing is scattered
 };
 
 /// The channel that is looked at, with the eye, curve and times of the whole: what is logged.
 Frame looked_at(ChannelMosaic&, const Channels&);
 
-/// Renders channels one after the other, scatters the light of all of them in the one eye, then adapts and shows them as one picture:
-/// one histogram, one eye, one tone curve.
+/// Renders channels one after the other, scatters the light of all of them in the one eye, then adapts and shows them
+/// as one picture: one histogram, one eye, one tone curve.
 class ChannelRenderer {
 public:
     explicit ChannelRenderer(Device& device) : glare_(device), mapper_(device) {}
 
-    ChannelMosaic render(Renderer&, const Channels&, const RenderSettings&, const View& driver, const SceneFrame&, float seconds, Outputs);
+    ChannelMosaic render(Renderer&, const Channels&, const RenderSettings&, const View& driver, const SceneFrame&,
+                         float seconds, Outputs);
     void reset_adaptation() { eye_.reset(), mapper_.reset_adaptation(); }
     void set_eye(const shared::EyeState& eye) { eye_ = eye, mapper_.set_eye(eye); }
 

@@ -17,18 +17,22 @@ constexpr size_t kMostAxes = 64, kMostButtons = 256, kMostMappings = 256;
 constexpr uint64_t kMaxControllerBytes = 1 << 20;
 
 /// The member that is an end of an axis.
-double end_of(const JsonValue& value, const char* key, double fallback) { return value.number_or(key, fallback, -1, 1); }
+double end_of(const JsonValue& value, const char* key, double fallback) {
+    return value.number_or(key, fallback, -1, 1);
+}
 
 PedalAxis read_pedal(const JsonValue& value) {
     value.allow_only({"axis", "rest", "full"});
-    const PedalAxis pedal{size_t(value.at("axis").integer(kMostAxes - 1)), end_of(value, "rest", -1), end_of(value, "full", 1)};
+    const PedalAxis pedal{size_t(value.at("axis").integer(kMostAxes - 1)), end_of(value, "rest", -1),
+                          end_of(value, "full", 1)};
     if (std::abs(pedal.full - pedal.rest) < 0.01) value.fail("rest and full must differ");
     return pedal;
 }
 
 SteeringAxis read_steering(const JsonValue& value) {
     value.allow_only({"axis", "left", "right", "dead", "exponent"});
-    const SteeringAxis steering{size_t(value.at("axis").integer(kMostAxes - 1)), end_of(value, "left", -1), end_of(value, "right", 1), value.number_or("dead", 0, 0, 0.9),
+    const SteeringAxis steering{size_t(value.at("axis").integer(kMostAxes - 1)), end_of(value, "left", -1),
+                                end_of(value, "right", 1), value.number_or("dead", 0, 0, 0.9),
                                 value.number_or("exponent", 1, 0.2, 5)};
     if (std::abs(steering.left - steering.right) < 0.01) value.fail("left and right must differ");
     return steering;
@@ -36,7 +40,12 @@ SteeringAxis read_steering(const JsonValue& value) {
 
 ControllerMapping read_mapping(const JsonValue& value) {
     value.allow_only({"match", "gamepad", "steering", "throttle", "brake", "buttons"});
-    ControllerMapping mapping{.match = value.at("match").text(), .gamepad = value.boolean_or("gamepad", false), .steering = {}, .throttle = {}, .brake = {}, .buttons = {}};
+    ControllerMapping mapping{.match = value.at("match").text(),
+                              .gamepad = value.boolean_or("gamepad", false),
+                              .steering = {},
+                              .throttle = {},
+                              .brake = {},
+                              .buttons = {}};
     if (const auto steering = value.find("steering")) mapping.steering = read_steering(*steering);
     if (const auto throttle = value.find("throttle")) mapping.throttle = read_pedal(*throttle);
     if (const auto brake = value.find("brake")) mapping.brake = read_pedal(*brake);
@@ -46,10 +55,12 @@ ControllerMapping read_mapping(const JsonValue& value) {
         const auto action = action_named(button.at("does").text());
         if (!action) {
             std::string names;
-            for (const KeyBinding& known : key_bindings()) names += (names.empty() ? "" : ", ") + std::string(known.name);
+            for (const KeyBinding& known : key_bindings())
+                names += (names.empty() ? "" : ", ") + std::string(known.name);
             button.at("does").fail("no such action; there are " + names);
         }
-        if (!mapping.buttons.emplace(number, *action).second) button.at("button").fail("this button already does something");
+        if (!mapping.buttons.emplace(number, *action).second)
+            button.at("button").fail("this button already does something");
     }
     return mapping;
 }
@@ -101,7 +112,8 @@ std::vector<ControllerMapping> read_controllers(const std::filesystem::path& fil
     return mappings;
 }
 
-const ControllerMapping* find_mapping(std::span<const ControllerMapping> mappings, const std::string& device, bool is_gamepad) {
+const ControllerMapping* find_mapping(std::span<const ControllerMapping> mappings, const std::string& device,
+                                      bool is_gamepad) {
     const std::string name = lower(device);
     for (const ControllerMapping& mapping : mappings)
         if (name.find(lower(mapping.match)) != name.npos && (!mapping.gamepad || is_gamepad)) return &mapping;

@@ -23,15 +23,15 @@ struct PedalAxis {
 struct SteeringAxis {
     size_t axis = 0;
     double left = -1, right = 1;
-    double dead = 0;      ///< part of either half that is straight on, [0, 1)
-    double exponent = 1;  ///< of what is left: above 1 it is finer about the middle
+    double dead = 0;                                  ///< part of either half that is straight on, [0, 1)
+    double exponent = 1;                              ///< of what is left: above 1 it is finer about the middle
     double value(std::span<const float> axes) const;  ///< -1 (right) .. 1 (left)
 };
 
 /// What the axes and buttons of a device mean.
 struct ControllerMapping {
-    std::string match;    ///< part of the name of the device, any case; empty: everything
-    bool gamepad = false; ///< axes and buttons are those of GLFW's standard gamepad
+    std::string match;     ///< part of the name of the device, any case; empty: everything
+    bool gamepad = false;  ///< axes and buttons are those of GLFW's standard gamepad
     std::optional<SteeringAxis> steering;
     std::optional<PedalAxis> throttle, brake;
     std::map<size_t, Action> buttons;
@@ -49,7 +49,7 @@ struct ControllerState {
     std::string name;
     std::vector<float> axes;
     std::vector<bool> buttons;
-    std::vector<float> pad_axes;    ///< as of a standard gamepad; empty: it is none
+    std::vector<float> pad_axes;  ///< as of a standard gamepad; empty: it is none
     std::vector<bool> pad_buttons;
     bool is_gamepad() const { return !pad_axes.empty(); }
 };

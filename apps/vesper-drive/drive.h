@@ -33,7 +33,8 @@ struct DriveArguments {
 
 void add_drive(Command program);
 
-/// How the drive begins that the command line asks for: where it names a recording, as that does, with the settings given beside it.
+/// How the drive begins that the command line asks for: where it names a recording, as that does, with the settings
+/// given beside it.
 DriveStart start_of(const DriveArguments&, const DriveStart& recorded);
 
 /// What is written while a drive goes on, by the option that names it.

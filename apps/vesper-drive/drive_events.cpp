@@ -37,7 +37,8 @@ void DriveEvents::Iterator::read() {
         const std::vector<Held>& inputs = events_->inputs_;
         if (input_ + 1 < inputs.size() && inputs[input_ + 1].from == step_) ++input_;
         event_.input = inputs[input_].input;
-        if (step_ < events_->poses_.size() && !std::isnan(events_->poses_[step_].x)) event_.pose = events_->poses_[step_];
+        if (step_ < events_->poses_.size() && !std::isnan(events_->poses_[step_].x))
+            event_.pose = events_->poses_[step_];
     }
     if (event_.kind == Kind::Set) {
         const Change& change = events_->changes_[set_];

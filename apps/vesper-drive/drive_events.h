@@ -18,13 +18,15 @@ namespace vesper {
 struct DriveEvent {
     enum class Kind : uint8_t { Step, Frame, Set, Restart };
     Kind kind = Kind::Step;
-    traffic::DriverInput input;              ///< Step
-    std::optional<glm::dvec4> pose; ///< Step: X, Z (m), yaw (rad) and speed (m/s) of the driver's car after it, where that is known
-    std::string name, value;        ///< Set
-    uint64_t place = 0;             ///< Set: which event of its file it is in
+    traffic::DriverInput input;  ///< Step
+    std::optional<glm::dvec4>
+        pose;  ///< Step: X, Z (m), yaw (rad) and speed (m/s) of the driver's car after it, where that is known
+    std::string name, value;  ///< Set
+    uint64_t place = 0;       ///< Set: which event of its file it is in
 };
 
-/// Events, one after the other, that take little room: a step has 1 byte while the driver holds still, 33 where its pose is known.
+/// Events, one after the other, that take little room: a step has 1 byte while the driver holds still, 33 where its
+/// pose is known.
 class DriveEvents {
 public:
     void push_back(const DriveEvent&);
@@ -43,7 +45,8 @@ public:
         void read();
 
         const DriveEvents* events_;
-        size_t at_ = 0, step_ = 0, input_ = 0, set_ = 0;  // the first of each kind that is not behind it; the input that holds
+        size_t at_ = 0, step_ = 0, input_ = 0,
+               set_ = 0;  // the first of each kind that is not behind it; the input that holds
         DriveEvent event_;
     };
     Iterator begin() const { return Iterator(*this); }

@@ -40,7 +40,8 @@ traffic::DriverInput read_input(const JsonValue& step, const traffic::DriverInpu
     input.reverse = step.boolean_or("reverse", before.reverse);
     input.autopilot = step.boolean_or("autopilot", before.autopilot);
     if (const auto beam = step.find("beam")) input.beam = traffic::Beam(choice(*beam, kBeams));
-    if (const auto indicator = step.find("indicator")) input.indicator = traffic::Indicator(choice(*indicator, kIndicators));
+    if (const auto indicator = step.find("indicator"))
+        input.indicator = traffic::Indicator(choice(*indicator, kIndicators));
     return input;
 }
 
@@ -59,7 +60,8 @@ std::string input_text(const traffic::DriverInput& input, const traffic::DriverI
 
 std::string step_text(const DriveEvent& event, const traffic::DriverInput& before) {
     const glm::dvec4 pose = event.pose.value_or(glm::dvec4(0));
-    return "{\"step\":" + input_text(event.input, before) + format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]}", pose.x, pose.y, pose.z, pose.w);
+    return "{\"step\":" + input_text(event.input, before) +
+           format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]}", pose.x, pose.y, pose.z, pose.w);
 }
 
 // A path as seen from a folder; what came with the program by a name that holds wherever either is moved.
@@ -67,12 +69,17 @@ std::string seen_from(const std::filesystem::path& folder, const std::filesystem
     if (file.empty()) return "";
     if (const std::string own = own_data_name(file); !own.empty() && own_data_name(folder).empty()) return own;
     std::error_code failed;
-    const std::filesystem::path near = std::filesystem::proximate(std::filesystem::absolute(file, failed), folder, failed);
+    const std::filesystem::path near =
+        std::filesystem::proximate(std::filesystem::absolute(file, failed), folder, failed);
     return (near.empty() ? file : near).generic_string();
 }
 
 std::string heading(const DriveStart& start, const std::filesystem::path& folder) {
-    json head{{"vesper_drive", 1}, {"scene", seen_from(folder, start.scene)}, {"seed", start.seed}, {"time_step_s", start.time_step}, {"settings", start.settings}};
+    json head{{"vesper_drive", 1},
+              {"scene", seen_from(folder, start.scene)},
+              {"seed", start.seed},
+              {"time_step_s", start.time_step},
+              {"settings", start.settings}};
     if (!start.run.empty()) head["run"] = seen_from(folder, start.run);
     if (!start.scenario.empty()) head["scenario"] = seen_from(folder, start.scenario);
     if (start.size) head["size_px"] = {start.size->x, start.size->y};
@@ -106,7 +113,8 @@ void read_event(const JsonValue& event, uint64_t place, traffic::DriverInput& in
     if (event.json().size() != (event.find("pose") ? 2 : 1)) event.fail("is more than one step, frame, set or restart");
     const auto happens = [&](const char* name) {
         const auto found_event = event.find(name);
-        if (found_event && !(found_event->json().is_boolean() && found_event->json().get<bool>())) found_event->fail("must be true");
+        if (found_event && !(found_event->json().is_boolean() && found_event->json().get<bool>()))
+            found_event->fail("must be true");
         return found_event.has_value();
     };
     if (const auto step = event.find("step")) {
@@ -118,7 +126,9 @@ void read_event(const JsonValue& event, uint64_t place, traffic::DriverInput& in
         }
         events.push_back(driven);
     } else if (const auto set = event.find("set")) {
-        for (const auto& [name, value] : read_values(*set)) events.push_back({.kind = DriveEvent::Kind::Set, .input = {}, .pose = {}, .name = name, .value = value, .place = place});
+        for (const auto& [name, value] : read_values(*set))
+            events.push_back(
+                {.kind = DriveEvent::Kind::Set, .input = {}, .pose = {}, .name = name, .value = value, .place = place});
     } else if (happens("frame")) {
         events.push_back({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
     } else if (happens("restart")) {
@@ -130,7 +140,8 @@ void read_event(const JsonValue& event, uint64_t place, traffic::DriverInput& in
 
 std::string place_of(const DriveEvent& event) { return "/events/" + std::to_string(event.place) + "/set"; }
 
-// Takes events as they are parsed, so that a long drive is never in memory as JSON, and gives back the rest of the file.
+// Takes events as they are parsed, so that a long drive is never in memory as JSON, and gives back the rest of the
+// file.
 class DriveParser {
 public:
     DriveParser(std::string name, Drive& drive) : name_(std::move(name)), drive_(drive) {}
@@ -138,14 +149,17 @@ public:
     JsonFile parse(std::span<const uint8_t> text) {
         check_json_text(text, name_, UINT64_MAX);  // take() has bounds of its own
         try {
-            std::ignore = json::parse(text.begin(), text.end(), [this](int depth, json::parse_event_t at, json& value) { return take(depth, at, value); });
+            std::ignore = json::parse(text.begin(), text.end(), [this](int depth, json::parse_event_t at, json& value) {
+                return take(depth, at, value);
+            });
         } catch (const json::parse_error& error) {
-            // A file whose program ended early is whole as far as it goes; a machine that lost its power may have put zeros behind that. What is wrong lies
-            // beyond that end, then.
+            // A file whose program ended early is whole as far as it goes; a machine that lost its power may have put
+            // zeros behind that. What is wrong lies beyond that end, then.
             size_t end = text.size();
             while (end > 0 && (text[end - 1] == 0 || text[end - 1] == '\n')) --end;
             drive_.complete = false;
-            if (key_ != "events" || error.byte <= end) throw Error(name_ + ": byte " + std::to_string(error.byte) + ": not valid JSON");
+            if (key_ != "events" || error.byte <= end)
+                throw Error(name_ + ": byte " + std::to_string(error.byte) + ": not valid JSON");
             rest_[key_] = json::array();
         } catch (const json::exception& error) {  // a number beyond double
             throw Error(name_ + ": not valid JSON: " + one_line(error.what()));
@@ -158,7 +172,8 @@ private:
 
     bool take(int depth, json::parse_event_t at, json& value) {
         using Event = json::parse_event_t;
-        if (depth > kMostDepth || ++values_ > kMostValues) throw Error(name_ + ": /" + one_line(key_) + ": has more in it than a drive has");
+        if (depth > kMostDepth || ++values_ > kMostValues)
+            throw Error(name_ + ": /" + one_line(key_) + ": has more in it than a drive has");
         if (depth == 1 && at == Event::key) key_ = value.get<std::string>();
         const bool ends = at == Event::value || at == Event::object_end || at == Event::array_end;
         if (depth == 1 && ends) rest_[key_] = std::move(value);
@@ -184,11 +199,14 @@ Drive read_drive(const std::filesystem::path& file) {
     Drive drive{.file = file, .start = {}, .events = {}};
     const JsonFile text = DriveParser(one_line(file.string()), drive).parse(read_file(file, kMaxDriveBytes));
     const JsonValue root(text);
-    root.allow_only({"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "size_px", "settings", "events"});
-    if (root.at("vesper_drive").integer() != 1) root.at("vesper_drive").fail("this version of Vesper reads drives of version 1");
+    root.allow_only(
+        {"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "size_px", "settings", "events"});
+    if (root.at("vesper_drive").integer() != 1)
+        root.at("vesper_drive").fail("this version of Vesper reads drives of version 1");
     root.at("events").elements(), root.at("scene").text();
     DriveStart& start = drive.start;
-    for (const auto& [key, found] : {std::pair("scene", &start.scene), std::pair("run", &start.run), std::pair("scenario", &start.scenario)})
+    for (const auto& [key, found] :
+         {std::pair("scene", &start.scene), std::pair("run", &start.run), std::pair("scenario", &start.scenario)})
         *found = seen_path(root, key, file.parent_path());
     drive.start.seed = root.integer_or("seed", 1);
     drive.start.time_step = root.number_or("time_step_s", 1.0 / 60, 1e-4, 0.1);
@@ -205,11 +223,13 @@ Drive read_drive(const std::filesystem::path& file) {
             object->fail(error.what());
         }
     }
-    check_settings(drive, {}, [](const DriveSettings&) {}, [](const DriveSettings&) {});
+    check_settings(
+        drive, {}, [](const DriveSettings&) {}, [](const DriveSettings&) {});
     return drive;
 }
 
-void check_settings(const Drive& drive, const DriveSettings::Values& kept, const SettingsCheck& possible, const SettingsCheck& shown) {
+void check_settings(const Drive& drive, const DriveSettings::Values& kept, const SettingsCheck& possible,
+                    const SettingsCheck& shown) {
     constexpr const char* kStart = "/settings";
     const auto check = [&](const std::string& place, const SettingsCheck& wanted, const DriveSettings& settings) {
         try {
@@ -270,10 +290,18 @@ void DriveRecorder::add(const DriveEvent& event) {
 std::string DriveRecorder::line(const DriveEvent& event) {
     std::string line = std::exchange(first_, false) ? "" : ",";
     switch (event.kind) {
-        case DriveEvent::Kind::Step: line += step_text(event, std::exchange(last_, event.input)); break;
-        case DriveEvent::Kind::Frame: line += "{\"frame\":true}"; break;
-        case DriveEvent::Kind::Set: line += json{{"set", {{event.name, event.value}}}}.dump(); break;
-        case DriveEvent::Kind::Restart: line += "{\"restart\":true}"; break;
+        case DriveEvent::Kind::Step:
+            line += step_text(event, std::exchange(last_, event.input));
+            break;
+        case DriveEvent::Kind::Frame:
+            line += "{\"frame\":true}";
+            break;
+        case DriveEvent::Kind::Set:
+            line += json{{"set", {{event.name, event.value}}}}.dump();
+            break;
+        case DriveEvent::Kind::Restart:
+            line += "{\"restart\":true}";
+            break;
     }
     return line + "\n";
 }

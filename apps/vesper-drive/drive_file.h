@@ -17,9 +17,10 @@ struct DriveStart {
     std::filesystem::path scene;          ///< a world (.json), roads (.xodr) or a scene (.gltf, .glb)
     std::filesystem::path run, scenario;  ///< as of Scenery
     uint64_t seed = 1;
-    double time_step = 1.0 / 60;          ///< s
-    DriveSettings::Values settings;       ///< what differs from the defaults
-    std::optional<glm::uvec2> size;       ///< px, of its pictures when its recording began; none of channels, and where none were made
+    double time_step = 1.0 / 60;     ///< s
+    DriveSettings::Values settings;  ///< what differs from the defaults
+    std::optional<glm::uvec2>
+        size;  ///< px, of its pictures when its recording began; none of channels, and where none were made
 };
 
 struct Drive {
@@ -32,11 +33,12 @@ struct Drive {
 /// Reads a drive, also one that breaks off. Throws Error, naming file, place and reason.
 Drive read_drive(const std::filesystem::path&);
 
-/// Asks `possible` of all settings that a drive comes to have, and `shown` of those that its frames show (its steps where it has no
-/// frames); what was given beside it (`kept`) wins over what it sets. Where one throws Error, this does, naming file and place of what the
-/// drive has set.
+/// Asks `possible` of all settings that a drive comes to have, and `shown` of those that its frames show (its steps
+/// where it has no frames); what was given beside it (`kept`) wins over what it sets. Where one throws Error, this
+/// does, naming file and place of what the drive has set.
 using SettingsCheck = std::function<void(const DriveSettings&)>;
-void check_settings(const Drive&, const DriveSettings::Values& kept, const SettingsCheck& possible, const SettingsCheck& shown);
+void check_settings(const Drive&, const DriveSettings::Values& kept, const SettingsCheck& possible,
+                    const SettingsCheck& shown);
 
 /// Remembers a drive, and keeps that file up to date once there is one (GrowingFile: read_drive also takes
 /// the part of it that a broken drive leaves).
@@ -57,8 +59,8 @@ private:
 
     DriveStart start_;
     DriveEvents events_;
-    bool first_ = true;  // the next line
-    traffic::DriverInput last_;   // of the lines so far
+    bool first_ = true;          // the next line
+    traffic::DriverInput last_;  // of the lines so far
     std::unique_ptr<GrowingFile> file_;
 };
 

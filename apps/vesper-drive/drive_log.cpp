@@ -27,12 +27,16 @@ constexpr double kPercents[]{1, 5, 25, 50, 75, 95, 99, 99.9};  // as luminance_s
 
 double luminance_at(const Frame& frame, glm::dvec2 place) {
     const auto part = [](double p, uint32_t size) { return size_t(std::clamp(p * size, 0.0, double(size - 1))); };
-    const float* p = &frame.scene[4 * (part(place.y, frame.extent.height) * frame.extent.width + part(place.x, frame.extent.width))];
+    const float* p =
+        &frame.scene[4 * (part(place.y, frame.extent.height) * frame.extent.width + part(place.x, frame.extent.width))];
     return luminance(glm::dvec3(p[0], p[1], p[2]));
 }
 
 std::string heading(const std::vector<LogProbe>& probes) {
-    std::string line = "frame,step,seconds,eye_step,operator,x,y,z,yaw,pitch,speed,acceleration,wheel_angle,lane,throttle,brake,steering,touched,contacts,adaptation,cone_sigma,cone_pigment,cone_fast,cone_slow,log_average,minimum,maximum,mean";
+    std::string line =
+        "frame,step,seconds,eye_step,operator,x,y,z,yaw,pitch,speed,acceleration,wheel_angle,lane,throttle,brake,"
+        "steering,touched,contacts,adaptation,cone_sigma,cone_pigment,cone_fast,cone_slow,log_average,minimum,maximum,"
+        "mean";
     for (const double percent : kPercents) line += format(",p%g", percent);
     line += glare_columns();
     for (size_t i = 0; i < probes.size(); ++i) line += format(",probe%zu", i);
@@ -54,16 +58,21 @@ std::vector<LogProbe> probes_of(const std::vector<std::string>& texts) {
             return whole ? value : NAN;
         };
         const double x = number(','), y = number('\0');
-        if (!(x >= 0 && x <= 1 && y >= 0 && y <= 1)) throw Error("--probe " + one_line(text) + ": X,Y from 0 to 1 are expected");
+        if (!(x >= 0 && x <= 1 && y >= 0 && y <= 1))
+            throw Error("--probe " + one_line(text) + ": X,Y from 0 to 1 are expected");
         probes.push_back({{x, y}});
     }
     return probes;
 }
 
-DriveLog::DriveLog(const std::string& file, std::vector<LogProbe> probes) : file_(file), probes_(std::move(probes)) { file_.append(heading(probes_)); }
+DriveLog::DriveLog(const std::string& file, std::vector<LogProbe> probes) : file_(file), probes_(std::move(probes)) {
+    file_.append(heading(probes_));
+}
 
 // NODE@SPEED of each, the speed (m/s) at which they met; several are parted by semicolons.
-void DriveLog::add(const traffic::Contact& contact) { contacts_ += (contacts_.empty() ? "" : ";") + csv_name(contact.node) + format("@%.3g", contact.speed); }
+void DriveLog::add(const traffic::Contact& contact) {
+    contacts_ += (contacts_.empty() ? "" : ";") + csv_name(contact.node) + format("@%.3g", contact.speed);
+}
 
 void DriveLog::add(const Session& session, const View& view, const Frame& frame) {
     const traffic::World& world = session.world();
@@ -71,24 +80,33 @@ void DriveLog::add(const Session& session, const View& view, const Frame& frame)
     const traffic::VehicleState& car = world.driver();
     const traffic::DriverInput& input = session.input();
     const RenderSettings& settings = session.settings().render();
-    std::string line = format("%u,%llu,%.6f,%.9g,%s", rows_++, static_cast<unsigned long long>(world.steps()), world.seconds(), session.eye_step(), name_of(settings.tone_operator).c_str());
-    for (const double value : {me.position.x, me.position.y, me.position.z, me.yaw, me.pitch, me.speed, car.acceleration, car.angle}) line += format(",%.9g", value);
-    line += format(",%zu,%.4g,%.4g,%.4g,%d", world.driver_lane(), input.throttle, input.brake, input.steering, int(world.touched())) + "," + std::exchange(contacts_, {});
-    for (const float value : {frame.curve.adaptation, frame.curve.cone_sigma, frame.eye.cones.pigment, frame.eye.cones.fast, frame.eye.cones.slow, frame.curve.log_average}) line += format(",%.9g", double(value));
+    std::string line = format("%u,%llu,%.6f,%.9g,%s", rows_++, static_cast<unsigned long long>(world.steps()),
+                              world.seconds(), session.eye_step(), name_of(settings.tone_operator).c_str());
+    for (const double value :
+         {me.position.x, me.position.y, me.position.z, me.yaw, me.pitch, me.speed, car.acceleration, car.angle})
+        line += format(",%.9g", value);
+    line += format(",%zu,%.4g,%.4g,%.4g,%d", world.driver_lane(), input.throttle, input.brake, input.steering,
+                   int(world.touched())) +
+            "," + std::exchange(contacts_, {});
+    for (const float value : {frame.curve.adaptation, frame.curve.cone_sigma, frame.eye.cones.pigment,
+                              frame.eye.cones.fast, frame.eye.cones.slow, frame.curve.log_average})
+        line += format(",%.9g", double(value));
     if (frame.scene.empty()) {
         const std::string columns = heading(probes_).substr(heading({}).find(",minimum"));
         line += std::string(size_t(std::count(columns.begin(), columns.end(), ',')) - 6, ',');
     } else {
         const LuminanceStatistics s = luminance_statistics(frame.scene);
         for (const double value : {s.minimum, s.maximum, s.mean}) line += format(",%.6g", value);
-        for (size_t i = 0; i < std::size(kPercents); ++i) line += i < s.percentiles.size() ? format(",%.6g", s.percentiles[i].second) : ",";
+        for (size_t i = 0; i < std::size(kPercents); ++i)
+            line += i < s.percentiles.size() ? format(",%.6g", s.percentiles[i].second) : ",";
         line += glare_values(glare_of({}, settings, frame, angles_of(view), frame.outside));
         for (const LogProbe& probe : probes_) line += format(",%.6g", luminance_at(frame, probe.place));
     }
     double device = 0;
     for (const Timing& timing : frame.timings) device += timing.milliseconds;
     // Every lamp counts: froxels whose lists overflow look at all of them.
-    file_.append(line + format(",%u,%u,0,%u,%.3f,%.3f\n", frame.lamps, frame.luminaires, frame.histogram.non_finite, device, frame.milliseconds));
+    file_.append(line + format(",%u,%u,0,%u,%.3f,%.3f\n", frame.lamps, frame.luminaires, frame.histogram.non_finite,
+                               device, frame.milliseconds));
 }
 
 }  // namespace vesper

@@ -56,8 +56,10 @@ std::pair<double, bool> rate_of(const DriveEvents& events, double time_step) {
     for (const DriveEvent& event : events) {
         if (event.kind == DriveEvent::Kind::Step) ++steps;
         if (event.kind != DriveEvent::Kind::Frame) continue;
-        if (steps > 0) strides.push_back(std::exchange(steps, 0));
-        else twice |= !first;
+        if (steps > 0)
+            strides.push_back(std::exchange(steps, 0));
+        else
+            twice |= !first;
         first = false;
     }
     if (strides.empty()) return {kUsualRate, true};
@@ -74,20 +76,27 @@ public:
         if (!a.video.empty()) {
             film_ = a.video.ends_with(".mp4");
             exr_ = a.video.ends_with(".exr");
-            if (!film_ && !exr_ && !a.video.ends_with(".png")) throw Error("--video " + one_line(a.video) + ": .mp4, .png or .exr is expected");
+            if (!film_ && !exr_ && !a.video.ends_with(".png"))
+                throw Error("--video " + one_line(a.video) + ": .mp4, .png or .exr is expected");
             if (!film_) names_ = numbered_name("--video", a.video);
-            if (!film_ && !names_) throw Error("--video " + one_line(a.video) + ": one file a frame needs a number in the name, such as %05d");
+            if (!film_ && !names_)
+                throw Error("--video " + one_line(a.video) +
+                            ": one file a frame needs a number in the name, such as %05d");
             Files().writes("--video", film_ ? a.video : names_->at(0));
         }
     }
     bool wanted() const { return film_ || names_ || !arguments_.log.empty(); }
-    /// Throws Error if pictures with these settings cannot go there, in a film that began with those it was asked of first.
+    /// Throws Error if pictures with these settings cannot go there, in a film that began with those it was asked of
+    /// first.
     void check(const DriveSettings& settings) {
         if (!first_) first_ = settings.render().display;
         const Display &display = settings.render().display, &before = *first_;
-        if (exr_ && settings.render().tone_operator == Operator::Ldr) throw Error("--video " + one_line(arguments_.video) + ": the ldr operator has no luminances to write");
-        if (film_ && (display.bits != before.bits || display.eotf != before.eotf || display.primaries != before.primaries))
-            throw Error("--video " + one_line(arguments_.video) + ": a film has codes of one kind, and those of this display are others");
+        if (exr_ && settings.render().tone_operator == Operator::Ldr)
+            throw Error("--video " + one_line(arguments_.video) + ": the ldr operator has no luminances to write");
+        if (film_ &&
+            (display.bits != before.bits || display.eotf != before.eotf || display.primaries != before.primaries))
+            throw Error("--video " + one_line(arguments_.video) +
+                        ": a film has codes of one kind, and those of this display are others");
     }
     /// Once everything is read, and before anything is written: no name of so many frames may be another file's.
     void open(const FilesRead& read, size_t frames) {
@@ -104,12 +113,16 @@ public:
         return {.display = film_ || (names_ && !exr_), .scene = exr_ || (log_ && !ldr)};
     }
     /// `shown`: the picture; `logged`: what the log says of it, seen by `view`.
-    void take(unsigned index, const Session& session, const View& view, const ToneMapped& shown, const Frame& logged, double fps) {
+    void take(unsigned index, const Session& session, const View& view, const ToneMapped& shown, const Frame& logged,
+              double fps) {
         const Display& display = session.settings().render().display;
-        if (film_ && !video_) video_ = std::make_unique<Video>(arguments_.video, extent_.width, extent_.height, fps, display);
+        if (film_ && !video_)
+            video_ = std::make_unique<Video>(arguments_.video, extent_.width, extent_.height, fps, display);
         if (video_) video_->add(shown.display);
         if (names_ && !exr_) write_codes(names_->at(index), shown, display);
-        if (names_ && exr_) write_exr(names_->at(index), extent_.width, extent_.height, shown.scene, header(session, shown, logged.lamps));
+        if (names_ && exr_)
+            write_exr(names_->at(index), extent_.width, extent_.height, shown.scene,
+                      header(session, shown, logged.lamps));
         if (log_) log_->add(session, view, logged);
     }
     void finish() {
@@ -138,7 +151,8 @@ private:
     }
     Header header(const Session& session, const ToneMapped& frame, uint32_t lamps) const {
         std::string options;  // settings other than the defaults
-        for (const auto& [name, value] : session.settings().values()) options += (options.empty() ? "" : " ") + in_shell("--" + name) + " " + in_shell(value);
+        for (const auto& [name, value] : session.settings().values())
+            options += (options.empty() ? "" : " ") + in_shell("--" + name) + " " + in_shell(value);
         const std::string scene = session.scenery().scene().name, own = own_data_name(scene);
         Header made{{"vesper:version", VESPER_VERSION},
                     {"vesper:scene", own.empty() ? scene : own},
@@ -165,12 +179,14 @@ private:
 void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, double fps) {
     ChannelMosaic wall = session.render(channels, outlet.outputs(session));
     const Frame logged = looked_at(wall, channels);
-    outlet.take(index, session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), wall.shown, logged, fps);
+    outlet.take(index, session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), wall.shown, logged,
+                fps);
 }
 
 VkExtent2D extent_of(const Channels& channels) {
     VkExtent2D extent{0, 0};
-    for (const ScreenChannel& c : channels.screens) extent = {extent.width + c.extent.width, std::max(extent.height, c.extent.height)};
+    for (const ScreenChannel& c : channels.screens)
+        extent = {extent.width + c.extent.width, std::max(extent.height, c.extent.height)};
     return extent;
 }
 
@@ -183,21 +199,35 @@ void run_headless(const DriveArguments& a) {
     Drive drive;
     const bool replays = !a.replay.empty();
     if (replays) drive = read_drive(a.replay);
-    const VkExtent2D extent = channels ? extent_of(*channels) : drive.start.size && !a.size_given ? VkExtent2D{drive.start.size->x, drive.start.size->y} : parse_size(a.size);
+    const VkExtent2D extent = channels                            ? extent_of(*channels)
+                              : drive.start.size && !a.size_given ? VkExtent2D{drive.start.size->x, drive.start.size->y}
+                                                                  : parse_size(a.size);
     Outlet outlet(a, extent);
     const DriveStart options = start_of(a, drive.start);
-    if (!drive.complete) std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", one_line(a.replay).c_str());
-    const DriveEvent step{.kind = DriveEvent::Kind::Step, .input = {.autopilot = a.autopilot}, .pose = {}, .name = {}, .value = {}};
-    for (long left = replays ? 0 : std::lround(a.seconds / options.time_step); left > 0; --left) drive.events.push_back(step);
+    if (!drive.complete)
+        std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", one_line(a.replay).c_str());
+    const DriveEvent step{
+        .kind = DriveEvent::Kind::Step, .input = {.autopilot = a.autopilot}, .pose = {}, .name = {}, .value = {}};
+    for (long left = replays ? 0 : std::lround(a.seconds / options.time_step); left > 0; --left)
+        drive.events.push_back(step);
     const bool own_frames = drive.events.frames() > 0 && a.fps == 0;
-    if (outlet.wanted() && !own_frames) drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : kUsualRate);
+    if (outlet.wanted() && !own_frames)
+        drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : kUsualRate);
     const double most = 1 / options.time_step;
-    if (a.fps > most * 1.001) throw Error(format("--fps %g: the world goes on in steps of %.6g s, so there are at most %.6g frames a second", a.fps, options.time_step, most));
-    const auto [fps, even] = own_frames ? rate_of(drive.events, options.time_step) : std::pair(std::min(a.fps > 0 ? a.fps : kUsualRate, most), true);
+    if (a.fps > most * 1.001)
+        throw Error(format("--fps %g: the world goes on in steps of %.6g s, so there are at most %.6g frames a second",
+                           a.fps, options.time_step, most));
+    const auto [fps, even] = own_frames ? rate_of(drive.events, options.time_step)
+                                        : std::pair(std::min(a.fps > 0 ? a.fps : kUsualRate, most), true);
     if (!even && a.video.ends_with(".mp4"))
-        std::fprintf(stderr, "note: frames were not recorded at an even rate: the film shows them at %.4g a second, and not in real time (--fps %.4g takes frames at an even rate)\n", fps, std::min(kUsualRate, most));
+        std::fprintf(stderr,
+                     "note: frames were not recorded at an even rate: the film shows them at %.4g a second, and not in "
+                     "real time (--fps %.4g takes frames at an even rate)\n",
+                     fps, std::min(kUsualRate, most));
     Scenery scenery(options.scene, options.run, options.scenario);
-    check_settings(drive, a.settings, [&](const DriveSettings& settings) { scenery.check(settings); }, [&](const DriveSettings& settings) { outlet.check(settings); });
+    check_settings(
+        drive, a.settings, [&](const DriveSettings& settings) { scenery.check(settings); },
+        [&](const DriveSettings& settings) { outlet.check(settings); });
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
     Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
@@ -205,7 +235,9 @@ void run_headless(const DriveArguments& a) {
     outlet.open(read, playback.frames());
     session.on_contact = [&](const traffic::Contact& contact) { outlet.add(contact); };
     for (const std::string& note : session.scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
-    if (!a.record.empty()) session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height)) : std::nullopt);
+    if (!a.record.empty())
+        session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height))
+                                                              : std::nullopt);
     Progress progress(replays ? "replaying" : "driving", unsigned(std::max<size_t>(1, playback.frames())));
     unsigned index = 0;
     while (const auto kind = playback.next(session)) {
@@ -221,7 +253,11 @@ void run_headless(const DriveArguments& a) {
     }
     outlet.finish();
     session.stop_recording();
-    if (playback.strayed()) std::fprintf(stderr, "note: %s: the car goes another way than it did when this was recorded, with another version or compiler\n", one_line(a.replay).c_str());
+    if (playback.strayed())
+        std::fprintf(
+            stderr,
+            "note: %s: the car goes another way than it did when this was recorded, with another version or compiler\n",
+            one_line(a.replay).c_str());
 }
 
 }  // namespace vesper

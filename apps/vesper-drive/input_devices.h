@@ -16,7 +16,8 @@ struct HeldInput {
     bool left = false, right = false, accelerate = false, brake = false;
 };
 
-/// A wheel that keys turn: towards the side that is held, back to the middle otherwise, more slowly the faster the car is.
+/// A wheel that keys turn: towards the side that is held, back to the middle otherwise, more slowly the faster the car
+/// is.
 class KeyboardWheel {
 public:
     /// -1 (right) .. 1 (left) after `seconds`. `speed`: m/s.
@@ -26,12 +27,14 @@ private:
     double angle_ = 0;
 };
 
-/// Everything that drives. What keys and controllers say is combined: the wheel that is turned further, the pedal that is pressed harder.
+/// Everything that drives. What keys and controllers say is combined: the wheel that is turned further, the pedal that
+/// is pressed harder.
 class InputDevices {
 public:
     explicit InputDevices(std::vector<ControllerMapping> mappings = {}) : mappings_(std::move(mappings)) {}
 
-    /// Looks at what is plugged in now. Gives actions of buttons that went down since; what was just plugged in or out is said.
+    /// Looks at what is plugged in now. Gives actions of buttons that went down since; what was just plugged in or out
+    /// is said.
     std::vector<Action> look(std::vector<ControllerState>);
     /// Beam, indicators, autopilot, gear. False: the action is none of the driver's.
     bool press(Action);
@@ -42,7 +45,9 @@ public:
     void release() { input_ = {}, wheel_ = {}; }  ///< as at the start
     const std::vector<ControllerState>& controllers() const { return controllers_; }
     /// What a controller is used as; nothing: it has no mapping.
-    const ControllerMapping* mapping_of(const ControllerState& c) const { return find_mapping(mappings_, c.name, c.is_gamepad()); }
+    const ControllerMapping* mapping_of(const ControllerState& c) const {
+        return find_mapping(mappings_, c.name, c.is_gamepad());
+    }
     std::string take_notice() { return std::exchange(notice_, {}); }  ///< what to tell the driver
 
 private:

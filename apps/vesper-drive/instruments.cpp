@@ -8,15 +8,16 @@
 #include "arguments.h"
 #include "base/luminance.h"
 #include "panel_layout.h"
-#include "render/passes/operators.h"
 #include "plot.h"
+#include "render/passes/operators.h"
 #include "tone_arguments.h"
 
 namespace vesper {
 namespace {
 
 constexpr double kPastSeconds = 60;
-constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav |
+                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
 
 }  // namespace
 
@@ -27,22 +28,36 @@ bool Instruments::press(Action action) {
         return true;
     };
     switch (action) {
-        case Action::Keys: return toggle(kKeys);
-        case Action::Performance: return toggle(kPerformance);
-        case Action::Light: return toggle(kLight);
-        case Action::Eye: return toggle(kEye);
-        case Action::Switches: return toggle(kSwitches);
-        case Action::Lamps: return toggle(kLamps);
-        case Action::Probe: return toggle(kProbe);
-        case Action::Controllers: return toggle(kControllers);
-        case Action::Clean: clean_ = !clean_, focus_ = false; return true;
-        case Action::FalseColour: false_colour_ = !false_colour_, fit_scale_ = true; return true;
+        case Action::Keys:
+            return toggle(kKeys);
+        case Action::Performance:
+            return toggle(kPerformance);
+        case Action::Light:
+            return toggle(kLight);
+        case Action::Eye:
+            return toggle(kEye);
+        case Action::Switches:
+            return toggle(kSwitches);
+        case Action::Lamps:
+            return toggle(kLamps);
+        case Action::Probe:
+            return toggle(kProbe);
+        case Action::Controllers:
+            return toggle(kControllers);
+        case Action::Clean:
+            clean_ = !clean_, focus_ = false;
+            return true;
+        case Action::FalseColour:
+            false_colour_ = !false_colour_, fit_scale_ = true;
+            return true;
         case Action::Focus:
             focus_ = !focus_, clean_ = false;
             if (focus_ && !panels_) panels_ = kSwitches;  // something to go to
             return true;
-        case Action::Leave: return leave();
-        default: return false;
+        case Action::Leave:
+            return leave();
+        default:
+            return false;
     }
 }
 
@@ -55,7 +70,8 @@ bool Instruments::leave() {
 void Instruments::remember(const Session& session, const Frame& frame) {
     const double now = session.world().seconds();
     if (!past_.empty() && past_.back().seconds >= now) past_.pop_back();
-    past_.push_back({now, double(frame.curve.adaptation), double(frame.curve.log_average), double(frame.curve.cone_sigma), double(frame.curve.rod_sigma)});
+    past_.push_back({now, double(frame.curve.adaptation), double(frame.curve.log_average),
+                     double(frame.curve.cone_sigma), double(frame.curve.rod_sigma)});
     while (past_.front().seconds < now - kPastSeconds) past_.pop_front();
 }
 
@@ -65,7 +81,8 @@ std::span<const uint8_t> Instruments::coloured(const Frame& frame, uint64_t numb
     if (number == coloured_number_ && same_scale) return coloured_;
     ValuePicture picture{frame.extent.width, frame.extent.height, {}};
     picture.values.reserve(frame.scene.size() / 4);
-    for (size_t i = 0; i < frame.scene.size(); i += 4) picture.values.push_back(float(luminance({frame.scene[i], frame.scene[i + 1], frame.scene[i + 2]})));
+    for (size_t i = 0; i < frame.scene.size(); i += 4)
+        picture.values.push_back(float(luminance({frame.scene[i], frame.scene[i + 1], frame.scene[i + 2]})));
     if (std::exchange(fit_scale_, false)) scale_ = scale_of(picture.values);
     coloured_ = false_colours(picture, scale_);
     coloured_number_ = number, coloured_scale_ = scale_;
@@ -115,12 +132,19 @@ void Instruments::draw_status(const FrameState& now) const {
     ImGui::SetNextWindowBgAlpha(0.55f);
     if (ImGui::Begin("status", nullptr, kPlain)) {
         ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x - 32);
-        const char* beam = input.beam == traffic::Beam::Low ? "low beam" : input.beam == traffic::Beam::High ? "high beam" : "no lights";
-        ImGui::Text("%3.0f km/h  %s%s%s", std::abs(me.speed) * 3.6, beam, input.reverse ? "  reverse" : "", input.autopilot ? "  autopilot" : "");
-        ImGui::TextUnformatted(format("%s  |  glare %s  |  display %s  |  observer of %.0f  |  adapted to %.3g cd/m²  |  %.1f pictures/s%s%s", name_of(settings.tone_operator).c_str(), value_or("glare", "none").c_str(),
-                                      value_or("display", known_displays().front().name).c_str(), settings.tone.observer.age, double(now.frame.curve.adaptation), now.shown_per_second,
-                                      now.paused ? "  |  paused" : "", has_keyboard() ? "  |  keys for instruments (Esc)" : "")
-                                   .c_str());
+        const char* beam = input.beam == traffic::Beam::Low    ? "low beam"
+                           : input.beam == traffic::Beam::High ? "high beam"
+                                                               : "no lights";
+        ImGui::Text("%3.0f km/h  %s%s%s", std::abs(me.speed) * 3.6, beam, input.reverse ? "  reverse" : "",
+                    input.autopilot ? "  autopilot" : "");
+        ImGui::TextUnformatted(
+            format(
+                "%s  |  glare %s  |  display %s  |  observer of %.0f  |  adapted to %.3g cd/m²  |  %.1f pictures/s%s%s",
+                name_of(settings.tone_operator).c_str(), value_or("glare", "none").c_str(),
+                value_or("display", known_displays().front().name).c_str(), settings.tone.observer.age,
+                double(now.frame.curve.adaptation), now.shown_per_second, now.paused ? "  |  paused" : "",
+                has_keyboard() ? "  |  keys for instruments (Esc)" : "")
+                .c_str());
         if (!now.recording.empty()) ImGui::TextColored({1, 0.35f, 0.3f, 1}, "recording %s", now.recording.c_str());
         if (now.session.world().seconds() < 8 && !shows(kKeys)) ImGui::TextDisabled("F1: keys");
         ImGui::PopTextWrapPos();
@@ -173,8 +197,10 @@ void Instruments::draw_performance(const FrameState& now) {
         double total = 0;
         for (const Timing& timing : now.frame.timings) total += timing.milliseconds;
         ImGui::TextWrapped("%.1f pictures/s shown, %s", now.shown_per_second, now.screen.describe().c_str());
-        ImGui::TextWrapped("frame %.2f ms, passes %.2f ms, %u x %u px", now.frame.milliseconds, total, now.frame.extent.width, now.frame.extent.height);
-        ImGui::Text("%u lamps, %u seen, %u froxels overflowed", now.frame.lamps, now.frame.luminaires, now.frame.clusters.overflowed);
+        ImGui::TextWrapped("frame %.2f ms, passes %.2f ms, %u x %u px", now.frame.milliseconds, total,
+                           now.frame.extent.width, now.frame.extent.height);
+        ImGui::Text("%u lamps, %u seen, %u froxels overflowed", now.frame.lamps, now.frame.luminaires,
+                    now.frame.clusters.overflowed);
         ImGui::Separator();
         for (const Timing& timing : now.frame.timings) {
             ImGui::ProgressBar(total > 0 ? float(timing.milliseconds / total) : 0, {60, 0}, "");

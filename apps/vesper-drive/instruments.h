@@ -20,15 +20,15 @@ namespace vesper {
 struct FrameState {
     const Session& session;
     const Screen& screen;
-    const Frame& frame;              ///< the last one that was rendered
-    const View& view;                ///< of the channel under the mouse, or of all of it
+    const Frame& frame;  ///< the last one that was rendered
+    const View& view;    ///< of the channel under the mouse, or of all of it
     const InputDevices& hands;
-    std::optional<glm::uvec2> pixel, view_pixel; ///< of the frame and of that view, under the mouse
-    double shown_per_second = 0;     ///< pictures
+    std::optional<glm::uvec2> pixel, view_pixel;  ///< of the frame and of that view, under the mouse
+    double shown_per_second = 0;                  ///< pictures
     bool paused = false;
-    std::string recording;           ///< file; empty: none
-    std::string message;             ///< to read now; empty: none
-    bool alarm = false;              ///< it is to be read over a clean picture, too
+    std::string recording;  ///< file; empty: none
+    std::string message;    ///< to read now; empty: none
+    bool alarm = false;     ///< it is to be read over a clean picture, too
 };
 
 /// A setting that somebody changed, as Session::set takes it.
@@ -36,8 +36,8 @@ using Change = std::pair<std::string, std::string>;
 
 class Instruments {
 public:
-    /// Shows or hides; false: the action is none of theirs. Action::Leave first gives the keyboard back, then closes all that is
-    /// visible, and is none of theirs where nothing is.
+    /// Shows or hides; false: the action is none of theirs. Action::Leave first gives the keyboard back, then closes
+    /// all that is visible, and is none of theirs where nothing is.
     bool press(Action);
     /// Keeps what is drawn over time.
     void remember(const Session&, const Frame&);
@@ -48,14 +48,24 @@ public:
     /// Whether keys are for them.
     bool has_keyboard() const { return focus_ && !clean_; }
     bool shows_false_colour() const { return false_colour_; }
-    /// The luminance of a frame as colours, codes of 8 bits; nothing if it has no luminances. `number` tells frames apart.
+    /// The luminance of a frame as colours, codes of 8 bits; nothing if it has no luminances. `number` tells frames
+    /// apart.
     std::span<const uint8_t> coloured(const Frame&, uint64_t number);
 
     /// Declares everything that is visible; gives what was changed.
     std::vector<Change> draw(const FrameState&);
 
 private:
-    enum Panel : unsigned { kKeys = 1, kPerformance = 2, kLight = 4, kEye = 8, kSwitches = 16, kLamps = 32, kProbe = 64, kControllers = 128 };
+    enum Panel : unsigned {
+        kKeys = 1,
+        kPerformance = 2,
+        kLight = 4,
+        kEye = 8,
+        kSwitches = 16,
+        kLamps = 32,
+        kProbe = 64,
+        kControllers = 128
+    };
     bool shows(Panel panel) const { return panels_ & panel; }
     /// Place and size as of panel_place().
     bool begin(Panel, const char* title, glm::vec2 place, glm::vec2 size, int flags = 0);

@@ -10,18 +10,57 @@ namespace vesper {
 
 /// What happens at the press of a key or button. Steering and pedals are held instead: see controls.h.
 enum class Action : uint8_t {
-    Pause, Step, Restart, Autopilot, Reverse, Beam, IndicateLeft, IndicateRight, Hazard,
-    NextCamera, CameraDriver, CameraChase, CameraBird, CameraFree,
-    NextOperator, PreviousOperator, NextGlare, NextDisplay, OlderObserver, YoungerObserver, SunUp, SunDown,
-    Keys, Clean, Performance, Light, Eye, Switches, Lamps, Probe, FalseColour, Controllers, Focus,
-    RecordDrive, SavePicture, Reload, FullScreen, NextMonitor, NextVsync, NextScaling, FinerPicture, CoarserPicture, Leave, Quit,
+    Pause,
+    Step,
+    Restart,
+    Autopilot,
+    Reverse,
+    Beam,
+    IndicateLeft,
+    IndicateRight,
+    Hazard,
+    NextCamera,
+    CameraDriver,
+    CameraChase,
+    CameraBird,
+    CameraFree,
+    NextOperator,
+    PreviousOperator,
+    NextGlare,
+    NextDisplay,
+    OlderObserver,
+    YoungerObserver,
+    SunUp,
+    SunDown,
+    Keys,
+    Clean,
+    Performance,
+    Light,
+    Eye,
+    Switches,
+    Lamps,
+    Probe,
+    FalseColour,
+    Controllers,
+    Focus,
+    RecordDrive,
+    SavePicture,
+    Reload,
+    FullScreen,
+    NextMonitor,
+    NextVsync,
+    NextScaling,
+    FinerPicture,
+    CoarserPicture,
+    Leave,
+    Quit,
 };
 
 struct KeyBinding {
     Action action;
-    int key, modifiers;      ///< GLFW; modifiers: shift and control
-    const char* shown;       ///< on the keyboard
-    std::string_view name;   ///< in mapping files
+    int key, modifiers;     ///< GLFW; modifiers: shift and control
+    const char* shown;      ///< on the keyboard
+    std::string_view name;  ///< in mapping files
     const char* does;
     const char* group;
 };

@@ -18,7 +18,8 @@ struct Ray {
 bool meets(const Bounds& box, const Ray& ray, double nearest) {
     double enter = 0, leave = nearest;
     for (int i = 0; i < 3; ++i) {
-        const double a = (double(box.low[i]) - ray.origin[i]) / ray.direction[i], b = (double(box.high[i]) - ray.origin[i]) / ray.direction[i];
+        const double a = (double(box.low[i]) - ray.origin[i]) / ray.direction[i],
+                     b = (double(box.high[i]) - ray.origin[i]) / ray.direction[i];
         if (std::isnan(a) || std::isnan(b)) continue;  // along a face
         enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
     }
@@ -37,10 +38,12 @@ double distance_to(const dvec3& a, const dvec3& b, const dvec3& c, const Ray& ra
 
 }  // namespace
 
-std::optional<SurfacePoint> surface_at(const Scene& scene, const SceneFrame& frame, const View& view, glm::uvec2 pixel) {
+std::optional<SurfacePoint> surface_at(const Scene& scene, const SceneFrame& frame, const View& view,
+                                       glm::uvec2 pixel) {
     const glm::dmat4 view_to_world = glm::inverse(view.world_to_view);
     const glm::vec2 tangents = view.ray_scale() * (glm::vec2(pixel) + 0.5f) + view.ray_offset();
-    const Ray world{dvec3(view_to_world[3]), dvec3(view_to_world * glm::dvec4(double(tangents.x), double(tangents.y), -1, 0))};
+    const Ray world{dvec3(view_to_world[3]),
+                    dvec3(view_to_world * glm::dvec4(double(tangents.x), double(tangents.y), -1, 0))};
     double nearest = HUGE_VAL;
     SurfacePoint found;
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
@@ -51,7 +54,8 @@ std::optional<SurfacePoint> surface_at(const Scene& scene, const SceneFrame& fra
             if (!meets(part.bounds, ray, nearest)) continue;
             const bool both = scene.materials[part.material].double_sided;
             for (size_t i = 0; i + 2 < part.indices.size(); i += 3) {
-                const dvec3 a(part.vertices[part.indices[i]].position), b(part.vertices[part.indices[i + 1]].position), c(part.vertices[part.indices[i + 2]].position);
+                const dvec3 a(part.vertices[part.indices[i]].position), b(part.vertices[part.indices[i + 1]].position),
+                    c(part.vertices[part.indices[i + 2]].position);
                 const double at = distance_to(a, b, c, ray);
                 if (!(at > double(view.near) && at < nearest)) continue;
                 const dvec3 outside = glm::cross(b - a, c - a);

@@ -1,6 +1,6 @@
 // The `vesper-drive` program: a simulator in a night street. SPDX-License-Identifier: MIT
-#include "drive.h"
 #include "command_line.h"
+#include "drive.h"
 
 int main(int argc, char** argv) {
     vesper::Program program{"Drive at night, see and record what the eye does (docs/simulator.md).", "vesper-drive"};

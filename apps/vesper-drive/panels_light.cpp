@@ -8,13 +8,14 @@
 #include "instruments.h"
 #include "light_probe.h"
 #include "panel_layout.h"
-#include "render/passes/operators.h"
 #include "plot.h"
+#include "render/passes/operators.h"
 #include "shown.h"
 
 namespace vesper {
 
-// Votes of luminances, and what the operator makes of each: both over the same axis, on which the range of the display lies too.
+// Votes of luminances, and what the operator makes of each: both over the same axis, on which the range of the display
+// lies too.
 void Instruments::draw_light(const FrameState& now) {
     if (begin(kLight, "Light (F4)", {8, 8}, {520, 300})) {
         const RenderSettings& settings = now.session.settings().render();
@@ -22,9 +23,10 @@ void Instruments::draw_light(const FrameState& now) {
         const double low = std::pow(10, double(bins.log10_low)), high = std::pow(10, double(bins.log10_high));
         const Display& display = settings.display;
         const ImVec2 room = ImGui::GetContentRegionAvail();
-        const std::string legend =
-            format("bars: votes; grey band: the display's own range, %.3g to %.4g cd/m²", double(display.low()), double(display.high()));
-        const float below = ImGui::CalcTextSize(legend.c_str(), nullptr, false, room.x).y + ImGui::GetStyle().ItemSpacing.y;
+        const std::string legend = format("bars: votes; grey band: the display's own range, %.3g to %.4g cd/m²",
+                                          double(display.low()), double(display.high()));
+        const float below =
+            ImGui::CalcTextSize(legend.c_str(), nullptr, false, room.x).y + ImGui::GetStyle().ItemSpacing.y;
         const PanelPlot plot("light", {room.x, std::max(room.y - below, 60.0f)}, {low, high, true, "scene, cd/m²"},
                              {double(display.low()), double(display.high()), true, "shown, cd/m² (curve)"});
         plot.band(double(display.low()), double(display.high()), colours::kDisplay);
@@ -34,7 +36,9 @@ void Instruments::draw_light(const FrameState& now) {
         const double range = double(display.high()) / double(display.low());
         const auto edge = [&](uint32_t bin) { return low * std::pow(high / low, double(bin) / bins.bins); };
         for (uint32_t i = 0; i < bins.bins; ++i)
-            if (first[i]) plot.bar(edge(i), edge(i + 1), double(display.low()) * std::pow(range, double(first[i]) / most), colours::kBars);
+            if (first[i])
+                plot.bar(edge(i), edge(i + 1), double(display.low()) * std::pow(range, double(first[i]) / most),
+                         colours::kBars);
 
         const uint32_t form = operator_info(settings.tone_operator).form;
         if (form != shared::kToneLdr) {
@@ -63,8 +67,12 @@ void Instruments::draw_eye() {
         for (const Past& p : past_)
             for (const double value : {p.adaptation, p.average, p.cones})
                 if (value > 0) low = std::min(low, value), high = std::max(high, value);
-        low = std::pow(10, std::floor(std::log10(std::min(low, high)))), high = std::max(std::pow(10, std::ceil(std::log10(high))), 10 * low);
-        const PanelPlot plot("eye", {room.x, std::max(room.y - ImGui::GetTextLineHeightWithSpacing(), 60.0f)}, {std::max(std::min(past_.front().seconds, now - 10), 0.0), std::max(now, 10.0), false, "time, s"}, {low, high, true, "cd/m²"});
+        low = std::pow(10, std::floor(std::log10(std::min(low, high)))),
+        high = std::max(std::pow(10, std::ceil(std::log10(high))), 10 * low);
+        const PanelPlot plot(
+            "eye", {room.x, std::max(room.y - ImGui::GetTextLineHeightWithSpacing(), 60.0f)},
+            {std::max(std::min(past_.front().seconds, now - 10), 0.0), std::max(now, 10.0), false, "time, s"},
+            {low, high, true, "cd/m²"});
         const auto draw = [&](double Past::*what, ImU32 colour) {
             std::vector<glm::dvec2> points;
             for (const Past& p : past_) points.emplace_back(p.seconds, p.*what);
@@ -103,12 +111,16 @@ void Instruments::draw_probe(const FrameState& now) {
             ImGui::Text("pixel %u, %u", now.pixel->x, now.pixel->y);
             ImGui::Text("luminance %.4g cd/m²", here);
             ImGui::Text("red, green, blue %.3g, %.3g, %.3g cd/m²", double(rgb[0]), double(rgb[1]), double(rgb[2]));
-            ImGui::Text("shown as about %.4g cd/m²", shown_luminance(frame.curve, operator_info(settings.tone_operator).form, here, settings.display));
+            ImGui::Text(
+                "shown as about %.4g cd/m²",
+                shown_luminance(frame.curve, operator_info(settings.tone_operator).form, here, settings.display));
             const Scene& scene = now.session.scenery().scene();
             const SceneFrame moment = now.session.moment();
-            if (const auto point = now.view_pixel ? surface_at(scene, moment, now.view, *now.view_pixel) : std::nullopt) {
+            if (const auto point =
+                    now.view_pixel ? surface_at(scene, moment, now.view, *now.view_pixel) : std::nullopt) {
                 const double lamps = lamp_illuminance(scene, moment, *point);
-                const double ambient = moment.ambient ? luminance(moment.ambient->illuminance) : double(scene.ambient_illuminance);
+                const double ambient =
+                    moment.ambient ? luminance(moment.ambient->illuminance) : double(scene.ambient_illuminance);
                 ImGui::Text("illuminance %.4g lx: lamps %.4g, sky %.4g", lamps + ambient, lamps, ambient);
                 ImGui::Text("%.1f m away: %s", point->distance, scene.nodes[point->node].name.c_str());
             } else {
@@ -123,13 +135,15 @@ void Instruments::draw_scale() {
     const ImVec2 corner(window_.x - 8, std::max(window_.y - kStatusHeight, 0.0f));
     ImGui::SetNextWindowPos(corner, arrange_ ? ImGuiCond_Always : ImGuiCond_Appearing, {1, 1});
     ImGui::SetNextWindowSize({std::min(460.0f, window_.x - 16), 0}, ImGuiCond_Always);
-    if (ImGui::Begin("Luminance, cd/m² (F)", nullptr, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
+    if (ImGui::Begin("Luminance, cd/m² (F)", nullptr,
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float width = ImGui::GetContentRegionAvail().x;
         ImDrawList* list = ImGui::GetWindowDrawList();
         for (float x = 0; x < width; ++x) {
             const CanvasColour c = map_colour(double(x / (width - 1)));
-            list->AddRectFilled({at.x + x, at.y}, {at.x + x + 1, at.y + 16}, ImGui::ColorConvertFloat4ToU32({float(c.r), float(c.g), float(c.b), 1}));
+            list->AddRectFilled({at.x + x, at.y}, {at.x + x + 1, at.y + 16},
+                                ImGui::ColorConvertFloat4ToU32({float(c.r), float(c.g), float(c.b), 1}));
         }
         float free = -1;
         for (const double tick : log_ticks(scale_.low, scale_.high)) {
@@ -145,7 +159,9 @@ void Instruments::draw_scale() {
         ImGui::Dummy({width, 36});
         float ends[] = {float(scale_.low), float(scale_.high)};
         ImGui::SetNextItemWidth(width - 90);
-        if (ImGui::DragFloatRange2("##ends", &ends[0], &ends[1], 0.01f * ends[1], 1e-6f, 1e9f, "from %.3g cd/m²", "to %.4g cd/m²", ImGuiSliderFlags_Logarithmic) && ends[1] > 1.01f * ends[0] && ends[0] > 0)
+        if (ImGui::DragFloatRange2("##ends", &ends[0], &ends[1], 0.01f * ends[1], 1e-6f, 1e9f, "from %.3g cd/m²",
+                                   "to %.4g cd/m²", ImGuiSliderFlags_Logarithmic) &&
+            ends[1] > 1.01f * ends[0] && ends[0] > 0)
             scale_ = {double(ends[0]), double(ends[1])};
         ImGui::SameLine();
         if (ImGui::Button("Fit")) fit_scale_ = true;

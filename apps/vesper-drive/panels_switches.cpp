@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arguments.h"
 #include <imgui.h>
+#include "arguments.h"
 
 #include "instruments.h"
 #include "render/passes/operators.h"
-#include "vision/display.h"
 #include "tone_arguments.h"
+#include "vision/display.h"
 
 namespace vesper {
 namespace {
@@ -16,7 +16,8 @@ namespace {
 /// Declares switches of the settings that somebody sees, and notes what is changed. Values are those of DriveSettings.
 class Switches {
 public:
-    Switches(const DriveSettings& settings, std::vector<Change>& changes) : values_(settings.values()), changes_(changes) {}
+    Switches(const DriveSettings& settings, std::vector<Change>& changes)
+        : values_(settings.values()), changes_(changes) {}
 
     std::string text(const char* name, const std::string& fallback) const {
         const auto found = values_.find(name);
@@ -34,15 +35,17 @@ public:
         if (ImGui::Checkbox(label, &now)) change(name, now ? "true" : "false");
     }
     /// The format says the unit.
-    void slider(const char* label, const char* name, float now, float low, float high, const char* pattern, bool logarithmic = false) {
-        if (ImGui::SliderFloat(label, &now, low, high, pattern, ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0))) change(name, format("%.6g", double(now)));
+    void slider(const char* label, const char* name, float now, float low, float high, const char* pattern,
+                bool logarithmic = false) {
+        if (ImGui::SliderFloat(label, &now, low, high, pattern,
+                               ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0)))
+            change(name, format("%.6g", double(now)));
     }
 
 private:
     const DriveSettings::Values& values_;
     std::vector<Change>& changes_;
 };
-
 
 }  // namespace
 
@@ -60,7 +63,8 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         ImGui::TextWrapped("%s", std::string(operator_info(render.tone_operator).summary).c_str());
 
         to.choice("glare", "glare", to.text("glare", "none"), glare_names());
-        if (render.glare == Glare::Scatter) to.slider("iris", "iris", float(render.scatter.eye.pigmentation), 0, 1.5f, "%.2f (0 dark, 1.2 light blue)");
+        if (render.glare == Glare::Scatter)
+            to.slider("iris", "iris", float(render.scatter.eye.pigmentation), 0, 1.5f, "%.2f (0 dark, 1.2 light blue)");
 
         names.clear();
         for (const NamedDisplay& known : known_displays())
@@ -77,9 +81,11 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         to.slider("age", "age", float(tone.observer.age), 18, 90, "%.0f years");
         to.slider("low vision", "low-vision", float(tone.observer.low_vision), 0.5f, 20, "%.1f x thresholds", true);
         to.slider("gaze, right", "gaze", tone.gaze.x, 0, 1, "%.2f of the width");
-        if (!changes.empty() && changes.back().first == "gaze") changes.back().second += format(",%.4g", double(tone.gaze.y));
+        if (!changes.empty() && changes.back().first == "gaze")
+            changes.back().second += format(",%.4g", double(tone.gaze.y));
         float down = tone.gaze.y;
-        if (ImGui::SliderFloat("gaze, down", &down, 0, 1, "%.2f of the height")) to.change("gaze", format("%.4g,%.4g", double(tone.gaze.x), double(down)));
+        if (ImGui::SliderFloat("gaze, down", &down, 0, 1, "%.2f of the height"))
+            to.change("gaze", format("%.4g,%.4g", double(tone.gaze.x), double(down)));
         to.flag("rods see too", "rods", tone.observer.use_rods);
         to.flag("dim light loses its colour", "colour-loss", tone.colour_loss);
         to.flag("and sharpness", "acuity-loss", tone.acuity_loss);
@@ -107,9 +113,12 @@ void Instruments::draw_lamps(const FrameState& now, std::vector<Change>& changes
             ImGui::SetNextItemWidth(190);
             const std::string label = format("%s (%zu)", group.name.c_str(), group.lamps);
             // Ten times as much at most; all the way to the left is off.
-            if (ImGui::SliderFloat(label.c_str(), &candela, 0, float(10 * group.candela), group.candela < 100 ? "%.2f cd" : "%.0f cd", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+            if (ImGui::SliderFloat(label.c_str(), &candela, 0, float(10 * group.candela),
+                                   group.candela < 100 ? "%.2f cd" : "%.0f cd",
+                                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
                 changes.emplace_back("lamp:" + group.name, format("%.6g", double(candela) / group.candela));
-            if (ImGui::IsItemHovered()) ImGui::SetTooltip("largest intensity of each, as the scene has it %.4g cd", group.candela);
+            if (ImGui::IsItemHovered())
+                ImGui::SetTooltip("largest intensity of each, as the scene has it %.4g cd", group.candela);
         }
         if (ImGui::Button("All as the scene has them"))
             for (const auto& factor : factors) changes.emplace_back("lamp:" + factor.first, "");

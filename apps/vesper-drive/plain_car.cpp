@@ -11,7 +11,7 @@ namespace vesper {
 namespace {
 
 constexpr float kRadiansPerDegreeF = std::numbers::pi_v<float> / 180;
-constexpr float kHalogen = 3800;                                            // K
+constexpr float kHalogen = 3800;  // K
 const glm::vec3 kRed(1, 0.02f, 0.01f), kAmber(1, 0.38f, 0);
 
 // An axis-aligned box, each face with its own normal.
@@ -28,22 +28,29 @@ void add_box(Primitive& p, glm::vec3 low, glm::vec3 high) {
                 p.bounds.add(at);
             }
             // u x v points along the axis whatever their signs: both were turned.
-            for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) p.indices.push_back(first + (side ? i : (i == 0 ? 0 : 4 - i)));
+            for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u})
+                p.indices.push_back(first + (side ? i : (i == 0 ? 0 : 4 - i)));
         }
 }
 
 glm::vec3 of_luminance_one(glm::vec3 c) { return c / (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b); }
 
 uint32_t light_of(Scene& scene, const Lamp& lamp) {
-    const auto known = std::find_if(scene.lamps.begin(), scene.lamps.end(), [&](const Lamp& l) { return l.name == lamp.name && l.opening.area() > 0; });
+    const auto known = std::find_if(scene.lamps.begin(), scene.lamps.end(),
+                                    [&](const Lamp& l) { return l.name == lamp.name && l.opening.area() > 0; });
     if (known != scene.lamps.end()) return uint32_t(known - scene.lamps.begin());
     scene.lamps.push_back(lamp);
     return uint32_t(scene.lamps.size() - 1);
 }
 
 uint32_t beam(Scene& scene, const std::string& name, const std::string& file) {
-    Lamp lamp{.name = name, .kind = Lamp::Kind::Measured, .intensity = 1, .colour = colour_of_temperature(kHalogen), .opening = {.length = 0.265, .width = 0.14}};
-    const auto known = std::find_if(scene.distributions.begin(), scene.distributions.end(), [&](const Distribution& d) { return d.name == name; });
+    Lamp lamp{.name = name,
+              .kind = Lamp::Kind::Measured,
+              .intensity = 1,
+              .colour = colour_of_temperature(kHalogen),
+              .opening = {.length = 0.265, .width = 0.14}};
+    const auto known = std::find_if(scene.distributions.begin(), scene.distributions.end(),
+                                    [&](const Distribution& d) { return d.name == name; });
     lamp.distribution = uint32_t(known - scene.distributions.begin());
     if (known == scene.distributions.end()) {
         scene.distributions.push_back(standard_lamp(file));
@@ -52,15 +59,26 @@ uint32_t beam(Scene& scene, const std::string& name, const std::string& file) {
     return light_of(scene, lamp);
 }
 
-uint32_t signal(Scene& scene, const std::string& name, float candela, float outer, glm::vec3 colour, double width, double height) {
-    return light_of(scene, {.name = name, .kind = Lamp::Kind::Spot, .intensity = candela, .colour = of_luminance_one(colour), .inner_cone = 10 * kRadiansPerDegreeF, .outer_cone = outer * kRadiansPerDegreeF,
+uint32_t signal(Scene& scene, const std::string& name, float candela, float outer, glm::vec3 colour, double width,
+                double height) {
+    return light_of(scene, {.name = name,
+                            .kind = Lamp::Kind::Spot,
+                            .intensity = candela,
+                            .colour = of_luminance_one(colour),
+                            .inner_cone = 10 * kRadiansPerDegreeF,
+                            .outer_cone = outer * kRadiansPerDegreeF,
                             .opening = {.length = width, .width = height}});
 }
 
 }  // namespace
 
 traffic::LampRoles plain_lamps() {
-    return {{"low beam"}, {"high beam"}, {"tail lamp"}, {"brake lamp"}, {"left front indicator", "left rear indicator"}, {"right front indicator", "right rear indicator"}};
+    return {{"low beam"},
+            {"high beam"},
+            {"tail lamp"},
+            {"brake lamp"},
+            {"left front indicator", "left rear indicator"},
+            {"right front indicator", "right rear indicator"}};
 }
 
 void add_plain_body(Scene& scene, uint32_t root, const PlainBody& body) {
@@ -69,12 +87,15 @@ void add_plain_body(Scene& scene, uint32_t root, const PlainBody& body) {
     const glm::vec3 middle(-body.centre.y, body.centre.z, -body.centre.x);
     Primitive p;
     p.material = uint32_t(scene.materials.size());
-    scene.materials.push_back({.name = name, .base_colour = glm::vec4(body.reflectance, 1), .roughness = body.lamps ? 0.4f : 1.0f});
+    scene.materials.push_back(
+        {.name = name, .base_colour = glm::vec4(body.reflectance, 1), .roughness = body.lamps ? 0.4f : 1.0f});
     if (body.lamps) {
         // A body up to the belt, a cabin above it.
         const float belt = middle.y + 0.15f * half.y;
-        add_box(p, {middle.x - half.x, middle.y - 0.8f * half.y, middle.z - half.z}, {middle.x + half.x, belt, middle.z + half.z});
-        add_box(p, {middle.x - 0.85f * half.x, belt, middle.z - 0.4f * half.z}, {middle.x + 0.85f * half.x, middle.y + half.y, middle.z + 0.75f * half.z});
+        add_box(p, {middle.x - half.x, middle.y - 0.8f * half.y, middle.z - half.z},
+                {middle.x + half.x, belt, middle.z + half.z});
+        add_box(p, {middle.x - 0.85f * half.x, belt, middle.z - 0.4f * half.z},
+                {middle.x + 0.85f * half.x, middle.y + half.y, middle.z + 0.75f * half.z});
     } else {
         add_box(p, middle - half, middle + half);
     }
@@ -85,7 +106,8 @@ void add_plain_body(Scene& scene, uint32_t root, const PlainBody& body) {
     const auto hang = [&](uint32_t lamp, float side, float height, bool front) {
         // Measured lamps are known by their node's name.
         Node node{.name = scene.lamps[lamp].name, .parent = root, .lamp = lamp};
-        node.translation = {middle.x + side * 0.75f * half.x, height, middle.z + (front ? -half.z - 0.02f : half.z + 0.02f)};
+        node.translation = {middle.x + side * 0.75f * half.x, height,
+                            middle.z + (front ? -half.z - 0.02f : half.z + 0.02f)};
         if (!front) node.rotation = back;
         scene.nodes.push_back(node);
     };
@@ -96,8 +118,10 @@ void add_plain_body(Scene& scene, uint32_t root, const PlainBody& body) {
         hang(beam(scene, "high beam", "high-beam"), side, lamp_height, true);
         hang(signal(scene, "tail lamp", 5, 55, kRed, 0.2, 0.26), side, tail_height, false);
         hang(signal(scene, "brake lamp", 80, 55, kRed, 0.2, 0.26), side, tail_height, false);
-        hang(signal(scene, hand + " front indicator", 200, 60, kAmber, 0.14, 0.08), side * 1.15f, lamp_height - 0.12f, true);
-        hang(signal(scene, hand + " rear indicator", 100, 60, kAmber, 0.14, 0.08), side * 1.1f, tail_height - 0.16f, false);
+        hang(signal(scene, hand + " front indicator", 200, 60, kAmber, 0.14, 0.08), side * 1.15f, lamp_height - 0.12f,
+             true);
+        hang(signal(scene, hand + " rear indicator", 100, 60, kAmber, 0.14, 0.08), side * 1.1f, tail_height - 0.16f,
+             false);
     }
 }
 

@@ -13,14 +13,14 @@ struct PlainBody {
     glm::dvec3 size{4.4, 1.8, 1.5};  ///< length, width, height, m
     glm::dvec3 centre{0, 0, 0.75};
     glm::vec3 reflectance{0.3f};
-    bool lamps = true;               ///< a car's; without: a person or a thing
+    bool lamps = true;  ///< a car's; without: a person or a thing
 };
 
 /// Names of the lamps that plain bodies have.
 traffic::LampRoles plain_lamps();
 
-/// Gives a node the body and, at its corners, low and high beams (standard_lamp), tail and brake lamps and indicators. The candela
-/// are those of UN Regulations 6 and 7, as data/rivoli has them.
+/// Gives a node the body and, at its corners, low and high beams (standard_lamp), tail and brake lamps and indicators.
+/// The candela are those of UN Regulations 6 and 7, as data/rivoli has them.
 void add_plain_body(Scene&, uint32_t node, const PlainBody&);
 
 }  // namespace vesper

@@ -16,8 +16,11 @@ std::optional<DriveEvent::Kind> Playback::next(Session& session) {
         case DriveEvent::Kind::Set:
             if (!kept_.contains(event.name)) session.set(event.name, event.value);
             break;
-        case DriveEvent::Kind::Restart: session.restart(); break;
-        case DriveEvent::Kind::Frame: break;
+        case DriveEvent::Kind::Restart:
+            session.restart();
+            break;
+        case DriveEvent::Kind::Frame:
+            break;
     }
     ++next_;
     return kind;

@@ -5,11 +5,12 @@
 
 namespace vesper {
 
-/// What windows and the headless program drive by when nobody holds the wheel: a recording, or steps made for the purpose. What was
-/// given beside a recording (`kept`) wins over what it sets.
+/// What windows and the headless program drive by when nobody holds the wheel: a recording, or steps made for the
+/// purpose. What was given beside a recording (`kept`) wins over what it sets.
 class Playback {
 public:
-    explicit Playback(DriveEvents events, DriveSettings::Values kept = {}) : events_(std::move(events)), kept_(std::move(kept)), frames_(events_.frames()), next_(events_) {}
+    explicit Playback(DriveEvents events, DriveSettings::Values kept = {})
+        : events_(std::move(events)), kept_(std::move(kept)), frames_(events_.frames()), next_(events_) {}
     Playback(const Playback&) = delete;
     Playback& operator=(const Playback&) = delete;
 

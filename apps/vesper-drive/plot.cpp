@@ -16,7 +16,9 @@ double part(const PanelPlot::Axis& axis, double value) {
     return (value - axis.low) / (axis.high - axis.low);
 }
 
-std::vector<double> ticks(const PanelPlot::Axis& axis, int count) { return axis.logarithmic ? log_ticks(axis.low, axis.high) : linear_ticks(axis.low, axis.high, count); }
+std::vector<double> ticks(const PanelPlot::Axis& axis, int count) {
+    return axis.logarithmic ? log_ticks(axis.low, axis.high) : linear_ticks(axis.low, axis.high, count);
+}
 
 ImVec2 im(glm::vec2 v) { return {v.x, v.y}; }
 
@@ -32,7 +34,8 @@ PanelPlot::PanelPlot(const char* id, glm::vec2 size, Axis x, Axis y) : x_(x), y_
 }
 
 glm::vec2 PanelPlot::at(double x, double y) const {
-    return corner_ + size_ * glm::vec2(float(std::clamp(part(x_, x), 0.0, 1.0)), 1 - float(std::clamp(part(y_, y), 0.0, 1.0)));
+    return corner_ +
+           size_ * glm::vec2(float(std::clamp(part(x_, x), 0.0, 1.0)), 1 - float(std::clamp(part(y_, y), 0.0, 1.0)));
 }
 
 void PanelPlot::tick_labels() const {
@@ -65,11 +68,14 @@ void PanelPlot::tick_labels() const {
 void PanelPlot::line(std::span<const glm::dvec2> points, ImU32 colour, float thickness) const {
     for (size_t i = 1; i < points.size(); ++i) {
         const glm::dvec2 a = points[i - 1], b = points[i];
-        if (std::isfinite(a.y) && std::isfinite(b.y)) list_->AddLine(im(at(a.x, a.y)), im(at(b.x, b.y)), colour, thickness);
+        if (std::isfinite(a.y) && std::isfinite(b.y))
+            list_->AddLine(im(at(a.x, a.y)), im(at(b.x, b.y)), colour, thickness);
     }
 }
 
-void PanelPlot::bar(double x0, double x1, double y, ImU32 colour) const { list_->AddRectFilled(im(at(x0, y)), im(at(x1, y_.low)), colour); }
+void PanelPlot::bar(double x0, double x1, double y, ImU32 colour) const {
+    list_->AddRectFilled(im(at(x0, y)), im(at(x1, y_.low)), colour);
+}
 
 void PanelPlot::upright(double x, ImU32 colour, const char* label, int row) const {
     if (!(part(x_, x) >= 0 && part(x_, x) <= 1)) return;
@@ -80,7 +86,9 @@ void PanelPlot::upright(double x, ImU32 colour, const char* label, int row) cons
     list_->AddText({left, corner_.y + 14 + 13 * float(row)}, colour, label);
 }
 
-void PanelPlot::band(double x0, double x1, ImU32 colour) const { list_->AddRectFilled(im(at(x0, y_.high)), im(at(x1, y_.low)), colour); }
+void PanelPlot::band(double x0, double x1, ImU32 colour) const {
+    list_->AddRectFilled(im(at(x0, y_.high)), im(at(x1, y_.low)), colour);
+}
 
 void PanelPlot::level(double y, ImU32 colour) const { list_->AddLine(im(at(x_.low, y)), im(at(x_.high, y)), colour); }
 

@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kEyeHeight = 1.2;   // m, of a driver
-constexpr double kPhotocell = 50;    // lx under the sky: street lamps go off above (35 to 70 lx are usual)
+constexpr double kEyeHeight = 1.2;  // m, of a driver
+constexpr double kPhotocell = 50;   // lx under the sky: street lamps go off above (35 to 70 lx are usual)
 
 // A folder that is gone with its maker.
 struct Scratch {
@@ -48,7 +48,8 @@ LoadedScene load(const fs::path& scene, const fs::path& photometry) {
 // Without what a node's scale does.
 glm::dmat4 rigid(const glm::dmat4& m) {
     glm::dmat4 r(1);
-    const glm::dvec3 back = glm::normalize(glm::dvec3(m[2])), right = glm::normalize(glm::cross(glm::dvec3(m[1]), back));
+    const glm::dvec3 back = glm::normalize(glm::dvec3(m[2])),
+                     right = glm::normalize(glm::cross(glm::dvec3(m[1]), back));
     r[0] = glm::dvec4(right, 0), r[1] = glm::dvec4(glm::cross(back, right), 0), r[2] = glm::dvec4(back, 0), r[3] = m[3];
     return r;
 }
@@ -86,13 +87,16 @@ const std::string& lamp_name(const Scene& scene, uint32_t node) {
     return lamp.kind == Lamp::Kind::Measured || lamp.name.empty() ? scene.nodes[node].name : lamp.name;
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 }  // namespace
 
 Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scenario) {
     const std::string extension = file.extension().string();
-    if (!run.empty() && extension != ".xodr") throw Error(one_line(run.string()) + ": a run needs the roads (.xodr) that it was recorded on");
+    if (!run.empty() && extension != ".xodr")
+        throw Error(one_line(run.string()) + ": a run needs the roads (.xodr) that it was recorded on");
     if (extension == ".xodr") {
         RoadWorld roads = road_world(file, run, scenario);
         scene_ = std::move(roads.scene), notes_ = std::move(roads.notes), lenses_ = std::move(roads.lenses);
@@ -124,7 +128,8 @@ void Scenery::adopt(traffic::WorldFile& file, uint32_t eye) {
     rest_ = world_transforms(scene_, 0);
     night_ = {scene_.ambient_illuminance * scene_.ambient_colour, scene_.sky_luminance * scene_.sky_colour};
     camera_ = file.camera;
-    if (!camera_.empty() && !contains(camera_names(scene_), camera_)) throw Error(one_line(scene_.name) + ": there is no camera " + one_line(camera_) + " for the driver");
+    if (!camera_.empty() && !contains(camera_names(scene_), camera_))
+        throw Error(one_line(scene_.name) + ": there is no camera " + one_line(camera_) + " for the driver");
     tunnels_ = file.tunnels;
     world_ = std::make_shared<const traffic::WorldDescription>(std::move(file.world));
 
@@ -132,7 +137,8 @@ void Scenery::adopt(traffic::WorldFile& file, uint32_t eye) {
     std::map<std::string, uint32_t> actors;
     const std::vector<traffic::Actor> start = traffic::World(world_, 0).actors();
     for (uint32_t i = 0; i < start.size(); ++i)
-        if (!start[i].node.empty() && !actors.try_emplace(start[i].node, i).second) throw Error("node " + one_line(start[i].node) + " is to move in two ways");
+        if (!start[i].node.empty() && !actors.try_emplace(start[i].node, i).second)
+            throw Error("node " + one_line(start[i].node) + " is to move in two ways");
     std::vector<uint32_t> root(scene_.nodes.size(), kNone);
     std::set<uint32_t> found;
     for (uint32_t i = 0; i < scene_.nodes.size(); ++i) {
@@ -151,11 +157,13 @@ void Scenery::adopt(traffic::WorldFile& file, uint32_t eye) {
         const uint32_t who = actors.at(name);
         found.insert(who);
         const auto turn = file.turns.find(name);
-        const glm::dmat4 turned = glm::rotate(glm::dmat4(1), turn == file.turns.end() ? 0 : turn->second, glm::dvec3(0, 1, 0));
+        const glm::dmat4 turned =
+            glm::rotate(glm::dmat4(1), turn == file.turns.end() ? 0 : turn->second, glm::dvec3(0, 1, 0));
         riders_.push_back({i, who, turned * glm::inverse(rigid(rest_[root[i]])) * rest_[i]});
     }
     for (const auto& [name, index] : actors)
-        if (!found.contains(index)) throw Error(one_line(scene_.name) + ": there is no node " + one_line(name) + " to move");
+        if (!found.contains(index))
+            throw Error(one_line(scene_.name) + ": there is no node " + one_line(name) + " to move");
     find_lamps(file.roles, file.by_day);
 }
 
@@ -180,7 +188,8 @@ std::vector<LampGroup> Scenery::lamp_groups() const {
     for (const SwitchedLamp& switched : lamps_) {
         const Lamp& lamp = scene_.lamps[scene_.nodes[switched.node].lamp];
         if (lamp.kind == Lamp::Kind::Directional) continue;  // has no intensity
-        const double largest = lamp.kind == Lamp::Kind::Measured ? largest_intensity(scene_.distributions[lamp.distribution]) : 1;
+        const double largest =
+            lamp.kind == Lamp::Kind::Measured ? largest_intensity(scene_.distributions[lamp.distribution]) : 1;
         LampGroup& group = groups[switched.name];
         group.name = switched.name;
         ++group.lamps, group.candela = std::max(group.candela, double(lamp.intensity) * largest);
@@ -204,23 +213,31 @@ void Scenery::require_lamp(const std::string& name, const std::string& place) co
     if (std::any_of(lamps_.begin(), lamps_.end(), [&](const SwitchedLamp& lamp) { return lamp.name == name; })) return;
     std::string names;
     for (const LampGroup& group : lamp_groups()) names += (names.empty() ? "" : ", ") + group.name;
-    throw Error(place + ": the scene has no lamp of that name; it has " + (names.empty() ? "none" : one_line(names, 1000)));
+    throw Error(place + ": the scene has no lamp of that name; it has " +
+                (names.empty() ? "none" : one_line(names, 1000)));
 }
 
 bool Scenery::shines(const SwitchedLamp& lamp, const std::vector<traffic::Actor>& actors, bool bright) const {
     if (lamp.role == kFixed) return lamp.by_day || !bright;
     const traffic::VehicleLamps& lit = actors[lamp.actor].lamps;
     switch (lamp.role) {
-        case kLow: return lit.low;
-        case kHigh: return lit.high;
-        case kTail: return lit.tail;
-        case kBrake: return lit.brake;
-        case kLeft: return lit.left;
-        default: return lit.right;
+        case kLow:
+            return lit.low;
+        case kHigh:
+            return lit.high;
+        case kTail:
+            return lit.tail;
+        case kBrake:
+            return lit.brake;
+        case kLeft:
+            return lit.left;
+        default:
+            return lit.right;
     }
 }
 
-SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seconds, const DriveSettings& settings) const {
+SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seconds,
+                          const DriveSettings& settings) const {
     SceneFrame made{.world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
     std::vector<glm::dmat4> poses;
     for (const traffic::Actor& actor : actors) poses.push_back(pose_of(actor));
@@ -229,7 +246,8 @@ SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seco
     double outside = 0;
     if (settings.sun()) {
         outside = traffic::kOvercast * traffic::daylight_illuminance(*settings.sun());
-        const glm::vec3 light = float(outside) * glm::vec3(colour_of_temperature(traffic::daylight_temperature(*settings.sun())));
+        const glm::vec3 light =
+            float(outside) * glm::vec3(colour_of_temperature(traffic::daylight_temperature(*settings.sun())));
         made.ambient->illuminance += light;
         made.ambient->sky += light / std::numbers::pi_v<float>;
         made.tunnels = tunnels_;
@@ -237,27 +255,35 @@ SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seco
     for (const SwitchedLamp& lamp : lamps_) {
         const auto factor = settings.lamps().find(lamp.name);
         const double wanted = factor == settings.lamps().end() ? 1 : factor->second;
-        const bool on = shines(lamp, actors, outside > kPhotocell) && (lamp.lens == kNone || lenses_[lamp.lens].shines(seconds));
+        const bool on =
+            shines(lamp, actors, outside > kPhotocell) && (lamp.lens == kNone || lenses_[lamp.lens].shines(seconds));
         made.dimming[lamp.node] = on ? float(wanted) : 0;
     }
     return made;
 }
 
-View Scenery::view(const SceneFrame& frame, const std::vector<traffic::Actor>& actors, const DriveSettings& settings, VkExtent2D extent) const {
+View Scenery::view(const SceneFrame& frame, const std::vector<traffic::Actor>& actors, const DriveSettings& settings,
+                   VkExtent2D extent) const {
     constexpr double kFov = 40 * std::numbers::pi / 180;
     const double asked = settings.vertical_fov() * std::numbers::pi / 180, fov = asked > 0 ? asked : kFov;
     const traffic::Actor& me = actors.front();
     const glm::dvec3 ahead(-std::sin(me.yaw), 0, -std::cos(me.yaw)), up(0, 1, 0);
-    const auto look = [&](glm::dvec3 eye, glm::dvec3 at) { return View::symmetric(extent, float(fov), glm::mat4(glm::lookAt(eye, at, up))); };
+    const auto look = [&](glm::dvec3 eye, glm::dvec3 at) {
+        return View::symmetric(extent, float(fov), glm::mat4(glm::lookAt(eye, at, up)));
+    };
     switch (settings.camera()) {
-        case CameraKind::Chase: return look(me.position - 8.0 * ahead + 2.8 * up, me.position + 6.0 * ahead + 1.0 * up);
-        case CameraKind::Bird: return look(me.position - 18.0 * ahead + 40.0 * up, me.position + 12.0 * ahead);
+        case CameraKind::Chase:
+            return look(me.position - 8.0 * ahead + 2.8 * up, me.position + 6.0 * ahead + 1.0 * up);
+        case CameraKind::Bird:
+            return look(me.position - 18.0 * ahead + 40.0 * up, me.position + 12.0 * ahead);
         case CameraKind::Free: {
             const FreeCamera& c = settings.free_camera();
-            const glm::dmat4 m = glm::rotate(glm::rotate(glm::translate(glm::dmat4(1), c.position), c.yaw, up), c.pitch, glm::dvec3(1, 0, 0));
+            const glm::dmat4 m = glm::rotate(glm::rotate(glm::translate(glm::dmat4(1), c.position), c.yaw, up), c.pitch,
+                                             glm::dvec3(1, 0, 0));
             return View::symmetric(extent, float(fov), glm::mat4(glm::inverse(m)));
         }
-        case CameraKind::Driver: break;
+        case CameraKind::Driver:
+            break;
     }
     if (camera_.empty()) {
         const glm::dmat4 eye = glm::translate(pose_of(me), glm::dvec3(0, kEyeHeight, 0));

@@ -1,4 +1,5 @@
-// A world on the scene's nodes: what moves is posed, and its lamps are lit, frame by frame. SPDX-License-Identifier: MIT
+// A world on the scene's nodes: what moves is posed, and its lamps are lit, frame by frame. SPDX-License-Identifier:
+// MIT
 #pragma once
 
 #include <memory>
@@ -22,10 +23,11 @@ struct LampGroup {
 /// A scene that is driven in. The animations of the file do not play: what moves is the world's.
 class Scenery {
 public:
-    /// Reads a world (.json), roads (.xodr), or a scene alone (.gltf, .glb), in which one drives straight on over a plane from the
-    /// first camera; what is below that camera goes along. `run`: a run that esmini recorded on these roads, and its scenario (.xosc)
-    /// where there is one; instead of traffic. Throws Error.
-    explicit Scenery(const std::filesystem::path& file, const std::filesystem::path& run = {}, const std::filesystem::path& scenario = {});
+    /// Reads a world (.json), roads (.xodr), or a scene alone (.gltf, .glb), in which one drives straight on over a
+    /// plane from the first camera; what is below that camera goes along. `run`: a run that esmini recorded on these
+    /// roads, and its scenario (.xosc) where there is one; instead of traffic. Throws Error.
+    explicit Scenery(const std::filesystem::path& file, const std::filesystem::path& run = {},
+                     const std::filesystem::path& scenario = {});
 
     const Scene& scene() const { return scene_; }
     const std::shared_ptr<const traffic::WorldDescription>& world() const { return world_; }
@@ -48,10 +50,11 @@ private:
         uint32_t actor;  // index, kNone: fixed
         Role role;
         bool by_day;
-        uint32_t lens;   // index, kNone: nobody switches it
+        uint32_t lens;  // index, kNone: nobody switches it
         std::string name;
     };
-    /// Takes its world; names stay. `eye`: a node that goes with the driver's car from where it stands, with all that is below it.
+    /// Takes its world; names stay. `eye`: a node that goes with the driver's car from where it stands, with all that
+    /// is below it.
     void adopt(traffic::WorldFile&, uint32_t eye = kNone);
     /// Throws Error, which begins with `place`, where no lamp of the scene has that name.
     void require_lamp(const std::string& name, const std::string& place) const;
@@ -62,15 +65,15 @@ private:
     Scene scene_;
     std::shared_ptr<const traffic::WorldDescription> world_;
     std::vector<std::string> notes_;
-    std::vector<glm::dmat4> rest_;     // of each node, in the world
+    std::vector<glm::dmat4> rest_;  // of each node, in the world
     struct Rider {
         uint32_t node, actor;
         glm::dmat4 offset;  // from the actor's pose
     };
-    std::vector<Rider> riders_;       // nodes that move
+    std::vector<Rider> riders_;  // nodes that move
     std::vector<SwitchedLamp> lamps_;
     std::vector<SignalLens> lenses_;
-    std::string camera_;              // of the driver's eye; empty: none
+    std::string camera_;  // of the driver's eye; empty: none
     AmbientLight night_;
     std::vector<Tunnel> tunnels_;
 };

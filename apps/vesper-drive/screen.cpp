@@ -23,16 +23,21 @@ WindowCodes codes_of(const Display& display) {
 
 Overlay overlay_of(const ImDrawData& data) {
     Overlay overlay;
-    const glm::vec2 origin(data.DisplayPos.x, data.DisplayPos.y), scale(data.FramebufferScale.x, data.FramebufferScale.y);
+    const glm::vec2 origin(data.DisplayPos.x, data.DisplayPos.y),
+        scale(data.FramebufferScale.x, data.FramebufferScale.y);
     for (int i = 0; i < data.CmdListsCount; ++i) {
         const ImDrawList& list = *data.CmdLists[i];
         const auto first_vertex = uint32_t(overlay.vertices.size()), first_index = uint32_t(overlay.indices.size());
-        for (const ImDrawVert& v : list.VtxBuffer) overlay.vertices.push_back({(glm::vec2(v.pos.x, v.pos.y) - origin) * scale, {v.uv.x, v.uv.y}, v.col});
+        for (const ImDrawVert& v : list.VtxBuffer)
+            overlay.vertices.push_back({(glm::vec2(v.pos.x, v.pos.y) - origin) * scale, {v.uv.x, v.uv.y}, v.col});
         for (const ImDrawCmd& command : list.CmdBuffer) {
             const auto px = [&](float x, float y) { return glm::ivec2((glm::vec2(x, y) - origin) * scale); };
-            const glm::ivec2 low = glm::max(px(command.ClipRect.x, command.ClipRect.y), 0), high = px(command.ClipRect.z, command.ClipRect.w);
+            const glm::ivec2 low = glm::max(px(command.ClipRect.x, command.ClipRect.y), 0),
+                             high = px(command.ClipRect.z, command.ClipRect.w);
             if (high.x > low.x && high.y > low.y)
-                overlay.batches.push_back({first_index + command.IdxOffset, command.ElemCount, {{low.x, low.y}, {uint32_t(high.x - low.x), uint32_t(high.y - low.y)}}});
+                overlay.batches.push_back({first_index + command.IdxOffset,
+                                           command.ElemCount,
+                                           {{low.x, low.y}, {uint32_t(high.x - low.x), uint32_t(high.y - low.y)}}});
             for (uint32_t k = 0; k < command.ElemCount; ++k) {
                 const uint32_t at = first_index + command.IdxOffset + k;
                 if (overlay.indices.size() <= at) overlay.indices.resize(at + 1);
@@ -105,7 +110,11 @@ void Screen::begin_instruments(bool keyboard) {
 bool Screen::show(const Picture& picture, const Display& display, const ScreenSettings& settings) {
     ImGui::Render();
     const Overlay overlay = overlay_of(*ImGui::GetDrawData());
-    const SwapchainSettings how{.extent = window_.extent(), .vsync = settings.vsync, .codes = codes_of(display), .peak = display.peak, .black = display.black};
+    const SwapchainSettings how{.extent = window_.extent(),
+                                .vsync = settings.vsync,
+                                .codes = codes_of(display),
+                                .peak = display.peak,
+                                .black = display.black};
     return swapchain_.show(how, [&](VkCommandBuffer commands, const WindowImage& image) {
         presenter_.draw(commands, image, picture, settings.scaling, overlay);
     });
@@ -117,7 +126,8 @@ std::optional<glm::uvec2> Screen::pixel_under_mouse(VkExtent2D picture, Scaling 
     const VkExtent2D window = window_.extent();
     if (ImGui::GetIO().WantCaptureMouse || window.width == 0 || window.height == 0) return std::nullopt;
     const VkRect2D area = place(picture, window, scaling).area;
-    const glm::dvec2 at = (window_.mouse() - glm::dvec2(area.offset.x, area.offset.y)) * glm::dvec2(picture.width, picture.height) / glm::dvec2(area.extent.width, area.extent.height);
+    const glm::dvec2 at = (window_.mouse() - glm::dvec2(area.offset.x, area.offset.y)) *
+                          glm::dvec2(picture.width, picture.height) / glm::dvec2(area.extent.width, area.extent.height);
     if (at.x < 0 || at.y < 0 || at.x >= picture.width || at.y >= picture.height) return std::nullopt;
     return glm::uvec2(at);
 }

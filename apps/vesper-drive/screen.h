@@ -27,14 +27,15 @@ public:
     /// Whether the window can show the codes of such a display.
     bool shows(const Display&) const;
 
-    /// Between these two, instruments are declared (ImGui::Begin and the like). Keys are theirs while `keyboard` says so, but for those of letters typed.
+    /// Between these two, instruments are declared (ImGui::Begin and the like). Keys are theirs while `keyboard` says
+    /// so, but for those of letters typed.
     void begin_instruments(bool keyboard);
     /// Shows a picture of a display and the instruments. False: nothing was shown, for now.
     bool show(const Picture&, const Display&, const ScreenSettings&);
 
     /// The px of a picture of this size that is under the mouse; nothing beside it, or over an instrument.
     std::optional<glm::uvec2> pixel_under_mouse(VkExtent2D picture, Scaling) const;
-    bool is_typing() const;     ///< letters go into a field of an instrument
+    bool is_typing() const;  ///< letters go into a field of an instrument
     std::string describe() const { return swapchain_.describe(); }
 
 private:

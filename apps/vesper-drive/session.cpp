@@ -2,7 +2,8 @@
 
 namespace vesper {
 
-Session::Session(Device& device, DriveStart options) : Session(device, options, Scenery(options.scene, options.run, options.scenario)) {}
+Session::Session(Device& device, DriveStart options)
+    : Session(device, options, Scenery(options.scene, options.run, options.scenario)) {}
 
 Session::Session(Device& device, DriveStart options, Scenery scenery)
     : options_(std::move(options)),
@@ -29,7 +30,11 @@ void Session::step(const traffic::DriverInput& input) {
     actors_ = world_->actors();
     for (size_t i = met; on_contact && i < world_->contacts().size(); ++i) on_contact(world_->contacts()[i]);
     const traffic::VehicleState& me = world_->driver();
-    recorder_->add({.kind = DriveEvent::Kind::Step, .input = input, .pose = glm::dvec4(me.position, me.yaw, me.speed), .name = {}, .value = {}});
+    recorder_->add({.kind = DriveEvent::Kind::Step,
+                    .input = input,
+                    .pose = glm::dvec4(me.position, me.yaw, me.speed),
+                    .name = {},
+                    .value = {}});
 }
 
 void Session::restart() {
@@ -82,7 +87,8 @@ Frame Session::render(const View& view, Outputs outputs) {
 ChannelMosaic Session::render(const Channels& channels, Outputs outputs) {
     if (!wall_) wall_ = std::make_unique<ChannelRenderer>(*device_);
     begin_frame();
-    ChannelMosaic wall = wall_->render(*renderer_, channels, settings_.render(), view({1, 1}), moment(), float(eye_step_), outputs);
+    ChannelMosaic wall =
+        wall_->render(*renderer_, channels, settings_.render(), view({1, 1}), moment(), float(eye_step_), outputs);
     end_frame(wall.shown.eye);
     return wall;
 }

@@ -1,18 +1,19 @@
-// A drive: a world, the eye that looks at it and the device that renders it, behind one door. Windows and the headless program both
-// use it, so they show the same bytes. SPDX-License-Identifier: MIT
+// A drive: a world, the eye that looks at it and the device that renders it, behind one door. Windows and the headless
+// program both use it, so they show the same bytes. SPDX-License-Identifier: MIT
 //
 //   Device device({.select = ""});
 //   Session session(device, {.scene = "data/rivoli/rivoli.world.json"});
-//   session.record("drive.json");                       // whenever; the drive is on disk up to the last step from then on
-//   for (;;) {
+//   session.record("drive.json");                       // whenever; the drive is on disk up to the last step from then
+//   on for (;;) {
 //       session.set("operator", "ward");                // any setting of DriveSettings, whenever it changes
 //       session.step(input);                            // 1/60 s of simulated time; not called: a pause
-//       const Frame frame = session.render({1680, 1050}, {.display = true});   // codes of the display, cd/m^2 if asked for
+//       const Frame frame = session.render({1680, 1050}, {.display = true});   // codes of the display, cd/m^2 if asked
+//       for
 //   }
 //
-// Time stands still between steps. The eye adapts by the steps since the last rendered frame, so frames may be rendered at any
-// rate; which steps were rendered is recorded, and a replay that renders the same ones gives the same bytes on the same device.
-// Not thread-safe. Throws Error.
+// Time stands still between steps. The eye adapts by the steps since the last rendered frame, so frames may be rendered
+// at any rate; which steps were rendered is recorded, and a replay that renders the same ones gives the same bytes on
+// the same device. Not thread-safe. Throws Error.
 #pragma once
 
 #include <filesystem>
@@ -25,9 +26,9 @@
 #include "channels.h"
 #include "drive_file.h"
 #include "gpu/device.h"
+#include "scenery.h"
 #include "settings.h"
 #include "traffic/world.h"
-#include "scenery.h"
 
 namespace vesper {
 
@@ -70,7 +71,8 @@ public:
     Frame render(VkExtent2D, Outputs);
     /// The same of another view.
     Frame render(const View&, Outputs);
-    /// All channels of this moment, seen by one eye. Not to be mixed with frames of one view: each way has an eye of its own.
+    /// All channels of this moment, seen by one eye. Not to be mixed with frames of one view: each way has an eye of
+    /// its own.
     ChannelMosaic render(const Channels&, Outputs);
     /// Seconds that passed for the eye before the last frame.
     double eye_step() const { return eye_step_; }
@@ -79,8 +81,8 @@ public:
     void use(Device&);
 
     // Recording (docs/drives.md).
-    /// Records the drive from its start, whenever that was, and goes on with it: FILE.part has every event as soon as it happened.
-    /// `size`: of the pictures, px, which a replay then has, too.
+    /// Records the drive from its start, whenever that was, and goes on with it: FILE.part has every event as soon as
+    /// it happened. `size`: of the pictures, px, which a replay then has, too.
     void record(const std::filesystem::path& file, std::optional<glm::uvec2> size = {});
     /// Completes the recording, which takes its name. Without, what there is of it stays in FILE.part.
     void stop_recording();
@@ -100,7 +102,7 @@ private:
     Device* device_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<ChannelRenderer> wall_;  // made when first asked for
-    std::optional<uint64_t> rendered_;  // steps at the last frame
+    std::optional<uint64_t> rendered_;       // steps at the last frame
     shared::EyeState eye_{};
     double eye_step_ = 0;
     std::unique_ptr<DriveRecorder> recorder_;

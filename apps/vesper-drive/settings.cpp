@@ -15,7 +15,10 @@ namespace vesper {
 namespace {
 
 constexpr const char* kLamp = "lamp:";
-const std::map<std::string, CameraKind> kCameras{{"driver", CameraKind::Driver}, {"chase", CameraKind::Chase}, {"bird", CameraKind::Bird}, {"free", CameraKind::Free}};
+const std::map<std::string, CameraKind> kCameras{{"driver", CameraKind::Driver},
+                                                 {"chase", CameraKind::Chase},
+                                                 {"bird", CameraKind::Bird},
+                                                 {"free", CameraKind::Free}};
 
 struct SettingsArguments {
     ToneArguments tone;
@@ -31,13 +34,20 @@ void add(Command command, SettingsArguments& a) {
         .check(one_of({"driver", "chase", "bird", "free"}))
         .shows_default();
     command.help_group("Cameras and lamps");
-    command.add_option("--free", a.free, "Where the free camera stands and looks: X,Y,Z,YAW,PITCH, m and degrees").separated_by(',').values(5);
-    command.add_option("--fov", a.fov, "Angle of the picture's height, degrees (default: the camera's)").check(between(0.0, 170.0));
+    command.add_option("--free", a.free, "Where the free camera stands and looks: X,Y,Z,YAW,PITCH, m and degrees")
+        .separated_by(',')
+        .values(5);
+    command.add_option("--fov", a.fov, "Angle of the picture's height, degrees (default: the camera's)")
+        .check(between(0.0, 170.0));
     command.help_group();
-    command.add_option("--sun", a.sun, "Elevation of the sun under a closed cover of cloud, degrees\nDefault: the night of the scene")
+    command
+        .add_option("--sun", a.sun,
+                    "Elevation of the sun under a closed cover of cloud, degrees\nDefault: the night of the scene")
         .check(between(-90.0, 90.0));
     command.help_group("Cameras and lamps");
-    command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx").check(between(1e-9, 1e3)).shows_default();
+    command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx")
+        .check(between(1e-9, 1e3))
+        .shows_default();
     command.help_group();
 }
 
@@ -55,13 +65,15 @@ const std::set<std::string>& setting_names() {
 }
 
 void require_known(const std::string& name) {
-    if (!name.starts_with(kLamp) && !setting_names().contains(name)) throw Error("there is no setting " + one_line(name));
+    if (!name.starts_with(kLamp) && !setting_names().contains(name))
+        throw Error("there is no setting " + one_line(name));
 }
 
 FreeCamera free_camera_of(const std::vector<double>& v) {
     constexpr double kFar = 1e6;  // m
     for (const double value : v)
-        if (!(std::abs(value) <= kFar)) throw Error("setting free: X,Y,Z,YAW,PITCH are expected within 1e6 m and degrees");
+        if (!(std::abs(value) <= kFar))
+            throw Error("setting free: X,Y,Z,YAW,PITCH are expected within 1e6 m and degrees");
     if (std::abs(v[4]) > 90) throw Error("setting free: PITCH is expected from -90 to 90 degrees");
     return {{v[0], v[1], v[2]}, std::remainder(v[3], 360) * kRadiansPerDegree, v[4] * kRadiansPerDegree};
 }
@@ -98,7 +110,8 @@ void DriveSettings::apply(const Values& values) {
         }
         char* end = nullptr;
         const double factor = std::strtod(value.c_str(), &end);
-        if (*end || end == value.c_str() || !(factor >= 0 && factor <= 1000)) throw Error("setting " + one_line(name) + ": a factor from 0 to 1000 is expected, not " + one_line(value));
+        if (*end || end == value.c_str() || !(factor >= 0 && factor <= 1000))
+            throw Error("setting " + one_line(name) + ": a factor from 0 to 1000 is expected, not " + one_line(value));
         lamps[name.substr(std::string(kLamp).size())] = factor;
     }
     try {
@@ -122,7 +135,8 @@ void DriveSettings::add_options(Command command) {
     const auto a = std::make_shared<SettingsArguments>();
     add(command, *a);
     command.help_group("Cameras and lamps");
-    command.add_option("--lamp", "NAME=FACTOR on the intensity of lamps of that name; may be given several times").repeats();
+    command.add_option("--lamp", "NAME=FACTOR on the intensity of lamps of that name; may be given several times")
+        .repeats();
     command.help_group();
     command.keep(a);
 }
@@ -132,7 +146,8 @@ DriveSettings::Values DriveSettings::given(const Command& command) {
     for (const std::string& name : setting_names()) {
         if (!command.count("--" + name)) continue;
         std::string text;
-        for (const std::string& result : command.option("--" + name).results()) text += (text.empty() ? "" : ",") + result;
+        for (const std::string& result : command.option("--" + name).results())
+            text += (text.empty() ? "" : ",") + result;
         values[name] = text;
     }
     for (const std::string& lamp : command.option("--lamp").results()) {

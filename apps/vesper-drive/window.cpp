@@ -31,11 +31,15 @@ struct Glfw {
 
 }  // namespace
 
-Window::Window(const WindowSettings& settings) : width_(int(settings.extent.width)), height_(int(settings.extent.height)), title_(settings.title) {
+Window::Window(const WindowSettings& settings)
+    : width_(int(settings.extent.width)), height_(int(settings.extent.height)), title_(settings.title) {
     static const Glfw glfw;
-    if (!glfwVulkanSupported()) throw Error("no window can show what Vulkan draws: install a driver (Debian, Ubuntu: apt install mesa-vulkan-drivers)");
+    if (!glfwVulkanSupported())
+        throw Error(
+            "no window can show what Vulkan draws: install a driver (Debian, Ubuntu: apt install mesa-vulkan-drivers)");
     if (settings.monitor && *settings.monitor >= all_monitors().size())
-        throw Error("--fullscreen " + std::to_string(*settings.monitor) + ": there are " + std::to_string(all_monitors().size()) + " monitors, counted from 0");
+        throw Error("--fullscreen " + std::to_string(*settings.monitor) + ": there are " +
+                    std::to_string(all_monitors().size()) + " monitors, counted from 0");
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // full screen stays beside other screens' windows
     window_ = glfwCreateWindow(width_, height_, title_.c_str(), nullptr, nullptr);
@@ -57,14 +61,16 @@ Window::~Window() { glfwDestroyWindow(window_); }
 Presentation Window::presentation() const {
     uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
-    return {.instance_extensions = {names, names + count}, .possible = [](VkInstance instance, VkPhysicalDevice device, uint32_t family) {
+    return {.instance_extensions = {names, names + count},
+            .possible = [](VkInstance instance, VkPhysicalDevice device, uint32_t family) {
                 return glfwGetPhysicalDevicePresentationSupport(instance, device, family) == GLFW_TRUE;
             }};
 }
 
 VkSurfaceKHR Window::make_surface(VkInstance instance) const {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
-    if (glfwCreateWindowSurface(instance, window_, nullptr, &surface) != VK_SUCCESS) throw Error("the window cannot be drawn into" + last_glfw_error());
+    if (glfwCreateWindowSurface(instance, window_, nullptr, &surface) != VK_SUCCESS)
+        throw Error("the window cannot be drawn into" + last_glfw_error());
     return surface;
 }
 
@@ -74,7 +80,9 @@ VkExtent2D Window::extent() const {
     return {uint32_t(width), uint32_t(height)};
 }
 
-bool Window::is_minimised() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) || extent().width == 0 || extent().height == 0; }
+bool Window::is_minimised() const {
+    return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) || extent().width == 0 || extent().height == 0;
+}
 bool Window::is_closing() const { return glfwWindowShouldClose(window_); }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 bool Window::is_pressed(int key) const { return glfwGetKey(window_, key) == GLFW_PRESS; }
@@ -106,7 +114,10 @@ std::vector<std::string> Window::monitors() {
     std::vector<std::string> names;
     for (GLFWmonitor* monitor : all_monitors()) {
         const GLFWvidmode* mode = glfwGetVideoMode(monitor);
-        names.push_back(std::string(glfwGetMonitorName(monitor)) + (mode ? ", " + std::to_string(mode->width) + "x" + std::to_string(mode->height) + ", " + std::to_string(mode->refreshRate) + " Hz" : ""));
+        names.push_back(std::string(glfwGetMonitorName(monitor)) +
+                        (mode ? ", " + std::to_string(mode->width) + "x" + std::to_string(mode->height) + ", " +
+                                    std::to_string(mode->refreshRate) + " Hz"
+                              : ""));
     }
     return names;
 }
@@ -143,7 +154,8 @@ unsigned Window::nearest_monitor() const {
         int left = 0, top = 0;
         glfwGetMonitorPos(all[i], &left, &top);
         if (!mode) continue;
-        const int covered = std::max(0, std::min(x + width, left + mode->width) - std::max(x, left)) * std::max(0, std::min(y + height, top + mode->height) - std::max(y, top));
+        const int covered = std::max(0, std::min(x + width, left + mode->width) - std::max(x, left)) *
+                            std::max(0, std::min(y + height, top + mode->height) - std::max(y, top));
         if (covered > most) most = covered, best = i;
     }
     return best;

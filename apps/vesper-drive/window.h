@@ -16,8 +16,8 @@ namespace vesper {
 
 struct WindowSettings {
     std::string title = "Vesper";
-    VkExtent2D extent{1280, 800};          ///< px, when not full screen
-    std::optional<unsigned> monitor;       ///< full screen on this one, counted from 0
+    VkExtent2D extent{1280, 800};     ///< px, when not full screen
+    std::optional<unsigned> monitor;  ///< full screen on this one, counted from 0
 };
 
 /// One window of GLFW, under X11 or Wayland, as the library at hand has it. One at a time.
@@ -39,7 +39,7 @@ public:
     bool is_closing() const;
     void close();
     void set_title(const std::string&);
-    glm::dvec2 mouse() const;   ///< px from the upper left corner
+    glm::dvec2 mouse() const;        ///< px from the upper left corner
     bool is_pressed(int key) const;  ///< a GLFW key
     bool is_button_pressed(int button) const;
 
@@ -54,7 +54,7 @@ public:
     std::optional<unsigned> monitor() const;     ///< the one that is filled
     /// Fills a monitor, or, with nothing, becomes a window again where it was.
     void fill(std::optional<unsigned> monitor);
-    unsigned nearest_monitor() const;            ///< that shows most of the window
+    unsigned nearest_monitor() const;  ///< that shows most of the window
 
 private:
     GLFWwindow* window_ = nullptr;

@@ -14,8 +14,8 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
-#include "render/passes/operators.h"
 #include "picture_arguments.h"
+#include "render/passes/operators.h"
 #include "tone_arguments.h"
 
 namespace vesper {
@@ -26,18 +26,26 @@ constexpr std::array<double, WindowedDrive::kCoarsest + 1> kCoarser{1, 1.25, 1.5
 
 const char* name_of(CameraKind camera) {
     switch (camera) {
-        case CameraKind::Chase: return "chase";
-        case CameraKind::Bird: return "bird";
-        case CameraKind::Free: return "free";
-        default: return "driver";
+        case CameraKind::Chase:
+            return "chase";
+        case CameraKind::Bird:
+            return "bird";
+        case CameraKind::Free:
+            return "free";
+        default:
+            return "driver";
     }
 }
 
 WindowSettings window_settings(const DriveArguments& a) {
-    return {.title = "Vesper", .extent = parse_size(a.window, 64), .monitor = a.full_screen < 0 ? std::nullopt : std::optional(unsigned(a.full_screen))};
+    return {.title = "Vesper",
+            .extent = parse_size(a.window, 64),
+            .monitor = a.full_screen < 0 ? std::nullopt : std::optional(unsigned(a.full_screen))};
 }
 
-Vsync vsync_of(const std::string& name) { return name == "latest" ? Vsync::Latest : name == "off" ? Vsync::Off : Vsync::Wait; }
+Vsync vsync_of(const std::string& name) {
+    return name == "latest" ? Vsync::Latest : name == "off" ? Vsync::Off : Vsync::Wait;
+}
 
 }  // namespace
 
@@ -69,7 +77,8 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
         const auto action = action_of(key, modifiers);
         if (!action || screen_->is_typing()) return;
         // Letters and the space bar belong to the instruments while they have the keyboard.
-        const bool theirs = key < GLFW_KEY_F1 && *action != Action::Focus && *action != Action::Leave && *action != Action::Quit;
+        const bool theirs =
+            key < GLFW_KEY_F1 && *action != Action::Focus && *action != Action::Leave && *action != Action::Quit;
         if (instruments_.has_keyboard() && theirs) return;
         press(*action);
     };
@@ -92,13 +101,17 @@ void WindowedDrive::recover(const DeviceLost& error) {
 }
 
 void WindowedDrive::check_display(const DriveSettings& settings) const {
-    if (!screen_->shows(settings.render().display)) throw Error("--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
+    if (!screen_->shows(settings.render().display))
+        throw Error(
+            "--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
 }
 
 void WindowedDrive::open_session(const Drive& drive) {
     const DriveStart start = start_of(arguments_, drive.start);
     Scenery scenery(start.scene, start.run, start.scenario);
-    check_settings(drive, arguments_.settings, [&](const DriveSettings& settings) { check_display(scenery.check(settings)); }, [](const DriveSettings&) {});
+    check_settings(
+        drive, arguments_.settings, [&](const DriveSettings& settings) { check_display(scenery.check(settings)); },
+        [](const DriveSettings&) {});
     session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
     watch_contacts();
     for (const std::string& note : session_->scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
@@ -108,13 +121,20 @@ void WindowedDrive::open_session(const Drive& drive) {
 void WindowedDrive::reload(const std::string& scene) {
     const bool same = scene == arguments_.scene;  // then the run on it, too
     DriveSettings::Values settings = session_->settings().values();
-    if (!same) std::erase_if(settings, [](const auto& setting) { return setting.first.starts_with("lamp:"); });  // of lamps that only the old scene has
+    if (!same)
+        std::erase_if(settings, [](const auto& setting) {
+            return setting.first.starts_with("lamp:");
+        });  // of lamps that only the old scene has
     // What is written while the drive goes on must not be read: its end would replace it.
     DriveArguments running;
     running.record = recording_, running.log = log_ ? arguments_.log : "";
     try {
         const FilesRead read;
-        auto made = std::make_unique<Session>(*device_, DriveStart{.scene = scene, .run = same ? arguments_.run : "", .scenario = same ? arguments_.scenario : "", .seed = arguments_.seed, .settings = settings});
+        auto made = std::make_unique<Session>(*device_, DriveStart{.scene = scene,
+                                                                   .run = same ? arguments_.run : "",
+                                                                   .scenario = same ? arguments_.scenario : "",
+                                                                   .seed = arguments_.seed,
+                                                                   .settings = settings});
         check_outputs(running, read);
         if (!recording_.empty()) session_->stop_recording();
         session_ = std::move(made);
@@ -137,8 +157,10 @@ void WindowedDrive::say(const std::string& text, bool alarm) {
 }
 
 std::string WindowedDrive::title() const {
-    std::string text = std::filesystem::path(arguments_.scene).filename().string() + format(", %.1f s, ", session_->world().seconds()) + vesper::name_of(session_->settings().render().tone_operator) +
-                       ", " + name_of(session_->settings().camera());
+    std::string text = std::filesystem::path(arguments_.scene).filename().string() +
+                       format(", %.1f s, ", session_->world().seconds()) +
+                       vesper::name_of(session_->settings().render().tone_operator) + ", " +
+                       name_of(session_->settings().camera());
     if (replay_) text += ", replay";
     if (paused_) text += ", paused";
     if (!recording_.empty()) text += ", recording";
@@ -159,17 +181,27 @@ std::optional<glm::uvec2> WindowedDrive::recorded_size() const {
 HeldInput WindowedDrive::held() const {
     if (instruments_.has_keyboard() || screen_->is_typing()) return {};
     const bool letters = session_->settings().camera() != CameraKind::Free;
-    const auto down = [&](int arrow, int letter) { return window_.is_pressed(arrow) || (letters && window_.is_pressed(letter)); };
-    return {.left = down(GLFW_KEY_LEFT, GLFW_KEY_A), .right = down(GLFW_KEY_RIGHT, GLFW_KEY_D), .accelerate = down(GLFW_KEY_UP, GLFW_KEY_W), .brake = down(GLFW_KEY_DOWN, GLFW_KEY_S)};
+    const auto down = [&](int arrow, int letter) {
+        return window_.is_pressed(arrow) || (letters && window_.is_pressed(letter));
+    };
+    return {.left = down(GLFW_KEY_LEFT, GLFW_KEY_A),
+            .right = down(GLFW_KEY_RIGHT, GLFW_KEY_D),
+            .accelerate = down(GLFW_KEY_UP, GLFW_KEY_W),
+            .brake = down(GLFW_KEY_DOWN, GLFW_KEY_S)};
 }
 
 void WindowedDrive::move_camera(double seconds) {
     const glm::dvec2 mouse = window_.mouse(), moved = mouse - std::exchange(mouse_, mouse);
-    if (session_->settings().camera() != CameraKind::Free || instruments_.has_keyboard() || screen_->is_typing()) return;
+    if (session_->settings().camera() != CameraKind::Free || instruments_.has_keyboard() || screen_->is_typing())
+        return;
     constexpr double kSpeed = 8, kTurn = 0.8, kDrag = 0.003;  // m/s, rad/s, rad/px
-    const auto axis = [&](int plus, int minus) { return (window_.is_pressed(plus) ? 1.0 : 0.0) - (window_.is_pressed(minus) ? 1.0 : 0.0); };
-    const double ahead = axis(GLFW_KEY_W, GLFW_KEY_S), left = axis(GLFW_KEY_A, GLFW_KEY_D), up = axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN);
-    const bool turns = window_.is_pressed(GLFW_KEY_LEFT_SHIFT) || window_.is_pressed(GLFW_KEY_RIGHT_SHIFT), drags = window_.is_button_pressed(GLFW_MOUSE_BUTTON_RIGHT);
+    const auto axis = [&](int plus, int minus) {
+        return (window_.is_pressed(plus) ? 1.0 : 0.0) - (window_.is_pressed(minus) ? 1.0 : 0.0);
+    };
+    const double ahead = axis(GLFW_KEY_W, GLFW_KEY_S), left = axis(GLFW_KEY_A, GLFW_KEY_D),
+                 up = axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN);
+    const bool turns = window_.is_pressed(GLFW_KEY_LEFT_SHIFT) || window_.is_pressed(GLFW_KEY_RIGHT_SHIFT),
+               drags = window_.is_button_pressed(GLFW_MOUSE_BUTTON_RIGHT);
     FreeCamera c = session_->settings().free_camera();
     const FreeCamera before = c;
     if (drags) c.yaw += kDrag * moved.x, c.pitch += kDrag * moved.y;
@@ -182,7 +214,8 @@ void WindowedDrive::move_camera(double seconds) {
     c.position.y += kSpeed * seconds * up;
     c.pitch = std::clamp(c.pitch, -1.5, 1.5);
     if (c.position == before.position && c.yaw == before.yaw && c.pitch == before.pitch) return;
-    change("free", format("%.4f,%.4f,%.4f,%.4f,%.4f", c.position.x, c.position.y, c.position.z, c.yaw * kDegreesPerRadian, c.pitch * kDegreesPerRadian));
+    change("free", format("%.4f,%.4f,%.4f,%.4f,%.4f", c.position.x, c.position.y, c.position.z,
+                          c.yaw * kDegreesPerRadian, c.pitch * kDegreesPerRadian));
 }
 
 bool WindowedDrive::replay_to_next_frame() {
@@ -194,7 +227,8 @@ bool WindowedDrive::replay_to_next_frame() {
         if (kind == DriveEvent::Kind::Step && owed_ <= 0 && replay_->frames() == 0) return true;
     }
     paused_ = true;
-    say(replay_->strayed() ? "the replay is over; the car went another way than when it was recorded" : "the replay is over; Backspace starts it again");
+    say(replay_->strayed() ? "the replay is over; the car went another way than when it was recorded"
+                           : "the replay is over; Backspace starts it again");
     return true;
 }
 
@@ -207,7 +241,8 @@ void WindowedDrive::advance(double seconds) {
     if (replay_) {
         if (owed_ >= step) moved = replay_to_next_frame();
     } else {
-        for (; owed_ >= step; owed_ -= step, moved = true) session_->step(hands_.next(held(), session_->world().driver().speed, step));
+        for (; owed_ >= step; owed_ -= step, moved = true)
+            session_->step(hands_.next(held(), session_->world().driver().speed, step));
     }
     render(moved);
 }
@@ -223,7 +258,8 @@ void WindowedDrive::render(bool moved) {
     const VkExtent2D extent = picture_extent();
     const bool ldr = session_->settings().render().tone_operator == Operator::Ldr;
     const Outputs outputs{.display = true, .scene = (instruments_.needs_scene() || log_) && !ldr};
-    const bool lacks = (outputs.scene && frame_.scene.empty()) || extent.width != rendered_.width || extent.height != rendered_.height;
+    const bool lacks =
+        (outputs.scene && frame_.scene.empty()) || extent.width != rendered_.width || extent.height != rendered_.height;
     if (!moved && !stale_ && !lacks) return;
     view_ = session_->view(extent);
     ChannelMosaic wall;
@@ -266,12 +302,24 @@ void WindowedDrive::present() {
     const bool talks = Clock::now() < message_until_;
     const std::optional<glm::uvec2> pixel = screen_->pixel_under_mouse(frame_.extent, screen_settings_.scaling);
     const auto [view, view_pixel] = view_at(pixel);
-    const FrameState now{.session = *session_, .screen = *screen_, .frame = frame_, .view = view, .hands = hands_, .pixel = pixel, .view_pixel = view_pixel,
-                     .shown_per_second = pictures_per_second_, .paused = paused_, .recording = recording_, .message = talks ? message_ : "", .alarm = alarm_};
+    const FrameState now{.session = *session_,
+                         .screen = *screen_,
+                         .frame = frame_,
+                         .view = view,
+                         .hands = hands_,
+                         .pixel = pixel,
+                         .view_pixel = view_pixel,
+                         .shown_per_second = pictures_per_second_,
+                         .paused = paused_,
+                         .recording = recording_,
+                         .message = talks ? message_ : "",
+                         .alarm = alarm_};
     const std::vector<Change> changes = instruments_.draw(now);
     const bool colours = instruments_.shows_false_colour() && display.bits == 8;
     const auto coloured = colours ? instruments_.coloured(frame_, frame_number_) : std::span<const uint8_t>();
-    const Picture picture{.codes = coloured.empty() ? std::span<const uint8_t>(frame_.display) : coloured, .extent = frame_.extent, .bits = display.bits};
+    const Picture picture{.codes = coloured.empty() ? std::span<const uint8_t>(frame_.display) : coloured,
+                          .extent = frame_.extent,
+                          .bits = display.bits};
     shown_ |= screen_->show(picture, display, screen_settings_);
     for (const auto& [name, value] : changes) change(name, value);
 }
@@ -301,7 +349,8 @@ void WindowedDrive::run() {
         if (!session_->recording()) recording_.clear();
         window_.set_title(title());
         const double least = paused_ ? 1.0 / 60 : arguments_.limit > 0 ? 1 / arguments_.limit : 0;
-        std::this_thread::sleep_until(now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(least)));
+        std::this_thread::sleep_until(
+            now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(least)));
     }
     if (!recording_.empty()) session_->stop_recording();
     if (log_) log_->complete();
@@ -313,7 +362,8 @@ void run_windowed(const DriveArguments& arguments) {
         drive.run();
     } catch (const Error& error) {
         if (drive.recording().empty()) throw;
-        throw Error(std::string(error.what()) + "; the drive up to then is in " + one_line(GrowingFile::part_of(drive.recording())));
+        throw Error(std::string(error.what()) + "; the drive up to then is in " +
+                    one_line(GrowingFile::part_of(drive.recording())));
     }
 }
 

@@ -27,8 +27,9 @@ public:
 
     explicit WindowedDrive(const DriveArguments&);
 
-    /// Until the window is closed. A device that is lost is opened anew, and the drive goes on; lost again before it has shown a
-    /// picture, or on any other error, it throws Error: what was recorded up to the last step is then in the recording's part.
+    /// Until the window is closed. A device that is lost is opened anew, and the drive goes on; lost again before it
+    /// has shown a picture, or on any other error, it throws Error: what was recorded up to the last step is then in
+    /// the recording's part.
     void run();
     const std::string& recording() const { return recording_; }  ///< the file; empty: none
 
@@ -76,9 +77,9 @@ private:
     std::optional<Playback> replay_;
 
     bool paused_ = false, one_step_ = false, stale_ = true;
-    double owed_ = 0;              // s of real time that the world is behind
+    double owed_ = 0;  // s of real time that the world is behind
     double pictures_per_second_ = 0;
-    unsigned coarser_ = 0;         // index of the picture's coarseness
+    unsigned coarser_ = 0;            // index of the picture's coarseness
     std::optional<VkExtent2D> size_;  // of pictures, as it was given or recorded; none: the window's
     VkExtent2D rendered_{};
     Frame frame_;

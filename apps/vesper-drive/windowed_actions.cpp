@@ -18,7 +18,9 @@ constexpr double kAgeStep = 5, kYoungest = 20, kOldest = 90;
 /// The first name with a number that no file has, nor what is left of one.
 std::string free_name(const char* before, const char* after) {
     for (unsigned i = 1;; ++i)
-        if (const std::string name = before + format("%03u", i) + after; !std::filesystem::exists(name) && !std::filesystem::exists(GrowingFile::part_of(name))) return name;
+        if (const std::string name = before + format("%03u", i) + after;
+            !std::filesystem::exists(name) && !std::filesystem::exists(GrowingFile::part_of(name)))
+            return name;
 }
 
 }  // namespace
@@ -100,15 +102,30 @@ void WindowedDrive::press(Action action) {
     if (!replay_ && hands_.press(action)) return;
     if (instruments_.press(action)) return;
     switch (action) {
-        case Action::Pause: paused_ = !paused_; break;
-        case Action::Step: one_step_ = paused_; break;
-        case Action::Restart: restart(); break;
-        case Action::RecordDrive: record(); break;
-        case Action::SavePicture: save_picture(); break;
-        case Action::Reload: reload(arguments_.scene); break;
+        case Action::Pause:
+            paused_ = !paused_;
+            break;
+        case Action::Step:
+            one_step_ = paused_;
+            break;
+        case Action::Restart:
+            restart();
+            break;
+        case Action::RecordDrive:
+            record();
+            break;
+        case Action::SavePicture:
+            save_picture();
+            break;
+        case Action::Reload:
+            reload(arguments_.scene);
+            break;
         case Action::Leave:
-        case Action::Quit: window_.close(); break;
-        default: press_view(action);
+        case Action::Quit:
+            window_.close();
+            break;
+        default:
+            press_view(action);
     }
 }
 
@@ -118,30 +135,72 @@ void WindowedDrive::press_view(Action action) {
         const double now = session_->settings().sun().value_or(kNight) + by;
         change("sun", now <= kNight ? "" : format("%g", std::min(now, 90.0)));
     };
-    const auto age = [&](double by) { change("age", format("%g", std::clamp(std::round((double(tone.observer.age) + by) / kAgeStep) * kAgeStep, kYoungest, kOldest))); };
+    const auto age = [&](double by) {
+        change("age", format("%g", std::clamp(std::round((double(tone.observer.age) + by) / kAgeStep) * kAgeStep,
+                                              kYoungest, kOldest)));
+    };
     std::vector<std::string> names;
     for (const OperatorInfo& info : operators()) names.emplace_back(info.name);
     switch (action) {
-        case Action::NextCamera: cycle("camera", {"driver", "chase", "bird", "free"}, 1); break;
-        case Action::CameraDriver: change("camera", "driver"); break;
-        case Action::CameraChase: change("camera", "chase"); break;
-        case Action::CameraBird: change("camera", "bird"); break;
-        case Action::CameraFree: change("camera", "free"); break;
-        case Action::NextOperator: cycle("operator", names, 1); break;
-        case Action::PreviousOperator: cycle("operator", names, -1); break;
-        case Action::NextGlare: cycle("glare", glare_names(), 1); break;
-        case Action::NextDisplay: next_display(); break;
-        case Action::OlderObserver: age(kAgeStep); break;
-        case Action::YoungerObserver: age(-kAgeStep); break;
-        case Action::SunUp: sun(kSunStep); break;
-        case Action::SunDown: sun(-kSunStep); break;
-        case Action::FullScreen: fill_monitor(false); break;
-        case Action::NextMonitor: fill_monitor(true); break;
-        case Action::NextVsync: screen_settings_.vsync = Vsync((unsigned(screen_settings_.vsync) + 1) % 3); break;
-        case Action::NextScaling: screen_settings_.scaling = screen_settings_.scaling == Scaling::Fit ? Scaling::Whole : Scaling::Fit; break;
-        case Action::FinerPicture: coarser_ -= coarser_ > 0 ? 1 : 0; break;
-        case Action::CoarserPicture: coarser_ = std::min(coarser_ + 1, kCoarsest); break;
-        default: break;
+        case Action::NextCamera:
+            cycle("camera", {"driver", "chase", "bird", "free"}, 1);
+            break;
+        case Action::CameraDriver:
+            change("camera", "driver");
+            break;
+        case Action::CameraChase:
+            change("camera", "chase");
+            break;
+        case Action::CameraBird:
+            change("camera", "bird");
+            break;
+        case Action::CameraFree:
+            change("camera", "free");
+            break;
+        case Action::NextOperator:
+            cycle("operator", names, 1);
+            break;
+        case Action::PreviousOperator:
+            cycle("operator", names, -1);
+            break;
+        case Action::NextGlare:
+            cycle("glare", glare_names(), 1);
+            break;
+        case Action::NextDisplay:
+            next_display();
+            break;
+        case Action::OlderObserver:
+            age(kAgeStep);
+            break;
+        case Action::YoungerObserver:
+            age(-kAgeStep);
+            break;
+        case Action::SunUp:
+            sun(kSunStep);
+            break;
+        case Action::SunDown:
+            sun(-kSunStep);
+            break;
+        case Action::FullScreen:
+            fill_monitor(false);
+            break;
+        case Action::NextMonitor:
+            fill_monitor(true);
+            break;
+        case Action::NextVsync:
+            screen_settings_.vsync = Vsync((unsigned(screen_settings_.vsync) + 1) % 3);
+            break;
+        case Action::NextScaling:
+            screen_settings_.scaling = screen_settings_.scaling == Scaling::Fit ? Scaling::Whole : Scaling::Fit;
+            break;
+        case Action::FinerPicture:
+            coarser_ -= coarser_ > 0 ? 1 : 0;
+            break;
+        case Action::CoarserPicture:
+            coarser_ = std::min(coarser_ + 1, kCoarsest);
+            break;
+        default:
+            break;
     }
 }
 

@@ -17,11 +17,12 @@
 namespace vesper {
 namespace {
 
-const std::map<std::string, roads::StreetLampOptions::Side> kSides{{"auto", roads::StreetLampOptions::Side::Auto},
-                                                            {"right", roads::StreetLampOptions::Side::Right},
-                                                            {"left", roads::StreetLampOptions::Side::Left},
-                                                            {"both", roads::StreetLampOptions::Side::Both},
-                                                            {"alternating", roads::StreetLampOptions::Side::Alternating}};
+const std::map<std::string, roads::StreetLampOptions::Side> kSides{
+    {"auto", roads::StreetLampOptions::Side::Auto},
+    {"right", roads::StreetLampOptions::Side::Right},
+    {"left", roads::StreetLampOptions::Side::Left},
+    {"both", roads::StreetLampOptions::Side::Both},
+    {"alternating", roads::StreetLampOptions::Side::Alternating}};
 
 struct ConvertArguments {
     std::string input, photometry, output;
@@ -77,23 +78,25 @@ void add_convert(Command program) {
     const auto a = std::make_shared<ConvertArguments>();
     command.add_option("input", a->input, "The database: .gltf or .glb; or roads: .xodr (docs/roads.md)").required();
     a->for_databases = {
-        command.add_option(
-            "--photometry,-p", a->photometry,
-            "Which nodes are lamps, which materials shine (docs/photometry.md); required for databases"),
+        command.add_option("--photometry,-p", a->photometry,
+                           "Which nodes are lamps, which materials shine (docs/photometry.md); required for databases"),
         command.add_flag("--srgb", a->srgb,
-                          "Decode textures as sRGB instead of with the gamma of the photometry file")};
+                         "Decode textures as sRGB instead of with the gamma of the photometry file")};
     command.add_option("--output,-o", a->output,
-                        "One self-contained .gltf or .glb (default for roads: the input's name with .gltf)");
-    a->for_lamps = {command.add_option("--lamp-spacing", a->lamps.spacing,
-                                     "Roads: m between street lamps, 0 for none (default: 30, or those of the file)")
-                        .check(range(0.0, 1000.0)),
-                    command.add_option("--lamp-height", a->lamps.height,
-                                     "Roads: m, of the light points (default: 8, up to 12 on wide roads)")
-                        .check(range(2.0, 60.0)),
-                    command.add_option("--lamp-side", a->side, "Roads: on which side of the way").check(one_of_keys(kSides)),
-                    command.add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
-                        .check(range(0.1, 20.0)),
-                    command.add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
+                       "One self-contained .gltf or .glb (default for roads: the input's name with .gltf)");
+    a->for_lamps = {
+        command
+            .add_option("--lamp-spacing", a->lamps.spacing,
+                        "Roads: m between street lamps, 0 for none (default: 30, or those of the file)")
+            .check(range(0.0, 1000.0)),
+        command
+            .add_option("--lamp-height", a->lamps.height,
+                        "Roads: m, of the light points (default: 8, up to 12 on wide roads)")
+            .check(range(2.0, 60.0)),
+        command.add_option("--lamp-side", a->side, "Roads: on which side of the way").check(one_of_keys(kSides)),
+        command.add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
+            .check(range(0.1, 20.0)),
+        command.add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
     command.footer(
         "Examples:\n  vesper convert data/rivoli/rivoli.gltf --photometry data/rivoli/rivoli.photometry.json -o "
         "out/night.gltf\n"

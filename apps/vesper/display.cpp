@@ -11,10 +11,10 @@
 #include "base/error.h"
 #include "commands.h"
 #include "io/atomic_file.h"
-#include "vision/display_fit.h"
 #include "picture_arguments.h"
 #include "scene/display_file.h"
 #include "test_patterns.h"
+#include "vision/display_fit.h"
 
 namespace vesper {
 namespace {
@@ -71,15 +71,21 @@ void run_fit(const FitArguments& a) {
         throw Error(one_line(a.measurements) + ": " + error.what());
     }
     const Display& d = fit.display;
-    std::printf("%s: %s, %.5g to %.5g cd/m^2 (%.4g : 1)", a.measurements.c_str(), name_of(d.eotf), double(d.black), double(d.peak), double(d.peak) / double(d.black));
+    std::printf("%s: %s, %.5g to %.5g cd/m^2 (%.4g : 1)", a.measurements.c_str(), name_of(d.eotf), double(d.black),
+                double(d.peak), double(d.peak) / double(d.black));
     if (d.eotf == Eotf::Gamma) std::printf(", gamma %.4f", double(d.gamma));
-    std::printf("\nresiduals: root mean square %.2f %%, largest %.2f %%\n  line   code    measured     profile  residual\n", 100 * fit.rms, 100 * fit.largest);
+    std::printf(
+        "\nresiduals: root mean square %.2f %%, largest %.2f %%\n  line   code    measured     profile  residual\n",
+        100 * fit.rms, 100 * fit.largest);
     const DisplayCurve curve(d);
     for (size_t i = 0; i < measured.size(); ++i)
         std::printf("%6zu %6u %11.5g %11.5g %8.2f%%\n", measured[i].line, measured[i].code, measured[i].luminance,
                     curve.emitted(double(measured[i].code) / d.largest_code()), 100 * fit.residuals[i]);
     if (d.eotf == Eotf::Table && fit.largest > 0.03)
-        std::fprintf(stderr, "note: %s: luminances of one code, or of codes where they do not rise, differ by so much that no display is within 3 %% of all\n", one_line(a.measurements).c_str());
+        std::fprintf(stderr,
+                     "note: %s: luminances of one code, or of codes where they do not rise, differ by so much that no "
+                     "display is within 3 %% of all\n",
+                     one_line(a.measurements).c_str());
     write_text(a.output, display_json(d, a.name));
     std::printf("wrote %s\n", a.output.c_str());
 }
@@ -91,19 +97,29 @@ void run_list() {
 }  // namespace
 
 void add_display(Command program) {
-    Command command = program.add_command("display", "Test patterns, and a display's profile from measurements (docs/display.md)");
+    Command command =
+        program.add_command("display", "Test patterns, and a display's profile from measurements (docs/display.md)");
     command.requires_command();
-    command.footer("Example:\n  vesper display patterns -o patterns/ --size 1920x1080    # show each patch, measure it, fill in measurements.csv\n"
-                    "  vesper display fit patterns/measurements.csv -o wall.json\n"
-                    "  vesper render night.gltf --display wall.json -o night.png\n");
+    command.footer(
+        "Example:\n  vesper display patterns -o patterns/ --size 1920x1080    # show each patch, measure it, fill in "
+        "measurements.csv\n"
+        "  vesper display fit patterns/measurements.csv -o wall.json\n"
+        "  vesper render night.gltf --display wall.json -o night.png\n");
 
     const auto p = std::make_shared<PatternArguments>();
-    Command patterns = command.add_command("patterns", "Write ramps, black and near-black steps, and patches to measure");
+    Command patterns =
+        command.add_command("patterns", "Write ramps, black and near-black steps, and patches to measure");
     patterns.add_option("--output,-o", p->folder, "A folder that exists").required();
     patterns.add_option("--size,-s", p->size, "WIDTHxHEIGHT of the display, px").shows_default();
-    patterns.add_option("--bits", p->settings.bits, "Of a channel's code; 10 are written as PNG of 16 bits").check(one_of({8, 10})).shows_default();
-    patterns.add_option("--patches", p->settings.patches, "How many codes to measure, besides some near black").check(range(3u, 256u)).shows_default();
-    patterns.add_option("--window", p->settings.window, "Side of the patch as part of the picture's; 1: all of it").check(between(0.01, 1.0)).shows_default();
+    patterns.add_option("--bits", p->settings.bits, "Of a channel's code; 10 are written as PNG of 16 bits")
+        .check(one_of({8, 10}))
+        .shows_default();
+    patterns.add_option("--patches", p->settings.patches, "How many codes to measure, besides some near black")
+        .check(range(3u, 256u))
+        .shows_default();
+    patterns.add_option("--window", p->settings.window, "Side of the patch as part of the picture's; 1: all of it")
+        .check(between(0.01, 1.0))
+        .shows_default();
     patterns.footer("Example:\n  vesper display patterns -o patterns/ --size 1920x1080 --bits 8\n");
     patterns.callback([p] { run_patterns(*p); });
 
@@ -113,11 +129,19 @@ void add_display(Command program) {
     Command fit = command.add_command("fit", "Make a profile from measured luminances");
     fit.add_option("measurements", f->measurements, "Lines of code,cd/m^2, measured in the dark").required();
     fit.add_option("--output,-o", f->output, "PROFILE.json").required();
-    fit.add_option("--kind", f->kind, "Transfer function; auto: the simplest within 1 %, or the table").check(one_of(kinds)).shows_default();
+    fit.add_option("--kind", f->kind, "Transfer function; auto: the simplest within 1 %, or the table")
+        .check(one_of(kinds))
+        .shows_default();
     fit.add_option("--bits", f->bits, "Of a channel's code").check(one_of({8, 10})).shows_default();
-    fit.add_option("--primaries", f->primaries, "Of the display; others can be written into the profile").check(one_of(names_of(kPrimariesNames))).shows_default();
-    fit.add_option("--ambient", f->ambient, "Illuminance on the screen when in use, lx").check(between(0.0, 1e5)).shows_default();
-    fit.add_option("--reflection", f->reflection, "Diffuse reflectance of the screen").check(between(0.0, 1.0)).shows_default();
+    fit.add_option("--primaries", f->primaries, "Of the display; others can be written into the profile")
+        .check(one_of(names_of(kPrimariesNames)))
+        .shows_default();
+    fit.add_option("--ambient", f->ambient, "Illuminance on the screen when in use, lx")
+        .check(between(0.0, 1e5))
+        .shows_default();
+    fit.add_option("--reflection", f->reflection, "Diffuse reflectance of the screen")
+        .check(between(0.0, 1.0))
+        .shows_default();
     fit.add_option("--name", f->name, "What the profile calls the display");
     fit.footer("Example:\n  vesper display fit measurements.csv --name 'wall of cave 2' --ambient 0 -o wall.json\n");
     fit.callback([f] { run_fit(*f); });

@@ -38,14 +38,17 @@ Kind kind_of(const std::string& file) {
     if (extension == ".csv") return is_reflection_table(read_file(file, 64u << 20)) ? Kind::Table : Kind::Distribution;
     if (extension == ".hdr" || extension == ".pic" || extension == ".rgbe") return Kind::Picture;
     if (extension == ".exr") return is_grid(file) ? Kind::Distribution : Kind::Picture;
-    throw Error(file + ": expected a scene (.gltf, .glb), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv) or a picture (.exr, .hdr)");
+    throw Error(file +
+                ": expected a scene (.gltf, .glb), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv) or a picture "
+                "(.exr, .hdr)");
 }
 
 void run(const InspectArguments& a) {
     Files files;
     files.reads(a.file);
     files.writes("--json", a.json);
-    if (!a.picture.empty() && !a.picture.ends_with(".png")) throw Error("-o " + a.picture + ": a .png file is expected");
+    if (!a.picture.empty() && !a.picture.ends_with(".png"))
+        throw Error("-o " + a.picture + ": a .png file is expected");
     files.writes("-o", a.picture);
     const FilesRead read;
     const Kind kind = kind_of(a.file);
@@ -83,17 +86,22 @@ void run(const InspectArguments& a) {
 void add_inspect(Command program) {
     Command command = program.add_command("inspect", "Say what a scene, a lamp or a picture holds (docs/inspect.md)");
     const auto a = std::make_shared<InspectArguments>();
-    command.add_option("file", a->file, "A scene (.gltf, .glb), lamp (.ies, .ldt, .csv, .exr), r-table (.csv) or picture (.exr, .hdr)")
+    command
+        .add_option("file", a->file,
+                    "A scene (.gltf, .glb), lamp (.ies, .ldt, .csv, .exr), r-table (.csv) or picture (.exr, .hdr)")
         .required();
     command.add_option("--json", a->json, "Write the report to a JSON file");
     command.add_option("--output,-o", a->picture, "OUT.png: diagrams of a lamp, false colours of a picture");
     command.add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
     command.add_option("--layer", a->layer, kLayerHelp);
     command.add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2").check(between(1e-30, 1e30));
-    command.add_option("--high", a->high, "Pictures: upper end of the colour scale, cd/m^2").check(between(1e-30, 1e30));
-    command.add_flag("--contours", a->contours, "Pictures: lines at the luminances of the classes M6 to M1 of EN 13201-2");
-    command.footer("Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
-                    "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
+    command.add_option("--high", a->high, "Pictures: upper end of the colour scale, cd/m^2")
+        .check(between(1e-30, 1e30));
+    command.add_flag("--contours", a->contours,
+                     "Pictures: lines at the luminances of the classes M6 to M1 of EN 13201-2");
+    command.footer(
+        "Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
+        "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
     command.callback([a] { run(*a); });
 }
 

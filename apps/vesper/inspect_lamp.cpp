@@ -10,7 +10,9 @@ namespace vesper {
 namespace {
 
 const char* name_of(Goniometry goniometry) {
-    return goniometry == Goniometry::CGamma ? "type C (C, gamma)" : goniometry == Goniometry::TypeB ? "type B (H, V)" : "type A (H, V)";
+    return goniometry == Goniometry::CGamma  ? "type C (C, gamma)"
+           : goniometry == Goniometry::TypeB ? "type B (H, V)"
+                                             : "type A (H, V)";
 }
 
 std::vector<std::pair<std::string, Cut>> cuts_of(const Distribution& d, const BeamFigures& f) {
@@ -25,8 +27,9 @@ std::vector<std::pair<std::string, Cut>> cuts_of(const Distribution& d, const Be
 
 std::string ranges_text(const Distribution& d) {
     const bool c = d.goniometry == Goniometry::CGamma;
-    return format("  angles       %zu x %zu, %s %g to %g, %s %g to %g deg\n", d.horizontal.size(), d.vertical.size(), c ? "C" : "H",
-                  d.horizontal.front(), d.horizontal.back(), c ? "gamma" : "V", d.vertical.front(), d.vertical.back());
+    return format("  angles       %zu x %zu, %s %g to %g, %s %g to %g deg\n", d.horizontal.size(), d.vertical.size(),
+                  c ? "C" : "H", d.horizontal.front(), d.horizontal.back(), c ? "gamma" : "V", d.vertical.front(),
+                  d.vertical.back());
 }
 
 void add_widths(Inspection& made, const Distribution& d, const BeamFigures& f) {
@@ -46,8 +49,10 @@ void add_widths(Inspection& made, const Distribution& d, const BeamFigures& f) {
 
 void add_cut_off(Inspection& made, const BeamFigures& f) {
     const auto& g = f.at_70_80_90_95;
-    made.text += format("\n  cd per klm of the luminaire at gamma 70: %.4g, 80: %.4g, 90: %.4g, from 95 up: %.4g\n", g[0], g[1], g[2], g[3]);
-    made.text += "  luminous intensity class (EN 13201-2, annex A): " + (f.glare_class.empty() ? "none" : f.glare_class) + "\n";
+    made.text += format("\n  cd per klm of the luminaire at gamma 70: %.4g, 80: %.4g, 90: %.4g, from 95 up: %.4g\n",
+                        g[0], g[1], g[2], g[3]);
+    made.text +=
+        "  luminous intensity class (EN 13201-2, annex A): " + (f.glare_class.empty() ? "none" : f.glare_class) + "\n";
     made.text += format("  light above the horizontal: %.2f %% of the flux\n", 100 * f.upward_share);
     made.json["cd_per_klm"] = {{"70", g[0]}, {"80", g[1]}, {"90", g[2]}, {"95_and_up", g[3]}};
     made.json["intensity_class"] = f.glare_class;
@@ -59,11 +64,14 @@ void add_beam_points(Inspection& made, const Distribution& d) {
     for (const BeamPoint& p : passing_beam_points()) {
         const double candela = intensity_at(d, p.h, p.v);
         const bool holds = candela >= p.least && (p.most == 0 || candela <= p.most);
-        rows += format("  %-5s %6.2f %6.2f %10.1f   %s %g %s\n", p.name, p.h, p.v, candela, p.least > 0 ? ">=" : "<=",
-                       p.least > 0 ? p.least : p.most, holds ? "ok" : "missed");
-        made.json["r112_class_b"].push_back({{"point", p.name}, {"h_deg", p.h}, {"v_deg", p.v}, {"cd", candela}, {"holds", holds}});
+        rows += format("  %-5s %6.2f %6.2f %10.1f   %s %g %s\n", p.name, p.h, p.v, candela,
+                       p.least > 0 ? ">=" : "<=", p.least > 0 ? p.least : p.most, holds ? "ok" : "missed");
+        made.json["r112_class_b"].push_back(
+            {{"point", p.name}, {"h_deg", p.h}, {"v_deg", p.v}, {"cd", candela}, {"holds", holds}});
     }
-    made.text += "\n  as a passing beam of UN R112, class B, right-hand traffic\n  point   H, deg  V, deg    cd   limit\n" + rows;
+    made.text +=
+        "\n  as a passing beam of UN R112, class B, right-hand traffic\n  point   H, deg  V, deg    cd   limit\n" +
+        rows;
 }
 
 }  // namespace
@@ -76,13 +84,17 @@ Inspection inspect_distribution(const InspectArguments& arguments) {
     while (made.text.ends_with(" \n")) made.text.erase(made.text.size() - 2, 1);
     made.text += format("  goniometry   %s\n", name_of(d.goniometry)) + ranges_text(d);
     made.text += format("  symmetry     %s\n  flux         %.1f lm", name_of(f.symmetry), f.flux);
-    made.text += d.lamp_flux > 0 ? format(", %.1f %% of the lamps' %.0f lm\n", 100 * f.output_ratio, d.lamp_flux) : " (absolute photometry)\n";
+    made.text += d.lamp_flux > 0 ? format(", %.1f %% of the lamps' %.0f lm\n", 100 * f.output_ratio, d.lamp_flux)
+                                 : " (absolute photometry)\n";
     const bool c = d.goniometry == Goniometry::CGamma;
-    made.text += format("  greatest     %.4g cd at %s %g, %s %g deg\n", f.largest, c ? "C" : "H", f.largest_h, c ? "gamma" : "V", f.largest_v);
+    made.text += format("  greatest     %.4g cd at %s %g, %s %g deg\n", f.largest, c ? "C" : "H", f.largest_h,
+                        c ? "gamma" : "V", f.largest_v);
     const LuminousOpening& o = d.opening;
     if (o.length > 0 || o.width > 0 || o.height > 0)
         made.text += format("  opening      %g x %g x %g m%s\n", o.length, o.width, o.height, o.round ? ", round" : "");
-    if (o.area() > 0) made.text += format("  mean luminance of the opening along the axis %.4g cd/m2\n", intensity_at(d, 0, 0) / o.area());
+    if (o.area() > 0)
+        made.text +=
+            format("  mean luminance of the opening along the axis %.4g cd/m2\n", intensity_at(d, 0, 0) / o.area());
     made.json = {{"kind", "distribution"},
                  {"name", d.name},
                  {"goniometry", name_of(d.goniometry)},
@@ -115,10 +127,14 @@ Inspection inspect_table(const InspectArguments& arguments) {
     const ReflectionTable t = read_reflection_table(arguments.file);
     const double q0 = average_luminance_coefficient(t), s1 = specular_factor(t);
     Inspection made;
-    made.text = arguments.file + "\n  " + t.name + format(": r-table of %zu tan gamma to %g and %zu beta\n", t.tan_gamma.size(), t.tan_gamma.back(), t.beta.size());
-    made.text += format("  Q0 %.4f 1/sr by integration", q0) + (t.stated_q0 > 0 ? format(", %.4g stated\n", t.stated_q0) : "\n");
+    made.text = arguments.file + "\n  " + t.name +
+                format(": r-table of %zu tan gamma to %g and %zu beta\n", t.tan_gamma.size(), t.tan_gamma.back(),
+                       t.beta.size());
+    made.text +=
+        format("  Q0 %.4f 1/sr by integration", q0) + (t.stated_q0 > 0 ? format(", %.4g stated\n", t.stated_q0) : "\n");
     made.text += format("  S1 %.3f, r(0, 0) %.4f 1/sr\n", s1, t.at(0, 0));
-    made.json = {{"kind", "reflection table"}, {"name", t.name}, {"q0", q0}, {"stated_q0", t.stated_q0}, {"s1", s1}, {"r00", t.at(0, 0)}};
+    made.json = {{"kind", "reflection table"}, {"name", t.name}, {"q0", q0},
+                 {"stated_q0", t.stated_q0},   {"s1", s1},       {"r00", t.at(0, 0)}};
     return made;
 }
 

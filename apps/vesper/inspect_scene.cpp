@@ -27,34 +27,43 @@ std::string height_text(const LampReport& lamp) {
 
 std::string lamps_text(const SceneReport& report) {
     if (report.lamps.empty()) return "\nno lamps\n";
-    std::string text = "\n" + column("lamp", 26) + "  kind          number         cd         lm  colour         height, m\n";
+    std::string text =
+        "\n" + column("lamp", 26) + "  kind          number         cd         lm  colour         height, m\n";
     size_t number = 0;
     for (const LampReport& lamp : report.lamps) {
         number += lamp.number;
         if (lamp.kind == Lamp::Kind::Directional) {
-            text += column(one_line(lamp.name), 26) + format("  %-12s %7zu   %10.4g lx\n", name_of(lamp.kind), lamp.number, lamp.candela);
+            text += column(one_line(lamp.name), 26) +
+                    format("  %-12s %7zu   %10.4g lx\n", name_of(lamp.kind), lamp.number, lamp.candela);
             continue;
         }
-        text += column(one_line(lamp.name), 26) + format("  %-12s %7zu %10.4g %10.4g  ", name_of(lamp.kind), lamp.number, lamp.candela, lamp.lumens);
+        text += column(one_line(lamp.name), 26) +
+                format("  %-12s %7zu %10.4g %10.4g  ", name_of(lamp.kind), lamp.number, lamp.candela, lamp.lumens);
         text += column(colour_text(lamp.colour), 14) + " " + height_text(lamp) + "\n";
     }
-    return text + format("%zu lamps, %.4g lm together; heights are above the lowest surface under a lamp\n", number, report.lumens);
+    return text + format("%zu lamps, %.4g lm together; heights are above the lowest surface under a lamp\n", number,
+                         report.lumens);
 }
 
-std::string picture_text(const MaterialReport& m) { return one_line(m.picture) + format(", mean %.4g", m.mean_emission); }
+std::string picture_text(const MaterialReport& m) {
+    return one_line(m.picture) + format(", mean %.4g", m.mean_emission);
+}
 
 std::string materials_text(const SceneReport& report) {
     std::vector<const MaterialReport*> sorted;
     for (const MaterialReport& m : report.materials) sorted.push_back(&m);
     std::stable_sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->area > b->area; });
-    std::string text = "\n" + column("material", 30) + "    area, m2  reflectance  rough  metal  emits cd/m2  r-table or picture\n";
+    std::string text =
+        "\n" + column("material", 30) + "    area, m2  reflectance  rough  metal  emits cd/m2  r-table or picture\n";
     for (size_t i = 0; i < std::min(sorted.size(), kMostRows); ++i) {
         const MaterialReport& m = *sorted[i];
-        text += column(one_line(m.name), 30) + format("  %10.4g  %6.3f %-4s  %5.2f  %5.2f  %11s  %s\n", m.area, m.reflectance, m.textured ? "(t)" : "",
-                                            m.roughness, m.metallic, m.emission > 0 ? format("%.4g", m.emission).c_str() : "",
-                                            m.picture.empty() ? one_line(m.road_table).c_str() : picture_text(m).c_str());
+        text += column(one_line(m.name), 30) +
+                format("  %10.4g  %6.3f %-4s  %5.2f  %5.2f  %11s  %s\n", m.area, m.reflectance, m.textured ? "(t)" : "",
+                       m.roughness, m.metallic, m.emission > 0 ? format("%.4g", m.emission).c_str() : "",
+                       m.picture.empty() ? one_line(m.road_table).c_str() : picture_text(m).c_str());
     }
-    if (sorted.size() > kMostRows) text += format("... and %zu smaller ones (--json has them)\n", sorted.size() - kMostRows);
+    if (sorted.size() > kMostRows)
+        text += format("... and %zu smaller ones (--json has them)\n", sorted.size() - kMostRows);
     return text + format("(t) mean of a texture. Diffuse reflectance by area: %.3f\n", report.mean_reflectance);
 }
 
@@ -74,7 +83,8 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
         lamp[sun ? "illuminance_lx" : "intensity_cd"] = l.candela;
         if (!sun) lamp["luminous_flux_lm"] = l.lumens;
         lamp["colour"] = {l.colour.r, l.colour.g, l.colour.b};
-        if (const double kelvin = temperature_of(glm::dvec3(l.colour)); kelvin > 0) lamp["colour_temperature_K"] = kelvin;
+        if (const double kelvin = temperature_of(glm::dvec3(l.colour)); kelvin > 0)
+            lamp["colour_temperature_K"] = kelvin;
         if (l.lowest) lamp["height_m"] = {*l.lowest, *l.highest};
         lamp["without_surface_below"] = l.over_nothing;
         lamp["below_ground"] = l.under_ground;
@@ -88,7 +98,8 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
                                      {"roughness", m.roughness},
                                      {"metallic", m.metallic},
                                      {"emission_cd_m2", m.emission}});
-        if (!m.picture.empty()) json["materials"].back()["emission_picture"] = {{"name", m.picture}, {"mean_cd_m2", m.mean_emission}};
+        if (!m.picture.empty())
+            json["materials"].back()["emission_picture"] = {{"name", m.picture}, {"mean_cd_m2", m.mean_emission}};
         if (!m.road_table.empty()) json["materials"].back()["reflection_table"] = m.road_table;
     }
     json["implausible"] = report.warnings;
@@ -106,12 +117,14 @@ Inspection inspect_scene(const InspectArguments& arguments) {
                    report.extent.z, static_cast<unsigned long long>(report.triangles), report.materials.size());
     text += format("ambient %.4g lx, sky %.4g cd/m2, textures by ", static_cast<double>(scene.ambient_illuminance),
                    static_cast<double>(scene.sky_luminance));
-    text += scene.transfer.kind == Transfer::Kind::Gamma ? format("T^%.3g\n", static_cast<double>(scene.transfer.gamma)) : "sRGB\n";
+    text += scene.transfer.kind == Transfer::Kind::Gamma ? format("T^%.3g\n", static_cast<double>(scene.transfer.gamma))
+                                                         : "sRGB\n";
     text += "cameras: ";
     for (size_t i = 0; i < report.cameras.size(); ++i) text += (i ? ", " : "") + one_line(report.cameras[i]);
     text += report.cameras.empty() ? "none\n" : "\n";
     text += lamps_text(report) + materials_text(report);
-    for (const std::string& note : loaded.notes) text += (&note == loaded.notes.data() ? "\nread with a change:\n  " : "  ") + note + "\n";
+    for (const std::string& note : loaded.notes)
+        text += (&note == loaded.notes.data() ? "\nread with a change:\n  " : "  ") + note + "\n";
     text += report.warnings.empty() ? "\nnothing implausible\n" : "\nimplausible:\n";
     for (const std::string& warning : report.warnings) text += "  " + warning + "\n";
     nlohmann::ordered_json json = json_of(report);

@@ -2,18 +2,19 @@
 #include <cstdio>
 #include <string>
 
+#include "command_line.h"
 #include "commands.h"
 #include "gpu/device.h"
-#include "command_line.h"
 
 int main(int argc, char** argv) {
     vesper::Program program{"What a driver sees at night, on the screen you have.", "vesper"};
     program.version(VESPER_VERSION);
     program.requires_command();
-    program.footer("vesper SUBCOMMAND --help says what each takes; vesper-drive is the simulator.\n"
-                   "Example:\n"
-                   "  vesper convert street.gltf --photometry street.photometry.json -o night.gltf\n"
-                   "  vesper render night.gltf --camera driver --stats -o night.png\n");
+    program.footer(
+        "vesper SUBCOMMAND --help says what each takes; vesper-drive is the simulator.\n"
+        "Example:\n"
+        "  vesper convert street.gltf --photometry street.photometry.json -o night.gltf\n"
+        "  vesper render night.gltf --camera driver --stats -o night.png\n");
     vesper::add_convert(program);
     vesper::add_render(program);
     vesper::add_road(program);

@@ -36,8 +36,10 @@ std::vector<double> numbers(const std::string& option, const std::string& text, 
             at = end + 1;
             value /= std::strtod(at, &end);
         }
-        if (end == at || (*end != 0 && *end != ',') || !std::isfinite(value) || value < 0 || (value == 0 && !zero_allowed))
-            throw Error(option + " " + one_line(text, 100) + ": expected " + (zero_allowed ? "" : "positive ") + "numbers with commas between them");
+        if (end == at || (*end != 0 && *end != ',') || !std::isfinite(value) || value < 0 ||
+            (value == 0 && !zero_allowed))
+            throw Error(option + " " + one_line(text, 100) + ": expected " + (zero_allowed ? "" : "positive ") +
+                        "numbers with commas between them");
         values.push_back(value);
         if (*end == 0) return values;
         at = end + 1;
@@ -51,7 +53,8 @@ struct KnownLuminance {
 
 KnownLuminance parse_luminance(const std::string& text) {
     const std::vector<double> v = numbers("--luminance", text, true);
-    const bool whole = v.size() >= 3 && std::all_of(v.begin(), v.end() - 1, [](double x) { return x == std::floor(x) && x < 1e6; });
+    const bool whole =
+        v.size() >= 3 && std::all_of(v.begin(), v.end() - 1, [](double x) { return x == std::floor(x) && x < 1e6; });
     if ((v.size() != 3 && v.size() != 5) || !whole || !(v.back() > 0))
         throw Error("--luminance " + one_line(text, 100) + ": expected X,Y,CD_M2 or X,Y,WIDTH,HEIGHT,CD_M2");
     KnownLuminance known{{int64_t(v[0]), int64_t(v[1])}, v.back()};
@@ -67,7 +70,8 @@ std::vector<Exposure> read_exposures(const MergeArguments& arguments) {
     if (!arguments.exposures.empty()) {
         given = numbers("--exposures", arguments.exposures, false);
         if (given.size() != arguments.images.size())
-            throw Error("--exposures: " + std::to_string(given.size()) + " for " + std::to_string(arguments.images.size()) + " pictures");
+            throw Error("--exposures: " + std::to_string(given.size()) + " for " +
+                        std::to_string(arguments.images.size()) + " pictures");
     }
     std::vector<Exposure> exposures;
     std::vector<std::pair<std::string, CameraExposure>> cameras;
@@ -82,7 +86,8 @@ std::vector<Exposure> read_exposures(const MergeArguments& arguments) {
         }
         const Image& first = exposures.empty() ? exposure.image : exposures.front().image;
         if (exposure.image.width != first.width || exposure.image.height != first.height)
-            throw Error(one_line(file) + ": is not of the size of " + one_line(arguments.images.front()) + ", " + std::to_string(first.width) + " x " + std::to_string(first.height) + " px");
+            throw Error(one_line(file) + ": is not of the size of " + one_line(arguments.images.front()) + ", " +
+                        std::to_string(first.width) + " x " + std::to_string(first.height) + " px");
         cameras.emplace_back(one_line(file), read_exif(bytes));
         exposures.push_back(std::move(exposure));
         progress.step();
@@ -104,14 +109,18 @@ void report_exposures(const MergeArguments& arguments, const std::vector<Exposur
     std::printf("exposure (relative)   shift, px   picture\n");
     for (size_t i = 0; i < exposures.size(); ++i) {
         const glm::ivec2 shift = exposures[i].shift;
-        std::printf("%19.6g %5d %5d   %s\n", exposures[i].exposure, shift.x, shift.y, one_line(arguments.images[i]).c_str());
+        std::printf("%19.6g %5d %5d   %s\n", exposures[i].exposure, shift.x, shift.y,
+                    one_line(arguments.images[i]).c_str());
         sorted.push_back(exposures[i].exposure);
         moved |= shift != glm::ivec2(0);
     }
     std::sort(sorted.begin(), sorted.end());
     for (size_t i = 1; i < sorted.size(); ++i)
         if (sorted[i] > 4.5 * sorted[i - 1]) {
-            std::fprintf(stderr, "warning: exposures %.3g and %.3g are more than two stops apart: between them the response is uncertain\n", sorted[i - 1], sorted[i]);
+            std::fprintf(stderr,
+                         "warning: exposures %.3g and %.3g are more than two stops apart: between them the response is "
+                         "uncertain\n",
+                         sorted[i - 1], sorted[i]);
             break;
         }
     if (moved && !arguments.align) std::fprintf(stderr, "warning: the pictures seem shifted; --align undoes it\n");
@@ -122,10 +131,14 @@ Response response_of(const MergeArguments& arguments, const std::vector<Exposure
     if (arguments.curve == "recover") {
         const RecoveredResponse recovered = recover_response(exposures, arguments.smoothness);
         for (size_t c = 0; c < 3; ++c)
-            std::printf("response of %c: rms error %.1f %% of exposure, from %zu pixels\n", "RGB"[c], 100 * recovered.error[c], recovered.pixels[c]);
+            std::printf("response of %c: rms error %.1f %% of exposure, from %zu pixels\n", "RGB"[c],
+                        100 * recovered.error[c], recovered.pixels[c]);
         for (size_t c = 0; c < 3; ++c)
             if (recovered.error[c] > 0.15)
-                std::fprintf(stderr, "warning: the pictures do not agree on one response of %c: movement, changing light or wrong exposures?\n", "RGB"[c]);
+                std::fprintf(stderr,
+                             "warning: the pictures do not agree on one response of %c: movement, changing light or "
+                             "wrong exposures?\n",
+                             "RGB"[c]);
         response = recovered.response;
     } else if (arguments.curve == "srgb") {
         response = srgb_response();
@@ -137,26 +150,33 @@ Response response_of(const MergeArguments& arguments, const std::vector<Exposure
     const std::array<int, 3> falls = count_falls(response);
     for (size_t c = 0; c < 3; ++c)
         if (falls[c] > 0)
-            std::fprintf(stderr, "warning: the response of %c falls at %d codes; more pictures or a larger --smoothness may help\n", "RGB"[c], falls[c]);
+            std::fprintf(
+                stderr,
+                "warning: the response of %c falls at %d codes; more pictures or a larger --smoothness may help\n",
+                "RGB"[c], falls[c]);
     return response;
 }
 
 void report(const MergedImage& merged) {
     const double pixels = double(merged.held.size());
     const bool absolute = merged.image.white_luminance > 0;
-    std::printf("luminance %.4g to %.4g %s: %.1f decades\n", merged.darkest, merged.brightest, absolute ? "cd/m^2" : "(relative)",
+    std::printf("luminance %.4g to %.4g %s: %.1f decades\n", merged.darkest, merged.brightest,
+                absolute ? "cd/m^2" : "(relative)",
                 merged.darkest > 0 ? std::log10(merged.brightest / merged.darkest) : 0.0);
     const uint64_t lost = merged.too_dark + merged.too_bright + merged.between;
-    std::printf("never well exposed: %.2f %% of the pixels (%.2f %% too dark, %.2f %% too bright)\n", 100 * double(lost) / pixels,
-                100 * double(merged.too_dark) / pixels, 100 * double(merged.too_bright) / pixels);
+    std::printf("never well exposed: %.2f %% of the pixels (%.2f %% too dark, %.2f %% too bright)\n",
+                100 * double(lost) / pixels, 100 * double(merged.too_dark) / pixels,
+                100 * double(merged.too_bright) / pixels);
     if (double(lost) > 0.05 * pixels) std::fprintf(stderr, "warning: the exposures do not cover the scene\n");
 }
 
 void run(const MergeArguments& arguments) {
     if (arguments.images.size() < 2 || arguments.images.size() > kMaxExposures)
-        throw Error(std::to_string(arguments.images.size()) + " picture(s): 2 to " + std::to_string(kMaxExposures) + " can be merged");
+        throw Error(std::to_string(arguments.images.size()) + " picture(s): 2 to " + std::to_string(kMaxExposures) +
+                    " can be merged");
     if (!arguments.luminance.empty() && arguments.scale > 0) throw Error("--luminance and --scale exclude one another");
-    if (std::filesystem::path(arguments.output).extension() != ".exr") throw Error("-o " + one_line(arguments.output) + ": a .exr file is expected");
+    if (std::filesystem::path(arguments.output).extension() != ".exr")
+        throw Error("-o " + one_line(arguments.output) + ": a .exr file is expected");
     Files files;
     for (const std::string& image : arguments.images) files.reads(image);
     files.writes("-o", arguments.output);
@@ -181,9 +201,10 @@ void run(const MergeArguments& arguments) {
     }
     report(merged);
     const bool absolute = merged.image.white_luminance > 0;
-    merged.image.header = {{"vesper:version", VESPER_VERSION},
-                           {"vesper:unit", absolute ? "cd/m^2, linear Rec. 709 RGB" : "relative luminance, linear Rec. 709 RGB"},
-                           {"vesper:merged", std::to_string(exposures.size()) + " exposures, response " + arguments.curve}};
+    merged.image.header = {
+        {"vesper:version", VESPER_VERSION},
+        {"vesper:unit", absolute ? "cd/m^2, linear Rec. 709 RGB" : "relative luminance, linear Rec. 709 RGB"},
+        {"vesper:merged", std::to_string(exposures.size()) + " exposures, response " + arguments.curve}};
     if (!arguments.response.empty()) write_response(arguments.response, response);
     write_exr(arguments.output, merged.image);
     std::printf("wrote %s\n", arguments.output.c_str());
@@ -192,18 +213,28 @@ void run(const MergeArguments& arguments) {
 }  // namespace
 
 void add_merge(Command program) {
-    Command command = program.add_command("merge", "Merge photographs of different exposure into luminance (docs/merge.md)");
+    Command command =
+        program.add_command("merge", "Merge photographs of different exposure into luminance (docs/merge.md)");
     const auto a = std::make_shared<MergeArguments>();
     command.add_option("images", a->images, "2 to 32 PNG or JPEG of equal size, from one tripod").required();
     command.add_option("--output,-o", a->output, "OUT.exr: cd/m^2 if scaled, relative otherwise").required();
-    command.add_option("--exposures,-e", a->exposures, "Exposure of each picture, such as 1/60,1/15 (default: Exif time * ISO / f-number^2)");
+    command.add_option("--exposures,-e", a->exposures,
+                       "Exposure of each picture, such as 1/60,1/15 (default: Exif time * ISO / f-number^2)");
     command.add_flag("--align", a->align, "Undo the shifts between the pictures, whole pixels");
-    command.add_option("--curve", a->curve, "Response of the camera: recover, srgb, gamma2.2, linear or a file that --response wrote").shows_default();
-    command.add_option("--smoothness", a->smoothness, "Smoothness of a recovered response").check(range(0.1, 10000.0)).shows_default();
+    command
+        .add_option("--curve", a->curve,
+                    "Response of the camera: recover, srgb, gamma2.2, linear or a file that --response wrote")
+        .shows_default();
+    command.add_option("--smoothness", a->smoothness, "Smoothness of a recovered response")
+        .check(range(0.1, 10000.0))
+        .shows_default();
     command.add_option("--response", a->response, "Write the response to a CSV file");
-    command.add_option("--luminance", a->luminance, "A measured luminance: X,Y,CD_M2 or X,Y,WIDTH,HEIGHT,CD_M2 (px, from the top left)");
+    command.add_option("--luminance", a->luminance,
+                       "A measured luminance: X,Y,CD_M2 or X,Y,WIDTH,HEIGHT,CD_M2 (px, from the top left)");
     command.add_option("--scale", a->scale, "cd/m^2 per unit, from an earlier --luminance").check(range(1e-12, 1e12));
-    command.footer("Example:\n  vesper merge street-1.jpg street-2.jpg street-3.jpg --align --luminance 812,440,9,9,3.2 -o street.exr\n");
+    command.footer(
+        "Example:\n  vesper merge street-1.jpg street-2.jpg street-3.jpg --align --luminance 812,440,9,9,3.2 -o "
+        "street.exr\n");
     command.callback([a] { run(*a); });
 }
 

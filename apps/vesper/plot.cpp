@@ -28,7 +28,8 @@ struct PlotFrame {
     }
 };
 
-void draw_axes(Canvas& canvas, const PlotFrame& frame, const std::string& x_name, const std::string& y_name, bool grid) {
+void draw_axes(Canvas& canvas, const PlotFrame& frame, const std::string& x_name, const std::string& y_name,
+               bool grid) {
     const glm::dvec2 end = frame.corner + frame.size;
     for (const double x : linear_ticks(frame.low_x, frame.high_x, 8)) {
         const double at = frame.at(x, frame.low_y).x;
@@ -44,7 +45,8 @@ void draw_axes(Canvas& canvas, const PlotFrame& frame, const std::string& x_name
     }
     canvas.rectangle(frame.corner, frame.size, kInk);
     canvas.text({frame.corner.x + frame.size.x / 2, end.y + 36}, x_name, 13, Canvas::Align::Centre);
-    canvas.text({frame.corner.x - 64, frame.corner.y + frame.size.y / 2}, y_name, 13, Canvas::Align::Centre, kInk, false, true);
+    canvas.text({frame.corner.x - 64, frame.corner.y + frame.size.y / 2}, y_name, 13, Canvas::Align::Centre, kInk,
+                false, true);
 }
 
 void draw_legend(Canvas& canvas, glm::dvec2 at, const std::vector<NamedCut>& cuts) {
@@ -76,7 +78,8 @@ void draw_polar(Canvas& canvas, const Distribution& d, const BeamFigures& figure
     const std::vector<double> rings = linear_ticks(0, figures.largest * 1.08, 5);
     const double full = std::max(figures.largest * 1.05, rings.empty() ? 1 : rings.back());
     const auto place = [&](double gamma, double candela) {
-        return centre + radius * candela / full * glm::dvec2(std::sin(gamma * kRadiansPerDegree), std::cos(gamma * kRadiansPerDegree));
+        return centre + radius * candela / full *
+                            glm::dvec2(std::sin(gamma * kRadiansPerDegree), std::cos(gamma * kRadiansPerDegree));
     };
     const double end = up ? 180 : 90;
     for (const double ring : rings) {
@@ -87,7 +90,8 @@ void draw_polar(Canvas& canvas, const Distribution& d, const BeamFigures& figure
     for (double gamma = -end; gamma <= end; gamma += 15) {
         canvas.line(centre, place(gamma, full), kGrey);
         if (gamma > -180)
-            canvas.text(place(gamma, full + 16 * full / radius), format("%g\u00b0", std::abs(gamma)), 12, Canvas::Align::Centre);
+            canvas.text(place(gamma, full + 16 * full / radius), format("%g\u00b0", std::abs(gamma)), 12,
+                        Canvas::Align::Centre);
     }
     for (size_t i = cuts.size(); i-- > 0;) {
         std::vector<glm::dvec2> curve;
@@ -102,11 +106,15 @@ void draw_polar(Canvas& canvas, const Distribution& d, const BeamFigures& figure
 }
 
 void draw_cuts(Canvas& canvas, const Distribution& d, const BeamFigures& figures, glm::dvec2 corner, glm::dvec2 size) {
-    const std::vector<NamedCut> cuts{{format("along H at V %g\u00b0", figures.largest_v), horizontal_cut(d, figures.largest_v)},
-                                     {format("along V at H %g\u00b0", figures.largest_h), vertical_cut(d, figures.largest_h)}};
-    const PlotFrame frame{corner + glm::dvec2(70, 0), size - glm::dvec2(90, 20),
-                      std::min(d.horizontal.front(), d.vertical.front()), std::max(d.horizontal.back(), d.vertical.back()),
-                      0, std::max(1e-9, figures.largest * 1.05)};
+    const std::vector<NamedCut> cuts{
+        {format("along H at V %g\u00b0", figures.largest_v), horizontal_cut(d, figures.largest_v)},
+        {format("along V at H %g\u00b0", figures.largest_h), vertical_cut(d, figures.largest_h)}};
+    const PlotFrame frame{corner + glm::dvec2(70, 0),
+                          size - glm::dvec2(90, 20),
+                          std::min(d.horizontal.front(), d.vertical.front()),
+                          std::max(d.horizontal.back(), d.vertical.back()),
+                          0,
+                          std::max(1e-9, figures.largest * 1.05)};
     draw_axes(canvas, frame, "H or V, \u00b0", "Intensity, cd", true);
     for (size_t i = 0; i < cuts.size(); ++i) {
         std::vector<glm::dvec2> curve;
@@ -133,18 +141,27 @@ ValuePicture sampled(const Distribution& d, const PlotFrame& frame) {
 void draw_points(Canvas& canvas, const Distribution& d, const PlotFrame& frame) {
     for (const BeamPoint& point : passing_beam_points()) {
         const glm::dvec2 at = frame.at(point.h, point.v);
-        if (point.h < frame.low_x || point.h > frame.high_x || point.v < frame.low_y || point.v > frame.high_y) continue;
+        if (point.h < frame.low_x || point.h > frame.high_x || point.v < frame.low_y || point.v > frame.high_y)
+            continue;
         const double candela = intensity_at(d, point.h, point.v);
         const bool left = point.h < 0, below = point.h == 0;
         const bool holds = candela >= point.least && (point.most == 0 || candela <= point.most);
         canvas.disc(at, 3.5, CanvasColour(1));
         canvas.disc(at, 2.5, holds ? CanvasColour(0) : CanvasColour(0.9, 0.1, 0.1));
-        canvas.text(at + glm::dvec2(left ? -6 : below ? 0 : 6, below ? 10 : 0), point.name, 10,
-                    left ? Canvas::Align::Right : below ? Canvas::Align::Centre : Canvas::Align::Left, CanvasColour(1), true);
+        canvas.text(at + glm::dvec2(left    ? -6
+                                    : below ? 0
+                                            : 6,
+                                    below ? 10 : 0),
+                    point.name, 10,
+                    left    ? Canvas::Align::Right
+                    : below ? Canvas::Align::Centre
+                            : Canvas::Align::Left,
+                    CanvasColour(1), true);
     }
 }
 
-/// What of a headlamp's grid is worth showing: where it holds more than 1.5 % of its greatest, and the points of UN R112.
+/// What of a headlamp's grid is worth showing: where it holds more than 1.5 % of its greatest, and the points of UN
+/// R112.
 PlotFrame headlamp_frame(const Distribution& d, const BeamFigures& figures, PlotFrame frame) {
     const glm::dvec2 first(d.horizontal.front(), d.vertical.front()), last(d.horizontal.back(), d.vertical.back());
     glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
@@ -175,15 +192,17 @@ void draw_map(Canvas& canvas, const Distribution& d, const BeamFigures& figures,
     std::vector<double> levels;
     for (const double level : log_ticks(scale.low, scale.high)) levels.push_back(level);
     draw_contours(canvas, picture, levels, frame.corner);
-    draw_axes(canvas, frame, type_c ? "C, \u00b0" : "H, \u00b0 (right positive)", type_c ? "\u03b3, \u00b0" : "V, \u00b0 (up positive)", false);
+    draw_axes(canvas, frame, type_c ? "C, \u00b0" : "H, \u00b0 (right positive)",
+              type_c ? "\u03b3, \u00b0" : "V, \u00b0 (up positive)", false);
     const glm::dvec2 peak = frame.at(figures.largest_h, figures.largest_v);
     canvas.line(peak - glm::dvec2(6, 0), peak + glm::dvec2(6, 0), CanvasColour(0.9, 0.1, 0.1), 2);
     canvas.line(peak - glm::dvec2(0, 6), peak + glm::dvec2(0, 6), CanvasColour(0.9, 0.1, 0.1), 2);
     if (!type_c) draw_points(canvas, d, frame);
     draw_colour_bar(canvas, {frame.corner.x + frame.size.x + 20, frame.corner.y + 10}, frame.size.y - 10, scale, "cd");
-    canvas.text({frame.corner.x + frame.size.x / 2, corner.y - 14},
-                type_c ? "Lines of equal intensity, + greatest" : "Lines of equal intensity, + greatest, points of UN R112", 14,
-                Canvas::Align::Centre);
+    canvas.text(
+        {frame.corner.x + frame.size.x / 2, corner.y - 14},
+        type_c ? "Lines of equal intensity, + greatest" : "Lines of equal intensity, + greatest, points of UN R112", 14,
+        Canvas::Align::Centre);
 }
 
 }  // namespace
@@ -193,7 +212,8 @@ void draw_distribution(Canvas& canvas, const Distribution& d, const BeamFigures&
     canvas.text({24, 50},
                 format("%.0f lm, at most %.4g cd at %s %g\u00b0, %s %g\u00b0", figures.flux, figures.largest,
                        d.goniometry == Goniometry::CGamma ? "C" : "H", figures.largest_h,
-                       d.goniometry == Goniometry::CGamma ? "\u03b3" : "V", figures.largest_v), 13);
+                       d.goniometry == Goniometry::CGamma ? "\u03b3" : "V", figures.largest_v),
+                13);
     const glm::dvec2 size(600, 520);
     if (d.goniometry == Goniometry::CGamma)
         draw_polar(canvas, d, figures, {24, 100}, size);

@@ -46,22 +46,25 @@ std::string file_of_frame(const std::string& pattern, unsigned index, unsigned f
     return pattern.substr(0, dot) + format(".%04u", index) + pattern.substr(dot);
 }
 
-Header describe_frame(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, const GlareReport& glare, double seconds) {
+Header describe_frame(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame,
+                      const GlareReport& glare, double seconds) {
     std::string pose;
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + format("%.15g", view.world_to_view[c][r]);
-    Header header{{"vesper:version", VESPER_VERSION},
-            {"vesper:scene", arguments.scene},
-            {"vesper:options", arguments.options},
-            {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
-            {"vesper:camera", arguments.camera},
-            {"vesper:worldToView", pose},
-            {"vesper:tangents", digits(double(view.tangent_low.x)) + " " + digits(double(view.tangent_low.y)) + " " + digits(double(view.tangent_high.x)) + " " + digits(double(view.tangent_high.y))},
-            {"vesper:seconds", digits(seconds)},
-            {"vesper:lights", std::to_string(frame.lamps)},
-            {"vesper:illuminanceThreshold", digits(double(arguments.settings.clusters.threshold))},
-            {"vesper:lambert", arguments.lambert},
-            {"vesper:device", device.name() + ", " + device.driver()}};
+    Header header{
+        {"vesper:version", VESPER_VERSION},
+        {"vesper:scene", arguments.scene},
+        {"vesper:options", arguments.options},
+        {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
+        {"vesper:camera", arguments.camera},
+        {"vesper:worldToView", pose},
+        {"vesper:tangents", digits(double(view.tangent_low.x)) + " " + digits(double(view.tangent_low.y)) + " " +
+                                digits(double(view.tangent_high.x)) + " " + digits(double(view.tangent_high.y))},
+        {"vesper:seconds", digits(seconds)},
+        {"vesper:lights", std::to_string(frame.lamps)},
+        {"vesper:illuminanceThreshold", digits(double(arguments.settings.clusters.threshold))},
+        {"vesper:lambert", arguments.lambert},
+        {"vesper:device", device.name() + ", " + device.driver()}};
     const Header tone = describe_tone(arguments.settings, frame);
     header.insert(header.end(), tone.begin(), tone.end());
     const Header dazzled = describe_glare(arguments.settings, glare);
@@ -69,18 +72,22 @@ Header describe_frame(const RenderArguments& arguments, const Device& device, co
     return header;
 }
 
-void print_statistics(const RenderArguments& arguments, const Device& device, const Renderer& renderer, const Frame& frame,
-                      std::vector<double> milliseconds) {
+void print_statistics(const RenderArguments& arguments, const Device& device, const Renderer& renderer,
+                      const Frame& frame, std::vector<double> milliseconds) {
     std::printf("%s on %s (%s)\n", arguments.scene.c_str(), device.name().c_str(), device.driver().c_str());
-    std::printf("%ux%u, %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width, frame.extent.height,
-                name_of(arguments.settings.tone_operator).c_str(), static_cast<unsigned long long>(renderer.scene().triangles()),
-                frame.lamps, double(renderer.device_bytes()) / (1 << 20));
+    std::printf("%ux%u, %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width,
+                frame.extent.height, name_of(arguments.settings.tone_operator).c_str(),
+                static_cast<unsigned long long>(renderer.scene().triangles()), frame.lamps,
+                double(renderer.device_bytes()) / (1 << 20));
     std::printf("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
                 double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
-    std::printf("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n", double(frame.curve.adaptation),
-                frame.foveal_level, frame.histogram.non_finite, frame.histogram.finite + frame.histogram.non_finite);
+    std::printf("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",
+                double(frame.curve.adaptation), frame.foveal_level, frame.histogram.non_finite,
+                frame.histogram.finite + frame.histogram.non_finite);
     const bool ldr = arguments.settings.tone_operator == Operator::Ldr;
-    std::fputs(text_of(luminance_statistics(frame.scene), ldr ? "LDR values, relative to white" : "luminance, cd/m^2").c_str(), stdout);
+    std::fputs(
+        text_of(luminance_statistics(frame.scene), ldr ? "LDR values, relative to white" : "luminance, cd/m^2").c_str(),
+        stdout);
     double total = 0;
     std::printf("device time, ms\n");
     for (const Timing& timing : frame.timings) {
@@ -88,21 +95,25 @@ void print_statistics(const RenderArguments& arguments, const Device& device, co
         total += timing.milliseconds;
     }
     std::printf("  %-24s %8.3f\n", "sum", total);
-    if (frame.pupil > 0) std::printf("pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", frame.pupil, frame.pattern_milliseconds);
+    if (frame.pupil > 0)
+        std::printf("pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", frame.pupil,
+                    frame.pattern_milliseconds);
     // The first frame makes the driver compile its shaders.
     if (milliseconds.size() > 1) milliseconds.erase(milliseconds.begin());
     std::sort(milliseconds.begin(), milliseconds.end());
-    std::printf("frame on the host's clock, ms: median %.1f of %zu, least %.1f\n", milliseconds[milliseconds.size() / 2],
-                milliseconds.size(), milliseconds.front());
+    std::printf("frame on the host's clock, ms: median %.1f of %zu, least %.1f\n",
+                milliseconds[milliseconds.size() / 2], milliseconds.size(), milliseconds.front());
 }
 
-void write_outputs(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame, const GlareReport& glare, unsigned index, double seconds) {
+void write_outputs(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame,
+                   const GlareReport& glare, unsigned index, double seconds) {
     for (const std::string& output : arguments.outputs) {
         const std::string file = file_of_frame(output, index, arguments.frames);
         if (output.ends_with(".png"))
             write_codes(file, frame, arguments.settings.display);
         else
-            write_exr(file, frame.extent.width, frame.extent.height, frame.scene, describe_frame(arguments, device, view, frame, glare, seconds));
+            write_exr(file, frame.extent.width, frame.extent.height, frame.scene,
+                      describe_frame(arguments, device, view, frame, glare, seconds));
     }
 }
 
@@ -119,11 +130,13 @@ Files check_arguments(RenderArguments& arguments) {
     for (const std::string& output : arguments.outputs) {
         const bool exr = output.ends_with(".exr");
         if (!exr && !output.ends_with(".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
-        if (exr && settings.tone_operator == Operator::Ldr) throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
+        if (exr && settings.tone_operator == Operator::Ldr)
+            throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
         files.writes("-o", file_of_frame(output, 0, arguments.frames));
     }
     files.writes("--stats-json", arguments.statistics_file);
-    for (const auto& [option, file] : {std::pair("--log", arguments.log_file), std::pair("--glare-sources", arguments.sources_file)}) {
+    for (const auto& [option, file] :
+         {std::pair("--log", arguments.log_file), std::pair("--glare-sources", arguments.sources_file)}) {
         files.writes(option, file);
         files.writes(option, GrowingFile::part_of(file));  // where it grows
     }
@@ -131,7 +144,8 @@ Files check_arguments(RenderArguments& arguments) {
 }
 
 void check_wanted(const RenderArguments& a) {
-    const bool files = !a.outputs.empty() || !a.log_file.empty() || !a.sources_file.empty() || !a.statistics_file.empty();
+    const bool files =
+        !a.outputs.empty() || !a.log_file.empty() || !a.sources_file.empty() || !a.statistics_file.empty();
     if (!files && !a.statistics && !a.plan && a.glare.target.empty())
         throw Error("nothing to do: give -o, --stats, --stats-json, --log, --glare-sources, --target or --plan");
 }
@@ -145,32 +159,41 @@ struct FrameTime {
 
 // A replay shows what was logged: with the operator and the histogram of the log, at its times.
 void check_replay(const RenderArguments& arguments, const std::vector<LoggedFrame>& log) {
-    const auto fail = [&](const std::string& reason) { throw Error("--replay " + one_line(arguments.replay_file) + ": " + reason); };
+    const auto fail = [&](const std::string& reason) {
+        throw Error("--replay " + one_line(arguments.replay_file) + ": " + reason);
+    };
     if (arguments.tone.eye.command.count("--dt")) fail("times are those of the log: --dt has no meaning beside it");
     const std::string wanted = name_of(arguments.settings.tone_operator);
     const HistogramSettings& bins = arguments.settings.histogram;
     for (const LoggedFrame& frame : log) {
-        if (frame.tone_operator != wanted) fail("is of the operator " + one_line(frame.tone_operator, 40) + " and not of " + wanted);
+        if (frame.tone_operator != wanted)
+            fail("is of the operator " + one_line(frame.tone_operator, 40) + " and not of " + wanted);
         const shared::EyeState& eye = frame.eye;
         if (eye.steps == 0) continue;  // an operator without a curve
-        const auto steps = float(bins.bins * bins.steps_per_bin()), steps_per_ln = bins.bins_per_ln() * float(bins.steps_per_bin());
+        const auto steps = float(bins.bins * bins.steps_per_bin()),
+                   steps_per_ln = bins.bins_per_ln() * float(bins.steps_per_bin());
         if (eye.steps != steps || eye.ln_low != bins.ln_low() || eye.steps_per_ln != steps_per_ln)
-            fail(format("has a curve of %.0f steps from %.4g to %.4g cd/m^2, which is not that of --bins, --histogram-low and --histogram-high", double(eye.steps), std::exp(double(eye.ln_low)),
-                        std::exp(double(eye.ln_low) + double(eye.steps / eye.steps_per_ln))));
+            fail(
+                format("has a curve of %.0f steps from %.4g to %.4g cd/m^2, which is not that of --bins, "
+                       "--histogram-low and --histogram-high",
+                       double(eye.steps), std::exp(double(eye.ln_low)),
+                       std::exp(double(eye.ln_low) + double(eye.steps / eye.steps_per_ln))));
     }
 }
 
 std::vector<FrameTime> moments_of(const RenderArguments& arguments) {
     std::vector<FrameTime> moments;
     if (arguments.replay_file.empty()) {
-        for (unsigned i = 0; i < arguments.frames; ++i) moments.push_back({arguments.start + i * arguments.dt, i == 0 ? 0.0f : float(arguments.dt), {}});
+        for (unsigned i = 0; i < arguments.frames; ++i)
+            moments.push_back({arguments.start + i * arguments.dt, i == 0 ? 0.0f : float(arguments.dt), {}});
         return moments;
     }
     const std::vector<LoggedFrame> log = read_log(arguments.replay_file);
     check_replay(arguments, log);
     const unsigned frames = arguments.tone.eye.command.count("--frames") ? arguments.frames : ~0u;
     for (size_t i = 0; i < log.size() && moments.size() < frames; ++i)
-        if (log[i].seconds >= arguments.start) moments.push_back({log[i].seconds, log[i].step, i == 0 ? shared::EyeState{} : log[i - 1].eye});
+        if (log[i].seconds >= arguments.start)
+            moments.push_back({log[i].seconds, log[i].step, i == 0 ? shared::EyeState{} : log[i - 1].eye});
     if (moments.empty()) throw Error(arguments.replay_file + ": no frame from --start on");
     return moments;
 }
@@ -180,7 +203,8 @@ void run(RenderArguments& arguments) {
     const Files files = check_arguments(arguments);
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
     Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
-    for (const std::string& output : arguments.outputs) (output.ends_with(".png") ? outputs.display : outputs.scene) = true;
+    for (const std::string& output : arguments.outputs)
+        (output.ends_with(".png") ? outputs.display : outputs.scene) = true;
 
     arguments.settings.offscreen_lamps = read_lamps(arguments.glare.lamps);
     // Glare is read off luminances.
@@ -218,17 +242,25 @@ void run(RenderArguments& arguments) {
         moment.world = world_transforms(scene, seconds);
         const View view = camera_view(scene, moment, arguments.camera, extent);
         const bool last = index + 1 == arguments.frames;
-        const Frame frame = renderer.render(arguments.settings, view, moment, step,
-                                            {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
+        const Frame frame =
+            renderer.render(arguments.settings, view, moment, step,
+                            {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
-        if (const std::string note = photometry_note(loaded, arguments.scene); index == 0 && !note.empty()) std::fprintf(stderr, "note: %s\n", note.c_str());
+        if (const std::string note = photometry_note(loaded, arguments.scene); index == 0 && !note.empty())
+            std::fprintf(stderr, "note: %s\n", note.c_str());
         GlareReport glare;
-        if (outputs.scene && !ldr) glare = glare_of(arguments.glare, arguments.settings, frame, angles_of(view), frame.outside);
+        if (outputs.scene && !ldr)
+            glare = glare_of(arguments.glare, arguments.settings, frame, angles_of(view), frame.outside);
         // Of the names of many frames only the first was looked at before.
-        for (size_t o = 0; o < arguments.outputs.size() && index > 0; ++o) refuse_overwriting(read, "-o", file_of_frame(arguments.outputs[o], index, arguments.frames));
+        for (size_t o = 0; o < arguments.outputs.size() && index > 0; ++o)
+            refuse_overwriting(read, "-o", file_of_frame(arguments.outputs[o], index, arguments.frames));
         write_outputs(arguments, device, view, frame, glare, index, seconds);
-        if (log) log->append(log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye}, frame.curve, operator_info(arguments.settings.tone_operator).form, arguments.settings.display, glare));
-        if (sources) sources->append(glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));
+        if (log)
+            log->append(log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye},
+                                 frame.curve, operator_info(arguments.settings.tone_operator).form,
+                                 arguments.settings.display, glare));
+        if (sources)
+            sources->append(glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));
         if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);
         if (last) {
             if (wants_target) std::fputs(target_line(glare).c_str(), stdout);
@@ -248,15 +280,23 @@ void add_render(Command program) {
     Command command = program.add_command("render", "Render a photometric scene to a display image or to luminance");
     const auto a = std::make_shared<RenderArguments>();
     command.add_option("scene", a->scene, "A .gltf or .glb, as vesper convert writes it").required();
-    command.add_option("--output,-o", a->outputs, "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
+    command.add_option("--output,-o", a->outputs,
+                       "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
     command.add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");
     command.add_option("--size,-s", a->size, "WIDTHxHEIGHT, px").shows_default();
-    command.add_option("--frames", a->frames, "How many frames; files are numbered").check(range(1u, 1000000u)).shows_default();
+    command.add_option("--frames", a->frames, "How many frames; files are numbered")
+        .check(range(1u, 1000000u))
+        .shows_default();
     command.add_option("--dt", a->dt, "Time between frames, s").check(between(1e-6, 3600.0)).shows_default();
     command.help_group("Logs and replay");
-    command.add_option("--log", a->log_file, "Write the state of the eye, the tone curve and what glare hides of every frame to a CSV file");
-    command.add_option("--glare-sources", a->sources_file, "Write the lamps before the eye to a CSV file: direction in degrees, cd, lx at the eye and veil, as if nothing stood between");
-    command.add_option("--replay", a->replay_file, "Take times and the state of the eye from such a log: the same frames to the last bit; --start and --frames choose from them");
+    command.add_option("--log", a->log_file,
+                       "Write the state of the eye, the tone curve and what glare hides of every frame to a CSV file");
+    command.add_option("--glare-sources", a->sources_file,
+                       "Write the lamps before the eye to a CSV file: direction in degrees, cd, lx at the eye and "
+                       "veil, as if nothing stood between");
+    command.add_option("--replay", a->replay_file,
+                       "Take times and the state of the eye from such a log: the same frames to the last bit; --start "
+                       "and --frames choose from them");
     command.add_option("--start", a->start, "Time of the first frame, s").check(between(0.0, 1e6)).shows_default();
     command.help_group();
     command.add_flag("--stats", a->statistics, "Print luminances and milliseconds of the last frame");
@@ -264,19 +304,29 @@ void add_render(Command program) {
     command.add_option("--stats-json", a->statistics_file, "Write the luminances of the last frame to a JSON file");
     command.add_flag("--plan", a->plan, "Print the plan of the frame: passes, barriers, memory");
     command.help_group();
-    command.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    command.add_option("--device", a->device,
+                       "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     command.help_group("Light");
-    command.add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R").check(one_of({"physical", "paper"})).shows_default();
-    command.add_option("--threshold", a->settings.clusters.threshold, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx").check(between(1e-9, 1e3)).shows_default();
+    command.add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")
+        .check(one_of({"physical", "paper"}))
+        .shows_default();
+    command
+        .add_option("--threshold", a->settings.clusters.threshold,
+                    "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")
+        .check(between(1e-9, 1e3))
+        .shows_default();
     command.help_group();
     add_tone_options(command, a->tone);
     add_glare_options(command, a->glare);
     command.help_group("Light");
-    command.add_flag("--all-lights", a->settings.all_lamps, "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what is below the threshold");
+    command.add_flag("--all-lights", a->settings.all_lamps,
+                     "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what "
+                     "is below the threshold");
     command.help_group();
-    command.footer("Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
-                    "  vesper render night.gltf --camera driver -o night.exr\n"
-                    "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
+    command.footer(
+        "Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
+        "  vesper render night.gltf --camera driver -o night.exr\n"
+        "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
     command.callback([a, command] {
         a->options = options_of(command, {"--output", "--log", "--glare-sources", "--stats", "--stats-json", "--plan"});
         run(*a);

@@ -35,7 +35,8 @@ void run(const RoadArguments& arguments) {
     Files files;
     files.reads(arguments.layout);
     for (const std::string& file : arguments.pictures) {
-        if (!file.ends_with(".png") && !file.ends_with(".exr")) throw Error("--render " + file + ": a .png or .exr file is expected");
+        if (!file.ends_with(".png") && !file.ends_with(".exr"))
+            throw Error("--render " + file + ": a .png or .exr file is expected");
         files.writes("--render", file);
     }
     files.writes("--csv", arguments.csv);
@@ -43,7 +44,8 @@ void run(const RoadArguments& arguments) {
     if (!arguments.scene.empty() && !arguments.scene.ends_with(".gltf") && !arguments.scene.ends_with(".glb"))
         throw Error("--scene " + arguments.scene + ": a .gltf or .glb file is expected");
     files.writes("--scene", arguments.scene);
-    if (!arguments.device.empty() && arguments.pictures.empty()) throw Error("--device has a meaning only beside --render");
+    if (!arguments.device.empty() && arguments.pictures.empty())
+        throw Error("--device has a meaning only beside --render");
     const FilesRead read;
     const RoadFile file = read_road(arguments.layout, arguments.overrides);
     files.refuse_overwriting(read);
@@ -58,7 +60,8 @@ void run(const RoadArguments& arguments) {
         for (const std::string& picture : arguments.pictures) write_picture(picture, file.layout, result, rendered);
     }
     const RenderedRoad* beside = arguments.pictures.empty() ? nullptr : &rendered;
-    if (!arguments.scene.empty()) save_gltf(lit_road(file.layout), std::filesystem::path(arguments.layout).filename().string(), arguments.scene);
+    if (!arguments.scene.empty())
+        save_gltf(lit_road(file.layout), std::filesystem::path(arguments.layout).filename().string(), arguments.scene);
     if (!arguments.csv.empty()) write_text(arguments.csv, csv_of(file.layout, result, beside));
     if (!arguments.json.empty()) write_text(arguments.json, json_of(file.layout, result, wanted, beside));
 }
@@ -75,8 +78,12 @@ void add_road(Command program) {
     command.add_flag("--grid", a->grid, "Print illuminance and luminance of every point");
     command.add_option("--csv", a->csv, "Write the points to a CSV file");
     command.add_option("--json", a->json, "Write figures and points to a JSON file");
-    command.add_option("--render", a->pictures, "Render the road too and compare: OUT.png in false colours, OUT.exr in cd/m^2; may be given twice");
-    command.add_option("--scene", a->scene, "Write the road as a scene for vesper render: OUT.gltf or OUT.glb, with a camera for each observer");
+    command.add_option(
+        "--render", a->pictures,
+        "Render the road too and compare: OUT.png in false colours, OUT.exr in cd/m^2; may be given twice");
+    command.add_option(
+        "--scene", a->scene,
+        "Write the road as a scene for vesper render: OUT.gltf or OUT.glb, with a camera for each observer");
     command.add_option("--device", a->device, "Where to render: part of a name, cpu, or an index of vesper devices");
     command.add_option("--class", a->wanted, "Lighting class to compare with (default: that of the file)")
         .check(one_of(classes));
@@ -93,7 +100,8 @@ void add_road(Command program) {
         "Examples:\n  vesper road data/road/worked-example.json\n"
         "  vesper road data/road/worked-example.json --r-table R2 --spacing 36 --grid --csv points.csv\n"
         "  vesper road data/road/worked-example.json --render road.png\n"
-        "  vesper road data/road/worked-example.json --scene road.gltf && vesper render road.gltf --camera \"observer lane 1\" --glare cie -o seen.png\n");
+        "  vesper road data/road/worked-example.json --scene road.gltf && vesper render road.gltf --camera \"observer "
+        "lane 1\" --glare cie -o seen.png\n");
     command.callback([a] { run(*a); });
 }
 

@@ -3,8 +3,8 @@
 
 #include "arguments.h"
 #include "false_colour.h"
-#include "io/image_file.h"
 #include "gpu_scene/road_view.h"
+#include "io/image_file.h"
 #include "road_render.h"
 #include "scene/colour.h"
 
@@ -31,8 +31,9 @@ struct Panel {
 };
 
 void outline_field(Canvas& canvas, const Panel& panel, const RoadLayout& road) {
-    const glm::dvec2 corners[] = {panel.at({0, 0, 0}), panel.at({road.spacing, 0, 0}), panel.at({road.spacing, road.width, 0}),
-                                  panel.at({0, road.width, 0}), panel.at({0, 0, 0})};
+    const glm::dvec2 corners[] = {panel.at({0, 0, 0}), panel.at({road.spacing, 0, 0}),
+                                  panel.at({road.spacing, road.width, 0}), panel.at({0, road.width, 0}),
+                                  panel.at({0, 0, 0})};
     canvas.line(corners, CanvasColour(1), 1.2, true);
 }
 
@@ -40,7 +41,8 @@ void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, co
                    const RenderedObserver& seen, const ColourScale& scale) {
     const RoadObserver& observer = result.observers[index];
     const ValuePicture picture = resized(luminances_of(seen.view.extent, seen.rgba), kPanelWidth, kPanelHeight);
-    canvas.pixels(static_cast<int>(corner.x), static_cast<int>(corner.y), kPanelWidth, kPanelHeight, false_colours(picture, scale));
+    canvas.pixels(static_cast<int>(corner.x), static_cast<int>(corner.y), kPanelWidth, kPanelHeight,
+                  false_colours(picture, scale));
     std::vector<double> levels;
     for (const LightingClass& c : lighting_classes()) levels.push_back(c.luminance);
     draw_contours(canvas, picture, levels, corner);
@@ -60,24 +62,33 @@ void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, co
     const double tall = static_cast<double>(kPanelHeight) / (seen.view.tangent_high.y - seen.view.tangent_low.y) /
                         (kPanelWidth / static_cast<double>(seen.view.tangent_high.x - seen.view.tangent_low.x));
     canvas.text(corner + glm::dvec2(0, -14),
-                format("Observer of lane %d: Lav %.3f cd/m\u00b2 calculated, %.3f rendered, points within %.2f %%; here by every luminaire: %.3f", observer.lane,
-                       observer.average_luminance, seen.counted.average_luminance, std::abs(seen.counted.largest_difference), seen.every.average_luminance),
+                format("Observer of lane %d: Lav %.3f cd/m\u00b2 calculated, %.3f rendered, points within %.2f %%; "
+                       "here by every luminaire: %.3f",
+                       observer.lane, observer.average_luminance, seen.counted.average_luminance,
+                       std::abs(seen.counted.largest_difference), seen.every.average_luminance),
                 13);
     canvas.text(corner + glm::dvec2(kPanelWidth, -14), format("heights \u00d7 %.1f", tall), 13, Canvas::Align::Right);
 }
 
-void write_false_colours(const std::string& file, const RoadLayout& road, const RoadResult& result, const RenderedRoad& rendered) {
+void write_false_colours(const std::string& file, const RoadLayout& road, const RoadResult& result,
+                         const RenderedRoad& rendered) {
     std::vector<float> all;
     for (const RenderedObserver& seen : rendered.observers)
         for (const double value : seen.every.luminance) all.push_back(static_cast<float>(value));
     const ColourScale scale = scale_of(all);
     const ValuePicture overview = luminances_of(rendered.overview.extent, rendered.overview_rgba);
-    const double top = 96, tall = overview.height + kGap + static_cast<double>(rendered.observers.size()) * (kPanelHeight + kGap);
+    const double top = 96,
+                 tall = overview.height + kGap + static_cast<double>(rendered.observers.size()) * (kPanelHeight + kGap);
     Canvas canvas(static_cast<uint32_t>(kLeft + kPanelWidth + 24 + kBarWidth), static_cast<uint32_t>(top + tall));
     canvas.text({kLeft, 24}, column(road.name, 100), 17);
-    canvas.text({kLeft, 48}, "Luminance of the road from the standard observers, 60 m before the field and 1.5 m up; lines: limits of the classes M6 to M1", 13);
-    canvas.text({kLeft, top - 14}, format("As seen from lane %d; dashed: the field", result.observers[rendered.darkest].lane), 13);
-    canvas.pixels(static_cast<int>(kLeft), static_cast<int>(top), overview.width, overview.height, false_colours(overview, scale));
+    canvas.text({kLeft, 48},
+                "Luminance of the road from the standard observers, 60 m before the field and 1.5 m up; lines: limits "
+                "of the classes M6 to M1",
+                13);
+    canvas.text({kLeft, top - 14},
+                format("As seen from lane %d; dashed: the field", result.observers[rendered.darkest].lane), 13);
+    canvas.pixels(static_cast<int>(kLeft), static_cast<int>(top), overview.width, overview.height,
+                  false_colours(overview, scale));
     outline_field(canvas, {rendered.overview, {kLeft, top}, {overview.width, overview.height}}, road);
     double y = top + overview.height + kGap;
     for (size_t i = 0; i < rendered.observers.size(); ++i, y += kPanelHeight + kGap)
@@ -88,12 +99,14 @@ void write_false_colours(const std::string& file, const RoadLayout& road, const 
 
 }  // namespace
 
-void write_picture(const std::string& file, const RoadLayout& road, const RoadResult& result, const RenderedRoad& rendered) {
+void write_picture(const std::string& file, const RoadLayout& road, const RoadResult& result,
+                   const RenderedRoad& rendered) {
     if (file.ends_with(".png")) return write_false_colours(file, road, result, rendered);
     for (size_t i = 0; i < rendered.observers.size(); ++i) {
         const View& view = rendered.observers[i].view;
         const int lane = result.observers[i].lane;
-        const std::string name = rendered.observers.size() == 1 ? file : file.substr(0, file.size() - 4) + format(".lane%d.exr", lane);
+        const std::string name =
+            rendered.observers.size() == 1 ? file : file.substr(0, file.size() - 4) + format(".lane%d.exr", lane);
         const glm::dvec3 eye = result.observers[i].eye;
         write_exr(name, view.extent.width, view.extent.height, rendered.observers[i].rgba,
                   {{"vesper:version", VESPER_VERSION},
@@ -101,8 +114,10 @@ void write_picture(const std::string& file, const RoadLayout& road, const RoadRe
                    {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
                    {"vesper:device", rendered.device},
                    {"vesper:eye", format("%.9g %.9g %.9g", eye.x, eye.y, eye.z)},
-                   {"vesper:tangents", format("%.9g %.9g %.9g %.9g", static_cast<double>(view.tangent_low.x), static_cast<double>(view.tangent_low.y),
-                                              static_cast<double>(view.tangent_high.x), static_cast<double>(view.tangent_high.y))}});
+                   {"vesper:tangents",
+                    format("%.9g %.9g %.9g %.9g", static_cast<double>(view.tangent_low.x),
+                           static_cast<double>(view.tangent_low.y), static_cast<double>(view.tangent_high.x),
+                           static_cast<double>(view.tangent_high.y))}});
     }
 }
 

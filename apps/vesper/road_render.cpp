@@ -7,8 +7,8 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
-#include "render/renderer.h"
 #include "gpu_scene/road_view.h"
+#include "render/renderer.h"
 #include "scene/road_scene.h"
 
 namespace vesper {
@@ -100,14 +100,17 @@ GlareReport read_glare(const RoadLayout& road, const RoadObserver& observer, Dev
     const Scene scene = road_glare_scene(road, observer.glare_eye.x);
     Renderer renderer(device, scene);
     const View view = road_glare_view(observer.glare_eye);
-    const Frame frame = renderer.render(road_settings(), view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
+    const Frame frame =
+        renderer.render(road_settings(), view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
     std::vector<DazzlingLight> beside;
     for (const OffscreenLamp& lamp : frame.outside)
-        if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z) beside.push_back({lamp.direction, luminance(lamp.illuminance)});
+        if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z)
+            beside.push_back({lamp.direction, luminance(lamp.illuminance)});
     const ImageAngles image = angles_of(view);
     const double average = observer.average_luminance / road.maintenance_factor;
     const glm::dvec2 sight = image.pixels_at({0, 0}) / glm::dvec2(image.width, image.height);
-    return report_glare(image, frame.scene, beside, {.eye = {road.age}, .gaze = sight, .source_luminance = 0, .average_luminance = average});
+    return report_glare(image, frame.scene, beside,
+                        {.eye = {road.age}, .gaze = sight, .source_luminance = 0, .average_luminance = average});
 }
 
 double read_point(const std::vector<float>& rgba, const View& view, const FieldPoint& point) {
@@ -115,8 +118,10 @@ double read_point(const std::vector<float>& rgba, const View& view, const FieldP
 }
 
 std::string summary_line(const RoadObserver& a, const RoadReading& b) {
-    std::string text = format("  %4d  %7.4f %7.4f %+6.2f %%", a.lane, a.average_luminance, b.average_luminance, b.average_difference);
-    text += format("   %6.3f %6.3f   %6.3f %6.3f", a.overall_uniformity, b.overall_uniformity, a.lengthwise_uniformity, b.lengthwise_uniformity);
+    std::string text =
+        format("  %4d  %7.4f %7.4f %+6.2f %%", a.lane, a.average_luminance, b.average_luminance, b.average_difference);
+    text += format("   %6.3f %6.3f   %6.3f %6.3f", a.overall_uniformity, b.overall_uniformity, a.lengthwise_uniformity,
+                   b.lengthwise_uniformity);
     return text + format("   %5.2f %%  %+6.2f %%\n", b.mean_difference, b.largest_difference);
 }
 
@@ -130,7 +135,8 @@ std::string worst_line(const RoadResult& result, const RenderedRoad& rendered, R
         if (std::abs(reading.average_difference) > std::abs(average)) average = reading.average_difference;
     }
     const FieldPoint& at = result.points[worst->largest_at];
-    return format("%+.2f %% at x = %.2f m, y = %.2f m; of Lav: %+.2f %%\n", worst->largest_difference, at.x, at.y, average);
+    return format("%+.2f %% at x = %.2f m, y = %.2f m; of Lav: %+.2f %%\n", worst->largest_difference, at.x, at.y,
+                  average);
 }
 
 }  // namespace
@@ -145,17 +151,21 @@ RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const
         seen.view = road_view(road, result.observers[i]);
         seen.rgba = whole.render(seen.view);
         seen.longest_pixel = depth_of_pixel(seen.view, result.observers[i], result.field.x.back());
-        for (const FieldPoint& point : result.points) seen.every.luminance.push_back(read_point(seen.rgba, seen.view, point));
+        for (const FieldPoint& point : result.points)
+            seen.every.luminance.push_back(read_point(seen.rgba, seen.view, point));
         seen.counted.luminance.resize(result.points.size());
         made.observers.push_back(std::move(seen));
         if (result.observers[i].average_luminance < result.observers[made.darkest].average_luminance) made.darkest = i;
     }
-    for (size_t i = 0; i < made.observers.size(); ++i) made.observers[i].glare = read_glare(road, result.observers[i], device);
+    for (size_t i = 0; i < made.observers.size(); ++i)
+        made.observers[i].glare = read_glare(road, result.observers[i], device);
     for (const auto& [counted, wanted] : groups_of(road, road_scene_luminaires(road), result)) {
         RoadPictures some(device, with_luminaires(scene, counted));
         for (const auto& [observer, point] : wanted) {
-            const View view = road_point_view(result.observers[observer], {result.points[point].x, result.points[point].y});
-            made.observers[observer].counted.luminance[point] = read_point(some.render(view), view, result.points[point]);
+            const View view =
+                road_point_view(result.observers[observer], {result.points[point].x, result.points[point].y});
+            made.observers[observer].counted.luminance[point] =
+                read_point(some.render(view), view, result.points[point]);
         }
     }
     for (size_t i = 0; i < made.observers.size(); ++i) {
@@ -169,33 +179,41 @@ RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const
 
 std::string text_of(const RoadResult& result, const RenderedRoad& rendered) {
     const size_t columns = result.field.x.size();
-    std::string text = "\nRendered on " + rendered.device + ", with the luminaires that count for each point, at 1 mm a pixel: calculated, rendered, difference in %\n";
+    std::string text =
+        "\nRendered on " + rendered.device +
+        ", with the luminaires that count for each point, at 1 mm a pixel: calculated, rendered, difference in %\n";
     for (size_t o = 0; o < result.observers.size(); ++o) {
         const RoadObserver& observer = result.observers[o];
         const RenderedObserver& seen = rendered.observers[o];
-        text += format("\nLuminance for the observer of lane %d, cd/m2 (the picture by every luminaire: %u x %u px, at most %.1f cm of road in one)\n   y \\ x  ",
-                       observer.lane, seen.view.extent.width, seen.view.extent.height, 100 * seen.longest_pixel);
+        text += format(
+            "\nLuminance for the observer of lane %d, cd/m2 (the picture by every luminaire: %u x %u px, at most %.1f "
+            "cm of road in one)\n   y \\ x  ",
+            observer.lane, seen.view.extent.width, seen.view.extent.height, 100 * seen.longest_pixel);
         for (const double x : result.field.x) text += format(" %7.2f", x);
         for (size_t row = result.field.y.size(); row-- > 0;)
             for (int line = 0; line < 3; ++line) {
                 text += line == 0 ? format("\n %7.3f  ", result.field.y[row]) : std::string("\n          ");
                 for (size_t i = row * columns; i < (row + 1) * columns; ++i) {
                     const double calculated = result.points[i].luminance[o], read = seen.counted.luminance[i];
-                    text += line == 2 ? format(" %+7.2f", difference_percent(read, calculated, observer.average_luminance))
-                                      : format(" %7.3f", line == 0 ? calculated : read);
+                    text += line == 2
+                                ? format(" %+7.2f", difference_percent(read, calculated, observer.average_luminance))
+                                : format(" %7.3f", line == 0 ? calculated : read);
                 }
             }
         text += "\n";
     }
     text += "\n  lane  Lav cd/m2                  Uo               Ul              points: rms  largest\n";
-    for (size_t o = 0; o < result.observers.size(); ++o) text += summary_line(result.observers[o], rendered.observers[o].counted);
+    for (size_t o = 0; o < result.observers.size(); ++o)
+        text += summary_line(result.observers[o], rendered.observers[o].counted);
     text += "  and by every luminaire, those that the standard leaves out too:\n";
-    for (size_t o = 0; o < result.observers.size(); ++o) text += summary_line(result.observers[o], rendered.observers[o].every);
+    for (size_t o = 0; o < result.observers.size(); ++o)
+        text += summary_line(result.observers[o], rendered.observers[o].every);
     text += "\nGlare, off a picture of the new luminaires: veil in cd/m2 and TI, calculated, rendered\n";
     for (size_t o = 0; o < result.observers.size(); ++o) {
         const RoadObserver& a = result.observers[o];
         const GlareReport& b = rendered.observers[o].glare;
-        text += format("  %4d  %7.4f %7.4f   %6.2f %% %6.2f %%\n", a.lane, a.veil, b.road_veil, a.threshold_increment, b.increment);
+        text += format("  %4d  %7.4f %7.4f   %6.2f %% %6.2f %%\n", a.lane, a.veil, b.road_veil, a.threshold_increment,
+                       b.increment);
     }
     text += "\nLargest difference: " + worst_line(result, rendered, &RenderedObserver::counted);
     return text + "By every luminaire: " + worst_line(result, rendered, &RenderedObserver::every);

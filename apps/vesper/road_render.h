@@ -4,30 +4,31 @@
 #include <string>
 #include <vector>
 
-#include "vision/glare_report.h"
-#include "photometry/road.h"
 #include "gpu_scene/view.h"
+#include "photometry/road.h"
+#include "vision/glare_report.h"
 
 namespace vesper {
 
 /// What was read off pictures at the points of the grid, beside the calculation.
 struct RoadReading {
-    std::vector<double> luminance;   ///< at each point, cd/m^2
+    std::vector<double> luminance;  ///< at each point, cd/m^2
     double average_luminance = 0, overall_uniformity = 0, lengthwise_uniformity = 0;
-    /// (picture - calculation) / calculation, %: of the average, of all points (root of the mean square), and the largest.
+    /// (picture - calculation) / calculation, %: of the average, of all points (root of the mean square), and the
+    /// largest.
     double average_difference = 0, mean_difference = 0, largest_difference = 0;
-    size_t largest_at = 0;           ///< index into RoadResult::points
+    size_t largest_at = 0;  ///< index into RoadResult::points
 };
 
 /// What an observer sees in the picture.
 struct RenderedObserver {
     View view;
-    std::vector<float> rgba;         ///< cd/m^2 RGB, by every luminaire of the scene
-    /// The standard leaves out luminaires more than 5H before, 12H beyond or 5H beside a point, and those outside of the
-    /// r-table; so each point is read off a picture of its own (road_point_view) with the luminaires that count for it. And off the picture
-    /// above, for what that leaves out.
+    std::vector<float> rgba;  ///< cd/m^2 RGB, by every luminaire of the scene
+    /// The standard leaves out luminaires more than 5H before, 12H beyond or 5H beside a point, and those outside of
+    /// the r-table; so each point is read off a picture of its own (road_point_view) with the luminaires that count for
+    /// it. And off the picture above, for what that leaves out.
     RoadReading counted, every;
-    double longest_pixel = 0;        ///< m of road in a pixel, at the far end of the field
+    double longest_pixel = 0;  ///< m of road in a pixel, at the far end of the field
     /// Off a picture of the new luminaires from RoadObserver::glare_eye, those outside of it added.
     GlareReport glare;
 };
@@ -35,9 +36,9 @@ struct RenderedObserver {
 struct RenderedRoad {
     std::string device;
     std::vector<RenderedObserver> observers;
-    View overview;                   ///< as the observer of the darkest lane sees the road
+    View overview;  ///< as the observer of the darkest lane sees the road
     std::vector<float> overview_rgba;
-    size_t darkest = 0;              ///< which observer that is
+    size_t darkest = 0;  ///< which observer that is
 };
 
 /// Renders the scene of the road for every observer on a device and reads the grid off the pictures. Throws Error.
@@ -45,7 +46,8 @@ RenderedRoad render_road(const RoadLayout&, const RoadResult&, const std::string
 
 /// Calculation and picture side by side.
 std::string text_of(const RoadResult&, const RenderedRoad&);
-/// Writes false colours (.png) or the luminances of each observer (.exr, with the lane in the name where there are several).
+/// Writes false colours (.png) or the luminances of each observer (.exr, with the lane in the name where there are
+/// several).
 void write_picture(const std::string& file, const RoadLayout&, const RoadResult&, const RenderedRoad&);
 
 }  // namespace vesper

@@ -101,7 +101,8 @@ std::string text_of(const RoadLayout& road, const RoadResult& result, const Ligh
                    o.overall_uniformity, o.lengthwise_uniformity, o.threshold_increment, o.veil, o.glare_eye.x);
     const LightingClass* reached = reached_class(result);
     if (result.wet)
-        text += "\nA wet surface: the other limits of the classes (EN 13201-2:2015) are those of the road when it is dry\n";
+        text +=
+            "\nA wet surface: the other limits of the classes (EN 13201-2:2015) are those of the road when it is dry\n";
     else
         text += format("\nLighting class reached (EN 13201-2:2015, dry): %s\n", reached ? reached->name : "none");
     return text;
@@ -144,8 +145,10 @@ std::string csv_of(const RoadLayout& road, const RoadResult& result, const Rende
     return text + "\n";
 }
 
-std::string json_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted, const RenderedRoad* rendered) {
-    nlohmann::ordered_json json = {{"name", road.name}, {"surface", road.surface.name}, {"q0", q0_of(road.surface)}, {"wet", result.wet}};
+std::string json_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted,
+                    const RenderedRoad* rendered) {
+    nlohmann::ordered_json json = {
+        {"name", road.name}, {"surface", road.surface.name}, {"q0", q0_of(road.surface)}, {"wet", result.wet}};
     for (const Figure& figure : figures_of(result)) json[figure.key] = figure.value;
     json["edge_illuminance_ratio_right"] = result.edge_ratio_right;
     json["edge_illuminance_ratio_left"] = result.edge_ratio_left;

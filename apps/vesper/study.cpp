@@ -23,7 +23,8 @@ std::vector<std::string> check_arguments(const StudyArguments& arguments) {
     std::set<std::string> seen;
     for (const std::string& input : arguments.inputs) {
         names.push_back(fs::path(input).stem().string());
-        if (!seen.insert(names.back()).second) throw Error(one_line(input) + ": a second picture of the name " + one_line(names.back()));
+        if (!seen.insert(names.back()).second)
+            throw Error(one_line(input) + ": a second picture of the name " + one_line(names.back()));
         if (!fs::is_regular_file(input)) throw Error(one_line(input) + ": there is no such file");
     }
     parse_size(arguments.source.size);
@@ -34,7 +35,8 @@ std::vector<std::string> check_arguments(const StudyArguments& arguments) {
     return names;
 }
 
-void run(const StudyArguments& arguments, const std::string& what, const std::string& title, const std::function<void(Study&)>& study) {
+void run(const StudyArguments& arguments, const std::string& what, const std::string& title,
+         const std::function<void(Study&)>& study) {
     const ToneChainSettings settings = tone_settings(arguments.tone);
     const std::vector<std::string> names = check_arguments(arguments);
     Device device({.select = arguments.device});
@@ -44,10 +46,12 @@ void run(const StudyArguments& arguments, const std::string& what, const std::st
         pictures.back().name = names[i];
     }
     std::error_code error;
-    if (!fs::is_directory(arguments.folder) && !fs::create_directory(arguments.folder, error)) throw Error("-o " + one_line(arguments.folder) + ": cannot be made a folder");
+    if (!fs::is_directory(arguments.folder) && !fs::create_directory(arguments.folder, error))
+        throw Error("-o " + one_line(arguments.folder) + ": cannot be made a folder");
     ToneMapper mapper(device);
     Study all{arguments, settings, mapper, pictures, StudyPage(title)};
-    all.page.paragraph(format("Display from %.4g to %.4g cd/m\u00b2, %u bits. ", double(settings.display.low()), double(settings.display.high()), settings.display.bits) +
+    all.page.paragraph(format("Display from %.4g to %.4g cd/m\u00b2, %u bits. ", double(settings.display.low()),
+                              double(settings.display.high()), settings.display.bits) +
                        "Differences are of display codes.");
     study(all);
     write_text(all.file(what + ".html"), all.page.html());
@@ -55,20 +59,26 @@ void run(const StudyArguments& arguments, const std::string& what, const std::st
 }
 
 void add_pictures(Command command, StudyArguments& a) {
-    command.add_option("pictures", a.inputs, "OpenEXR or Radiance pictures, or a .gltf or .glb to render once").required();
+    command.add_option("pictures", a.inputs, "OpenEXR or Radiance pictures, or a .gltf or .glb to render once")
+        .required();
     command.add_option("--camera,-c", a.source.camera, "Of a scene: name of a camera (default: the first)");
     command.add_option("--size,-s", a.source.size, "Of a scene: WIDTHxHEIGHT, px").shows_default();
     command.add_option("--start", a.source.start, "Of a scene: its time, s").check(between(0.0, 1e6)).shows_default();
     command.add_option("--layer", a.source.layer, kLayerHelp);
     add_scale_options(command, a.source.scale);
-    command.add_option("--fov", a.source.fov, "Angle a picture covers in height, degrees (default: what the picture says, if Vesper or Radiance made it, or 40)").check(between(0.1, 170.0));
+    command
+        .add_option("--fov", a.source.fov,
+                    "Angle a picture covers in height, degrees (default: what the picture says, if Vesper or Radiance "
+                    "made it, or 40)")
+        .check(between(0.1, 170.0));
 }
 
-Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const std::string& name, const std::string& title, const std::string& help,
-                  const std::string& example, void (*study)(Study&)) {
+Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const std::string& name,
+                const std::string& title, const std::string& help, const std::string& example, void (*study)(Study&)) {
     Command command = studies.add_command(name, help);
     command.add_option("--output,-o", a->folder, "Folder of the page, its pictures, CSV and plots").required();
-    command.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    command.add_option("--device", a->device,
+                       "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     add_tone_options(command, a->tone);
     command.footer("Example:\n  vesper study " + name + " " + example + "\n");
     command.callback([a, name, title, study] {
@@ -81,27 +91,47 @@ Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const
 }  // namespace
 
 void add_study(Command program) {
-    Command studies = program.add_command("study", "Study what settings of the tone operators do: CSV, plots and a page (docs/study.md)");
+    Command studies = program.add_command(
+        "study", "Study what settings of the tone operators do: CSV, plots and a page (docs/study.md)");
     studies.requires_command();
-    const auto mip = std::make_shared<StudyArguments>(), bins = std::make_shared<StudyArguments>(), tunnel = std::make_shared<StudyArguments>(), ops = std::make_shared<StudyArguments>();
+    const auto mip = std::make_shared<StudyArguments>(), bins = std::make_shared<StudyArguments>(),
+               tunnel = std::make_shared<StudyArguments>(), ops = std::make_shared<StudyArguments>();
     mip->source.angle_matters = true;
-    add_pictures(add_one(studies, mip, "mip", "The foveal level", "Foveal levels 1 to 8: what they do to curve and picture, against level 1",
-                          "night.gltf --camera driver -o out/mip", study_mip), *mip);
-    add_pictures(add_one(studies, bins, "bins", "Bins of the histogram", "16 to 256 bins, with shared and with whole votes: how few come within 1 code of 256",
-                          "night.gltf --camera driver -o out/bins", study_bins), *bins);
-    Command compared = add_one(studies, ops, "operators", "Operators side by side", "All operators: contrast and visibility of a target, scene against display",
-                                 "night.gltf --camera driver --contrast 0.3 --minutes 10 -o out/operators", study_operators);
+    add_pictures(add_one(studies, mip, "mip", "The foveal level",
+                         "Foveal levels 1 to 8: what they do to curve and picture, against level 1",
+                         "night.gltf --camera driver -o out/mip", study_mip),
+                 *mip);
+    add_pictures(add_one(studies, bins, "bins", "Bins of the histogram",
+                         "16 to 256 bins, with shared and with whole votes: how few come within 1 code of 256",
+                         "night.gltf --camera driver -o out/bins", study_bins),
+                 *bins);
+    Command compared =
+        add_one(studies, ops, "operators", "Operators side by side",
+                "All operators: contrast and visibility of a target, scene against display",
+                "night.gltf --camera driver --contrast 0.3 --minutes 10 -o out/operators", study_operators);
     add_pictures(compared, *ops);
-    compared.add_option("--contrast", ops->contrast, "Of the target: (Lt - Lb) / Lb").check(between(0.001, 100.0)).shows_default();
-    compared.add_option("--minutes", ops->minutes, "Diameter of the target, arc minutes").check(between(1.0, 60.0)).shows_default();
-    Command adaptation = add_one(studies, tunnel, "adaptation", "Into a tunnel and out of it", "Step responses of every operator that remembers",
-                                   "--outside 5000 --inside 50 -o out/tunnel", study_adaptation);
-    adaptation.add_option("--outside", tunnel->outside, "Luminance before the tunnel, cd/m^2").check(between(1e-3, 1e6)).shows_default();
-    adaptation.add_option("--inside", tunnel->inside, "Luminance in the tunnel, cd/m^2").check(between(1e-3, 1e6)).shows_default();
-    adaptation.add_option("--seconds", tunnel->seconds, "How long each response is followed, s").check(between(0.1, 3600.0)).shows_default();
-    studies.footer("Examples:\n  vesper study bins night.gltf --camera driver -o out/bins\n"
-                    "  vesper study bins *.hdr --scale 179 --operator irawan -o out/bins\n"
-                    "  vesper study adaptation --outside 5000 --inside 50 -o out/tunnel\n");
+    compared.add_option("--contrast", ops->contrast, "Of the target: (Lt - Lb) / Lb")
+        .check(between(0.001, 100.0))
+        .shows_default();
+    compared.add_option("--minutes", ops->minutes, "Diameter of the target, arc minutes")
+        .check(between(1.0, 60.0))
+        .shows_default();
+    Command adaptation = add_one(studies, tunnel, "adaptation", "Into a tunnel and out of it",
+                                 "Step responses of every operator that remembers",
+                                 "--outside 5000 --inside 50 -o out/tunnel", study_adaptation);
+    adaptation.add_option("--outside", tunnel->outside, "Luminance before the tunnel, cd/m^2")
+        .check(between(1e-3, 1e6))
+        .shows_default();
+    adaptation.add_option("--inside", tunnel->inside, "Luminance in the tunnel, cd/m^2")
+        .check(between(1e-3, 1e6))
+        .shows_default();
+    adaptation.add_option("--seconds", tunnel->seconds, "How long each response is followed, s")
+        .check(between(0.1, 3600.0))
+        .shows_default();
+    studies.footer(
+        "Examples:\n  vesper study bins night.gltf --camera driver -o out/bins\n"
+        "  vesper study bins *.hdr --scale 179 --operator irawan -o out/bins\n"
+        "  vesper study adaptation --outside 5000 --inside 50 -o out/tunnel\n");
 }
 
 }  // namespace vesper

@@ -7,10 +7,10 @@
 
 #include "line_plot.h"
 #include "progress.h"
+#include "render/tone_mapper.h"
 #include "study_page.h"
 #include "study_picture.h"
 #include "tone_arguments.h"
-#include "render/tone_mapper.h"
 
 namespace vesper {
 
@@ -37,7 +37,8 @@ struct Study {
 };
 
 /// Operators that a study compares: the one given, which has to be among `candidates`, or all of those. Throws Error.
-std::vector<Operator> studied_operators(const StudyArguments&, const std::vector<Operator>& candidates, const std::string& why);
+std::vector<Operator> studied_operators(const StudyArguments&, const std::vector<Operator>& candidates,
+                                        const std::string& why);
 /// Those that adjust the histogram.
 std::vector<Operator> histogram_operators();
 
@@ -49,8 +50,9 @@ std::vector<double> curve_codes(const ToneMapped&, Operator, const Display&, con
 
 /// What changes between two settings.
 struct Difference {
-    double curve = 0;   ///< largest difference of the curves over the luminances of the picture, codes
-    double largest = 0, percentile = 0, mean = 0;  ///< of the pixels (their worst channel): largest, 99th percentile, mean, codes
+    double curve = 0;  ///< largest difference of the curves over the luminances of the picture, codes
+    double largest = 0, percentile = 0,
+           mean = 0;         ///< of the pixels (their worst channel): largest, 99th percentile, mean, codes
     std::vector<float> map;  ///< of every pixel, codes
 };
 Difference difference(const ToneMapped& from, const ToneMapped& to, const Display&);

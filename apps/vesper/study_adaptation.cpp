@@ -4,14 +4,15 @@
 #include <optional>
 
 #include "arguments.h"
-#include "vision/pattanaik.h"
 #include "shown.h"
 #include "study.h"
+#include "vision/pattanaik.h"
 
 namespace vesper {
 namespace {
 
-const std::vector<std::string> kColumns{"operator", "step", "seconds", "luminance", "pigment", "sigma", "threshold", "threshold_ratio", "shown"};
+const std::vector<std::string> kColumns{"operator", "step",      "seconds",         "luminance", "pigment",
+                                        "sigma",    "threshold", "threshold_ratio", "shown"};
 
 std::vector<Operator> remembering() {
     std::vector<Operator> found;
@@ -52,7 +53,10 @@ Sensitivity of_lagging(const ToneMapped& got, double luminance) {
     };
     const double adaptation = double(got.eye.pattanaik.cones), pigment = double(got.eye.pattanaik.cone_pigment);
     const pattanaik::State adapted = pattanaik::adapted(luminance, luminance);
-    return {pigment, pattanaik::cone_sigma(adaptation), {}, slope(adapted.cones, adapted.cone_pigment) / slope(adaptation, pigment)};
+    return {pigment,
+            pattanaik::cone_sigma(adaptation),
+            {},
+            slope(adapted.cones, adapted.cone_pigment) / slope(adaptation, pigment)};
 }
 
 /// A field of one luminance, whose curve says what anything would be shown as.
@@ -77,39 +81,66 @@ void study_adaptation(Study& study) {
     std::vector<std::vector<std::string>> rows;
     Progress progress("adaptation", unsigned(ops.size() * std::size(steps)));
     for (const Step& step : steps) {
-        const std::string title = format("From %g to %g cd/m\u00b2", step.from, step.to), name = std::string("adaptation-") + step.name;
-        LinePlot ratio{.title = title + ": threshold over that of the adapted eye", .x_name = "s", .y_name = "threshold, times the adapted one", .lines = {}, .log_x = true, .log_y = true, .rule = 1};
-        LinePlot sigma{.title = title + ": half saturation of the cones", .x_name = "s", .y_name = "\u03c3, cd/m\u00b2", .lines = {}, .log_x = true, .log_y = true};
-        LinePlot shown{.title = title + ": what the new luminance is shown as", .x_name = "s", .y_name = "cd/m\u00b2 on the display", .lines = {}, .log_x = true};
+        const std::string title = format("From %g to %g cd/m\u00b2", step.from, step.to),
+                          name = std::string("adaptation-") + step.name;
+        LinePlot ratio{.title = title + ": threshold over that of the adapted eye",
+                       .x_name = "s",
+                       .y_name = "threshold, times the adapted one",
+                       .lines = {},
+                       .log_x = true,
+                       .log_y = true,
+                       .rule = 1};
+        LinePlot sigma{.title = title + ": half saturation of the cones",
+                       .x_name = "s",
+                       .y_name = "\u03c3, cd/m\u00b2",
+                       .lines = {},
+                       .log_x = true,
+                       .log_y = true};
+        LinePlot shown{.title = title + ": what the new luminance is shown as",
+                       .x_name = "s",
+                       .y_name = "cd/m\u00b2 on the display",
+                       .lines = {},
+                       .log_x = true};
         for (const Operator op : ops) {
             ToneChainSettings settings = study.settings;
             settings.tone_operator = op;
             const OperatorInfo& info = operator_info(op);
-            for (LinePlot* plot : {&ratio, &sigma, &shown}) plot->lines.push_back({.name = name_of(op), .points = {}, .dashed = plot->lines.size() > 1});  // thresholds of two may be the same
+            for (LinePlot* plot : {&ratio, &sigma, &shown})
+                plot->lines.push_back({.name = name_of(op),
+                                       .points = {},
+                                       .dashed = plot->lines.size() > 1});  // thresholds of two may be the same
             study.mapper.reset_adaptation();
             look(study, settings, step.from, 0);
             double before = 0;
             for (const double t : times) {
                 const ToneMapped got = look(study, settings, step.to, t - before);
                 before = t;
-                const Sensitivity s = info.tone_operator == Operator::Pattanaik ? of_lagging(got, step.to) : of_eye(got, settings.tone.observer, step.to);
+                const Sensitivity s = info.tone_operator == Operator::Pattanaik
+                                          ? of_lagging(got, step.to)
+                                          : of_eye(got, settings.tone.observer, step.to);
                 const double light = shown_luminance(got.curve, info.form, step.to, settings.display);
                 ratio.lines.back().points.push_back({t, s.ratio});
                 sigma.lines.back().points.push_back({t, s.sigma});
                 shown.lines.back().points.push_back({t, light});
-                rows.push_back({name_of(op), step.name, format("%g", t), format("%g", step.to), format("%.5f", s.pigment), format("%.6g", s.sigma),
-                                s.threshold ? format("%.6g", *s.threshold) : "", format("%.5g", s.ratio), format("%.5g", light)});
+                rows.push_back({name_of(op), step.name, format("%g", t), format("%g", step.to),
+                                format("%.5f", s.pigment), format("%.6g", s.sigma),
+                                s.threshold ? format("%.6g", *s.threshold) : "", format("%.5g", s.ratio),
+                                format("%.5g", light)});
             }
             progress.step();
         }
         study.page.heading(title);
-        for (const auto& [plot, kind] : {std::pair{&ratio, "threshold"}, std::pair{&sigma, "sigma"}, std::pair{&shown, "shown"}}) {
+        for (const auto& [plot, kind] :
+             {std::pair{&ratio, "threshold"}, std::pair{&sigma, "sigma"}, std::pair{&shown, "shown"}}) {
             save_plot(study.file(name + "-" + kind + ".png"), *plot);
             study.page.plot(name + "-" + kind + ".png");
         }
     }
-    study.page.paragraph("The eye is adapted before each step. Thresholds are those of cones for small differences at the new luminance. Pattanaik et al. 2000 have no "
-                         "threshold: its ratio is the inverse ratio of slopes of the cones' response, so that a step of constant response is seen.");
+    study.page.paragraph(
+        "The eye is adapted before each step. Thresholds are those of cones for small differences at the new "
+        "luminance. Pattanaik et al. 2000 have no "
+        "threshold: its ratio is the inverse ratio of slopes of the cones' response, so that a step of constant "
+        "response is seen.");
     write_text(study.file("adaptation.csv"), csv_of(kColumns, rows));
     study.page.heading("All figures");
     study.page.table(kColumns, rows);

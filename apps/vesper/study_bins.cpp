@@ -17,17 +17,19 @@ struct Fewest {
     std::string text() const { return bins ? std::to_string(bins) : "none"; }
 };
 
-const std::vector<std::string> kBinsColumns{"picture", "operator", "votes", "bins", "curve_codes", "largest_codes", "percentile99_codes", "mean_codes"};
+const std::vector<std::string> kBinsColumns{"picture",       "operator",           "votes",     "bins", "curve_codes",
+                                            "largest_codes", "percentile99_codes", "mean_codes"};
 
 bool is_shown(uint32_t bins) { return bins == 16 || bins == 32 || bins == 64 || bins == 100; }
 
 struct Results {
     std::vector<std::vector<std::string>> rows, answers;
-    Fewest shared_curve, whole_curve;                  // over all pictures and operators
-    double of_default = 0;                             // largest difference of the default's curve, codes
+    Fewest shared_curve, whole_curve;  // over all pictures and operators
+    double of_default = 0;             // largest difference of the default's curve, codes
 };
 
-void study_one(Study& study, const StudyPicture& picture, Operator op, Results& all, std::vector<double> worst[2], Progress& progress) {
+void study_one(Study& study, const StudyPicture& picture, Operator op, Results& all, std::vector<double> worst[2],
+               Progress& progress) {
     ToneChainSettings settings = study.settings;
     settings.tone_operator = op;
     const std::vector<double> luminances = luminances_of(picture);
@@ -39,7 +41,11 @@ void study_one(Study& study, const StudyPicture& picture, Operator op, Results& 
     const ToneMapped finest = map(256, true);
     const std::vector<double> finest_codes = curve_codes(finest, op, settings.display, luminances);
     write_codes(study.file(stem + "-256-shared.png"), finest, settings.display);
-    LinePlot plot{.title = picture.name + ", " + name_of(op) + ": curves", .x_name = "luminance of the scene, cd/m\u00b2", .y_name = "display code", .lines = {}, .log_x = true};
+    LinePlot plot{.title = picture.name + ", " + name_of(op) + ": curves",
+                  .x_name = "luminance of the scene, cd/m\u00b2",
+                  .y_name = "display code",
+                  .lines = {},
+                  .log_x = true};
     const auto add_curve = [&](const std::string& name, const std::vector<double>& codes) {
         plot.lines.push_back({.name = name, .points = {}, .dashed = !plot.lines.empty()});
         for (size_t i = 0; i < codes.size(); ++i) plot.lines.back().points.push_back({luminances[i], codes[i]});
@@ -60,7 +66,8 @@ void study_one(Study& study, const StudyPicture& picture, Operator op, Results& 
             pixels[split].add(bins, d.largest <= kLimit);
             worst[split][i] = std::max(worst[split][i], d.curve);
             if (split && bins == HistogramSettings{}.bins) all.of_default = std::max(all.of_default, d.curve);
-            all.rows.push_back({picture.name, name_of(op), votes, std::to_string(bins), format("%.4f", d.curve), format("%.0f", d.largest), format("%.0f", d.percentile), format("%.5f", d.mean)});
+            all.rows.push_back({picture.name, name_of(op), votes, std::to_string(bins), format("%.4f", d.curve),
+                                format("%.0f", d.largest), format("%.0f", d.percentile), format("%.5f", d.mean)});
             if (is_shown(bins)) {
                 const std::string name = stem + "-" + std::to_string(bins) + "-" + votes;
                 write_codes(study.file(name + ".png"), got, settings.display);
@@ -72,7 +79,8 @@ void study_one(Study& study, const StudyPicture& picture, Operator op, Results& 
             progress.step();
         }
     }
-    all.answers.push_back({picture.name, name_of(op), curve[1].text(), curve[0].text(), most[1].text(), most[0].text(), pixels[1].text(), pixels[0].text()});
+    all.answers.push_back({picture.name, name_of(op), curve[1].text(), curve[0].text(), most[1].text(), most[0].text(),
+                           pixels[1].text(), pixels[0].text()});
     save_plot(study.file(stem + "-curves.png"), plot);
     study.page.heading(picture.name + ", " + name_of(op));
     study.page.plot(stem + "-curves.png");
@@ -82,7 +90,8 @@ void study_one(Study& study, const StudyPicture& picture, Operator op, Results& 
 }  // namespace
 
 void study_bins(Study& study) {
-    const std::vector<Operator> ops = studied_operators(study.arguments, histogram_operators(), "it does not adjust a histogram");
+    const std::vector<Operator> ops =
+        studied_operators(study.arguments, histogram_operators(), "it does not adjust a histogram");
     Results all;
     std::vector<double> worst[2]{std::vector<double>(std::size(kBins)), std::vector<double>(std::size(kBins))};
     {
@@ -90,7 +99,13 @@ void study_bins(Study& study) {
         for (const StudyPicture& picture : study.pictures)
             for (const Operator op : ops) study_one(study, picture, op, all, worst, progress);
     }
-    LinePlot plot{.title = "Largest difference of the curve to 256 bins with shared votes, all pictures and operators", .x_name = "bins", .y_name = "codes", .lines = {}, .log_x = true, .log_y = true, .rule = kLimit};
+    LinePlot plot{.title = "Largest difference of the curve to 256 bins with shared votes, all pictures and operators",
+                  .x_name = "bins",
+                  .y_name = "codes",
+                  .lines = {},
+                  .log_x = true,
+                  .log_y = true,
+                  .rule = kLimit};
     for (const bool split : {true, false}) {
         plot.lines.push_back({.name = split ? "shared votes" : "whole votes", .points = {}, .marks = true});
         for (size_t i = 0; i < std::size(kBins); ++i) {
@@ -100,13 +115,23 @@ void study_bins(Study& study) {
     }
     save_plot(study.file("bins.png"), plot);
     write_text(study.file("bins.csv"), csv_of(kBinsColumns, all.rows));
-    const std::vector<std::string> columns{"picture", "operator", "curve, shared votes", "curve, whole votes", "99 % of pixels, shared votes", "99 % of pixels, whole votes", "every pixel, shared votes", "every pixel, whole votes"};
-    const std::string answer = format("Fewest bins from which on every curve is within %g code of that of 256 bins with shared votes: %s with shared votes, %s with whole votes.",
-                                      kLimit, all.shared_curve.text().c_str(), all.whole_curve.text().c_str());
+    const std::vector<std::string> columns{"picture",
+                                           "operator",
+                                           "curve, shared votes",
+                                           "curve, whole votes",
+                                           "99 % of pixels, shared votes",
+                                           "99 % of pixels, whole votes",
+                                           "every pixel, shared votes",
+                                           "every pixel, whole votes"};
+    const std::string answer = format(
+        "Fewest bins from which on every curve is within %g code of that of 256 bins with shared votes: %s with shared "
+        "votes, %s with whole votes.",
+        kLimit, all.shared_curve.text().c_str(), all.whole_curve.text().c_str());
     const uint32_t standard = HistogramSettings{}.bins;
     const bool follows = all.of_default <= kLimit;
-    const std::string verdict = format("The default of %u bins with shared votes is %.2f codes away at most: it %s.", standard, all.of_default,
-                                       follows ? "follows" : "does not follow from this criterion");
+    const std::string verdict =
+        format("The default of %u bins with shared votes is %.2f codes away at most: it %s.", standard, all.of_default,
+               follows ? "follows" : "does not follow from this criterion");
     study.page.heading("Answer");
     study.page.paragraph(answer + " " + verdict);
     study.page.table(columns, all.answers);
@@ -114,8 +139,11 @@ void study_bins(Study& study) {
     study.page.heading("All figures");
     study.page.table(kBinsColumns, all.rows);
     for (const auto& row : all.answers)
-        std::printf("%s, %s: within %g code from so many bins on with shared (whole) votes: curve %s (%s), 99 %% of pixels %s (%s), every pixel %s (%s)\n",
-                    row[0].c_str(), row[1].c_str(), kLimit, row[2].c_str(), row[3].c_str(), row[4].c_str(), row[5].c_str(), row[6].c_str(), row[7].c_str());
+        std::printf(
+            "%s, %s: within %g code from so many bins on with shared (whole) votes: curve %s (%s), 99 %% of pixels %s "
+            "(%s), every pixel %s (%s)\n",
+            row[0].c_str(), row[1].c_str(), kLimit, row[2].c_str(), row[3].c_str(), row[4].c_str(), row[5].c_str(),
+            row[6].c_str(), row[7].c_str());
     std::printf("%s\n%s\n", answer.c_str(), verdict.c_str());
 }
 

@@ -47,27 +47,32 @@ std::vector<Operator> histogram_operators() {
     return found;
 }
 
-std::vector<Operator> studied_operators(const StudyArguments& arguments, const std::vector<Operator>& candidates, const std::string& why) {
+std::vector<Operator> studied_operators(const StudyArguments& arguments, const std::vector<Operator>& candidates,
+                                        const std::string& why) {
     const EyeArguments& eye = arguments.tone.eye;
     if (eye.command.count("--operator") == 0) return candidates;
     const Operator given = tone_settings(arguments.tone).tone_operator;
-    if (std::find(candidates.begin(), candidates.end(), given) == candidates.end()) throw Error("--operator " + name_of(given) + ": " + why);
+    if (std::find(candidates.begin(), candidates.end(), given) == candidates.end())
+        throw Error("--operator " + name_of(given) + ": " + why);
     return {given};
 }
 
 std::vector<double> luminances_of(const StudyPicture& picture) {
     constexpr int kSteps = 1000;
     std::vector<double> luminances;
-    for (int i = 0; i <= kSteps; ++i) luminances.push_back(picture.darkest * std::pow(picture.brightest / picture.darkest, double(i) / kSteps));
+    for (int i = 0; i <= kSteps; ++i)
+        luminances.push_back(picture.darkest * std::pow(picture.brightest / picture.darkest, double(i) / kSteps));
     return luminances;
 }
 
-std::vector<double> curve_codes(const ToneMapped& shown, Operator op, const Display& display, const std::vector<double>& luminances) {
+std::vector<double> curve_codes(const ToneMapped& shown, Operator op, const Display& display,
+                                const std::vector<double>& luminances) {
     const DisplayCurve curve(display);
     const double reflected = double(display.low() - display.black);
     std::vector<double> codes;
     for (const double l : luminances)
-        codes.push_back(code_of(curve, shown_luminance(shown.curve, operator_info(op).form, l, display) - reflected, display.largest_code()));
+        codes.push_back(code_of(curve, shown_luminance(shown.curve, operator_info(op).form, l, display) - reflected,
+                                display.largest_code()));
     return codes;
 }
 
@@ -98,7 +103,8 @@ Difference difference(const ToneMapped& from, const ToneMapped& to, const Displa
 }
 
 std::string describe(const Difference& d) {
-    return format("curve %.2f, largest %.0f, 99 %% within %.0f, mean %.3f codes", d.curve, d.largest, d.percentile, d.mean);
+    return format("curve %.2f, largest %.0f, 99 %% within %.0f, mean %.3f codes", d.curve, d.largest, d.percentile,
+                  d.mean);
 }
 
 }  // namespace vesper

@@ -11,7 +11,9 @@ namespace {
 
 constexpr uint32_t kLevels = 8;
 
-const std::vector<std::string> kMipColumns{"picture", "operator", "level", "degrees", "adaptation", "curve_codes", "largest_codes", "percentile99_codes", "mean_codes"};
+const std::vector<std::string> kMipColumns{"picture",       "operator",           "level",
+                                           "degrees",       "adaptation",         "curve_codes",
+                                           "largest_codes", "percentile99_codes", "mean_codes"};
 
 /// Levels that the pyramid of a picture has, at most eight.
 uint32_t levels_of(const StudyPicture& picture) {
@@ -22,9 +24,13 @@ uint32_t levels_of(const StudyPicture& picture) {
 }  // namespace
 
 void study_mip(Study& study) {
-    const std::vector<Operator> ops = studied_operators(study.arguments, histogram_operators(), "it does not adjust a histogram");
+    const std::vector<Operator> ops =
+        studied_operators(study.arguments, histogram_operators(), "it does not adjust a histogram");
     std::vector<std::vector<std::string>> rows;
-    LinePlot summary{.title = "Largest difference of the curve to that of level 1", .x_name = "foveal level", .y_name = "codes", .lines = {}};
+    LinePlot summary{.title = "Largest difference of the curve to that of level 1",
+                     .x_name = "foveal level",
+                     .y_name = "codes",
+                     .lines = {}};
     Progress progress("mip", unsigned(study.pictures.size() * ops.size()));
     for (const StudyPicture& picture : study.pictures)
         for (const Operator op : ops) {
@@ -32,7 +38,11 @@ void study_mip(Study& study) {
             settings.tone_operator = op;
             const std::string stem = picture.name + "-" + name_of(op);
             const std::vector<double> luminances = luminances_of(picture);
-            LinePlot plot{.title = stem + ": curves of the levels", .x_name = "luminance of the scene, cd/m\u00b2", .y_name = "display code", .lines = {}, .log_x = true};
+            LinePlot plot{.title = stem + ": curves of the levels",
+                          .x_name = "luminance of the scene, cd/m\u00b2",
+                          .y_name = "display code",
+                          .lines = {},
+                          .log_x = true};
             summary.lines.push_back({.name = stem, .points = {}, .marks = true});
             std::vector<StudyPage::Figure> shown;
             ToneMapped finest;
@@ -44,18 +54,23 @@ void study_mip(Study& study) {
                 if (level == 1) finest = got, finest_codes = codes;
                 Difference d = difference(got, finest, settings.display);
                 d.curve = largest_difference(codes, finest_codes);
-                const double degrees = View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1)).degrees_per_pixel() * double(1u << level);
-                rows.push_back({picture.name, name_of(op), std::to_string(level), format("%.4g", degrees), format("%.5g", double(got.curve.adaptation)), format("%.4f", d.curve),
+                const double degrees =
+                    View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1)).degrees_per_pixel() *
+                    double(1u << level);
+                rows.push_back({picture.name, name_of(op), std::to_string(level), format("%.4g", degrees),
+                                format("%.5g", double(got.curve.adaptation)), format("%.4f", d.curve),
                                 format("%.0f", d.largest), format("%.0f", d.percentile), format("%.5f", d.mean)});
                 summary.lines.back().points.push_back({double(level), d.curve});
                 plot.lines.push_back({.name = format("level %u, %.3g\u00b0", level, degrees), .points = {}});
                 for (size_t i = 0; i < codes.size(); ++i) plot.lines.back().points.push_back({luminances[i], codes[i]});
                 const std::string name = stem + "-level" + std::to_string(level);
                 write_codes(study.file(name + ".png"), got, settings.display);
-                shown.push_back({name + ".png", format("level %u: %.3g\u00b0 a texel, adaptation %.4g cd/m\u00b2", level, degrees, double(got.curve.adaptation))});
+                shown.push_back({name + ".png", format("level %u: %.3g\u00b0 a texel, adaptation %.4g cd/m\u00b2",
+                                                       level, degrees, double(got.curve.adaptation))});
                 if (level == 1) continue;
                 save_difference(study.file(name + "-difference.png"), got.extent.width, got.extent.height, d.map);
-                shown.push_back({name + "-difference.png", format("level %u, difference to level 1: ", level) + describe(d)});
+                shown.push_back(
+                    {name + "-difference.png", format("level %u, difference to level 1: ", level) + describe(d)});
             }
             save_plot(study.file(stem + "-curves.png"), plot);
             study.page.heading(picture.name + ", " + name_of(op));

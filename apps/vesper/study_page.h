@@ -31,8 +31,8 @@ private:
 /// A table as CSV: a line of column names, a line per row.
 std::string csv_of(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& rows);
 
-/// Writes differences in display codes as false colours, black where there is none, with a bar from 0.5 codes to at least 20.
-/// Large pictures are shown smaller, by means. Throws Error.
+/// Writes differences in display codes as false colours, black where there is none, with a bar from 0.5 codes to at
+/// least 20. Large pictures are shown smaller, by means. Throws Error.
 void save_difference(const std::string& file, uint32_t width, uint32_t height, std::span<const float> codes);
 
 }  // namespace vesper

@@ -19,7 +19,8 @@ namespace {
 bool is_scene(const std::string& name) { return name.ends_with(".gltf") || name.ends_with(".glb"); }
 
 /// Renders the scene once.
-StudyPicture rendered(const PictureSource& arguments, Device& device, const ToneChainSettings& settings, const std::string& input) {
+StudyPicture rendered(const PictureSource& arguments, Device& device, const ToneChainSettings& settings,
+                      const std::string& input) {
     const VkExtent2D extent = parse_size(arguments.size);
     LoadedScene loaded = read_gltf(input);
     for (const std::string& note : notes_of(loaded, input)) std::fprintf(stderr, "note: %s\n", note.c_str());
@@ -37,9 +38,11 @@ StudyPicture rendered(const PictureSource& arguments, Device& device, const Tone
 
 StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
     HdrImage image = read_hdr_image(input, {}, arguments.layer);
-    PictureMeaning meaning = meaning_of(image, {.scale = arguments.scale, .fov = arguments.fov, .angle_matters = arguments.angle_matters});
+    PictureMeaning meaning =
+        meaning_of(image, {.scale = arguments.scale, .fov = arguments.fov, .angle_matters = arguments.angle_matters});
     if (!meaning.scale_note.empty()) meaning.notes.push_back(meaning.scale_note);
-    for (const std::string& note : meaning.notes) std::fprintf(stderr, "note: %s: %s\n", one_line(input).c_str(), note.c_str());
+    for (const std::string& note : meaning.notes)
+        std::fprintf(stderr, "note: %s: %s\n", one_line(input).c_str(), note.c_str());
     return {.name = {},
             .extent = {image.width, image.height},
             .values = std::move(image.rgb),
@@ -68,7 +71,8 @@ double StudyPicture::luminance(size_t i) const {
     return double(scale * (shared::kRed * rgb[0] + shared::kGreen * rgb[1] + shared::kBlue * rgb[2]));
 }
 
-StudyPicture read_study_picture(const PictureSource& arguments, Device& device, const ToneChainSettings& settings, const std::string& input) {
+StudyPicture read_study_picture(const PictureSource& arguments, Device& device, const ToneChainSettings& settings,
+                                const std::string& input) {
     StudyPicture picture = is_scene(input) ? rendered(arguments, device, settings, input) : loaded(arguments, input);
     measure(picture, input);
     return picture;

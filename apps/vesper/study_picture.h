@@ -11,12 +11,12 @@ namespace vesper {
 
 /// A picture under study, on the host.
 struct StudyPicture {
-    std::string name;           ///< what its files begin with
+    std::string name;  ///< what its files begin with
     VkExtent2D extent{};
-    std::vector<float> values;  ///< rows from the top
-    uint32_t channels = 3;      ///< 3, or 4 with alpha that is ignored
-    float scale = 1;            ///< cd/m^2 per unit
-    double vertical_fov = 0.7;  ///< rad
+    std::vector<float> values;          ///< rows from the top
+    uint32_t channels = 3;              ///< 3, or 4 with alpha that is ignored
+    float scale = 1;                    ///< cd/m^2 per unit
+    double vertical_fov = 0.7;          ///< rad
     double darkest = 0, brightest = 0;  ///< luminance of pixels with light, cd/m^2
 
     /// Of the i-th pixel, cd/m^2.
@@ -26,12 +26,12 @@ struct StudyPicture {
 
 /// How pictures are read and scenes are rendered.
 struct PictureSource {
-    std::string camera, size = "1680x1050";   ///< of a scene
-    double start = 0;                         ///< s, of a scene
-    std::string layer;                        ///< of OpenEXR files, see read_hdr_image
-    ScaleArguments scale;                     ///< of a picture
-    double fov = 0;                           ///< angle a picture covers in height, degrees; 0: as its file says, or 40
-    bool angle_matters = false;               ///< to the study, so that a guess is noted
+    std::string camera, size = "1680x1050";  ///< of a scene
+    double start = 0;                        ///< s, of a scene
+    std::string layer;                       ///< of OpenEXR files, see read_hdr_image
+    ScaleArguments scale;                    ///< of a picture
+    double fov = 0;                          ///< angle a picture covers in height, degrees; 0: as its file says, or 40
+    bool angle_matters = false;              ///< to the study, so that a guess is noted
 };
 
 /// A picture without a name. Prints notes. Throws Error if it cannot be read or is black.

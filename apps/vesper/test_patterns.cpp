@@ -34,7 +34,8 @@ public:
     /// Words in one code, smoothed by mixing codes.
     void write(const std::vector<Label>& labels, double size, uint32_t code) {
         Canvas canvas(width(), height(), CanvasColour(0));
-        for (const Label& label : labels) canvas.text(label.at, label.text, size, Canvas::Align::Centre, CanvasColour(1));
+        for (const Label& label : labels)
+            canvas.text(label.at, label.text, size, Canvas::Align::Centre, CanvasColour(1));
         const std::vector<uint8_t> coverage = canvas.rgba();
         for (size_t i = 0; i < pixels_.size(); ++i) {
             const double part = coverage[4 * i] / 255.0;
@@ -64,12 +65,15 @@ Pattern ramp(const PatternSettings& s, uint32_t largest) {
     const auto code_at = [&](uint32_t x) { return uint32_t(uint64_t{x} * (largest + 1) / s.width); };
     const uint32_t band = s.height / 6;
     const Codes colours[]{{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (uint32_t i = 0; i < 4; ++i) made.fill({0, i * band}, {s.width, (i + 1) * band}, [&](uint32_t x) { return code_at(x) * colours[i]; });
+    for (uint32_t i = 0; i < 4; ++i)
+        made.fill({0, i * band}, {s.width, (i + 1) * band}, [&](uint32_t x) { return code_at(x) * colours[i]; });
     constexpr uint32_t kSteps = 17;
     const auto step_at = [&](uint32_t step) { return uint32_t(std::lround(double(step) * largest / (kSteps - 1))); };
-    made.fill({0, 4 * band}, {s.width, 5 * band + band / 2}, [&](uint32_t x) { return Codes(step_at(uint32_t(uint64_t{x} * kSteps / s.width))); });
+    made.fill({0, 4 * band}, {s.width, 5 * band + band / 2},
+              [&](uint32_t x) { return Codes(step_at(uint32_t(uint64_t{x} * kSteps / s.width))); });
     std::vector<Pattern::Label> labels;
-    for (uint32_t i = 0; i < kSteps; ++i) labels.push_back({{(i + 0.5) * s.width / kSteps, s.height - band / 4.0}, std::to_string(step_at(i))});
+    for (uint32_t i = 0; i < kSteps; ++i)
+        labels.push_back({{(i + 0.5) * s.width / kSteps, s.height - band / 4.0}, std::to_string(step_at(i))});
     made.write(labels, std::max(8.0, s.width / 90.0), largest / 2);
     return made;
 }
@@ -91,7 +95,8 @@ Pattern steps(const PatternSettings& s, uint32_t largest, bool white) {
 
 Pattern patch(const PatternSettings& s, uint32_t code) {
     Pattern made(s, Codes(0));
-    const glm::uvec2 size(s.width, s.height), side(glm::max(glm::dvec2(1), glm::round(s.window * glm::dvec2(size)))), from = (size - side) / 2u;
+    const glm::uvec2 size(s.width, s.height), side(glm::max(glm::dvec2(1), glm::round(s.window * glm::dvec2(size)))),
+        from = (size - side) / 2u;
     made.fill(from, from + side, [&](uint32_t) { return Codes(code); });
     return made;
 }
@@ -100,7 +105,8 @@ Pattern patch(const PatternSettings& s, uint32_t code) {
 std::vector<uint32_t> measured_codes(const PatternSettings& s) {
     const uint32_t largest = (1u << s.bits) - 1;
     std::vector<uint32_t> codes;
-    for (uint32_t i = 0; i < s.patches; ++i) codes.push_back(uint32_t(std::lround(double(i) * largest / (s.patches - 1))));
+    for (uint32_t i = 0; i < s.patches; ++i)
+        codes.push_back(uint32_t(std::lround(double(i) * largest / (s.patches - 1))));
     for (uint32_t near_black = 1; near_black < codes[1]; near_black *= 2) codes.push_back(near_black);
     std::sort(codes.begin(), codes.end());
     codes.erase(std::unique(codes.begin(), codes.end()), codes.end());

@@ -15,8 +15,8 @@
 #include "numbered_files.h"
 #include "picture_arguments.h"
 #include "progress.h"
-#include "tone_arguments.h"
 #include "render/tone_mapper.h"
+#include "tone_arguments.h"
 #include "video.h"
 
 namespace vesper {
@@ -48,7 +48,7 @@ struct Plan {
     std::vector<Job> jobs;
     bool sequence = false;  ///< the eye remembers from each to the next
     double fps = 0;
-    std::string film;       ///< empty: none
+    std::string film;  ///< empty: none
 };
 
 bool is_folder(const std::string& name) { return name.ends_with('/') || fs::is_directory(name); }
@@ -57,7 +57,8 @@ bool is_folder(const std::string& name) { return name.ends_with('/') || fs::is_d
 std::string output_of(const std::string& output, const std::string& input, unsigned number, bool single) {
     if (is_folder(output)) return (fs::path(output) / fs::path(input).stem()).string() + ".png";
     if (const auto name = numbered_name("-o", output)) return name->at(number);
-    if (!single) throw Error("-o " + one_line(output) + ": several pictures need a folder, a name with %04d in it, or a .mp4");
+    if (!single)
+        throw Error("-o " + one_line(output) + ": several pictures need a folder, a name with %04d in it, or a .mp4");
     return output;
 }
 
@@ -67,7 +68,8 @@ void check_outputs(const Plan& plan) {
     files.writes("-o", plan.film);
     for (const Job& job : plan.jobs)
         for (const std::string& output : job.outputs) {
-            if (!output.ends_with(".png") && !output.ends_with(".exr")) throw Error("-o " + one_line(output) + ": a .png, .exr or .mp4 file or a folder is expected");
+            if (!output.ends_with(".png") && !output.ends_with(".exr"))
+                throw Error("-o " + one_line(output) + ": a .png, .exr or .mp4 file or a folder is expected");
             files.writes("-o", output);
         }
 }
@@ -77,7 +79,8 @@ Plan plan_of(const TonemapArguments& arguments) {
     std::vector<NumberedFile> files;
     for (const std::string& input : arguments.inputs) {
         if (const auto name = numbered_name("input", input)) {
-            if (arguments.inputs.size() > 1) throw Error(one_line(input) + ": a sequence stands alone, without other pictures");
+            if (arguments.inputs.size() > 1)
+                throw Error(one_line(input) + ": a sequence stands alone, without other pictures");
             files = numbered_files(*name);
             plan.sequence = true;
         } else {
@@ -91,7 +94,9 @@ Plan plan_of(const TonemapArguments& arguments) {
         Job job{files[i].file, {}, 0};
         const unsigned missing = plan.sequence && i > 0 ? files[i].number - files[i - 1].number - 1 : 0;
         if (plan.sequence && i > 0) job.seconds = (missing + 1) / plan.fps;  // missing frames take their time
-        if (missing > 0) std::fprintf(stderr, "note: %u %s before %s\n", missing, missing == 1 ? "picture is missing" : "pictures are missing", one_line(files[i].file).c_str());
+        if (missing > 0)
+            std::fprintf(stderr, "note: %u %s before %s\n", missing,
+                         missing == 1 ? "picture is missing" : "pictures are missing", one_line(files[i].file).c_str());
         for (const std::string& output : arguments.outputs) {
             if (!output.ends_with(".mp4"))
                 job.outputs.push_back(output_of(output, files[i].file, files[i].number, files.size() == 1));
@@ -102,7 +107,8 @@ Plan plan_of(const TonemapArguments& arguments) {
         }
         plan.jobs.push_back(std::move(job));
     }
-    if (!plan.film.empty() && !plan.sequence) throw Error("-o " + one_line(plan.film) + ": a film is made of a sequence: give frame.%04d.exr, or --fps");
+    if (!plan.film.empty() && !plan.sequence)
+        throw Error("-o " + one_line(plan.film) + ": a film is made of a sequence: give frame.%04d.exr, or --fps");
     check_outputs(plan);
     return plan;
 }
@@ -114,31 +120,45 @@ struct TonemappedPicture {
 };
 
 /// `held`: see PictureRequest.
-TonemappedPicture show(const TonemapArguments& arguments, const ToneChainSettings& settings, const std::vector<OffscreenLamp>& lamps, ToneMapper& mapper,
-           const Job& job, bool wants_codes, double held) {
+TonemappedPicture show(const TonemapArguments& arguments, const ToneChainSettings& settings,
+                       const std::vector<OffscreenLamp>& lamps, ToneMapper& mapper, const Job& job, bool wants_codes,
+                       double held) {
     const HdrImage image = read_hdr_image(job.input, {}, arguments.layer);
     TonemappedPicture shown;
-    shown.meaning = meaning_of(image, {.scale = arguments.scale,
-                                       .fov = arguments.fov,
-                                       .angle_matters = settings.glare == Glare::Scatter || !arguments.glare.target.empty(),
-                                       .to_white = settings.tone_operator == Operator::Ldr,
-                                       .held = held});
+    shown.meaning =
+        meaning_of(image, {.scale = arguments.scale,
+                           .fov = arguments.fov,
+                           .angle_matters = settings.glare == Glare::Scatter || !arguments.glare.target.empty(),
+                           .to_white = settings.tone_operator == Operator::Ldr,
+                           .held = held});
     Outputs outputs{.display = wants_codes, .scene = false, .display_light = false};
-    for (const std::string& output : job.outputs) (output.ends_with(".png") ? outputs.display : outputs.display_light) = true;
+    for (const std::string& output : job.outputs)
+        (output.ends_with(".png") ? outputs.display : outputs.display_light) = true;
     const double vertical = shown.meaning.fov * std::numbers::pi / 180;
-    const bool asks_glare = settings.tone_operator != Operator::Ldr && (outputs.display_light || arguments.statistics || !arguments.glare.target.empty());
+    const bool asks_glare = settings.tone_operator != Operator::Ldr &&
+                            (outputs.display_light || arguments.statistics || !arguments.glare.target.empty());
     outputs.scene = asks_glare;
     try {
-        shown.picture = mapper.map(settings, {.extent = {image.width, image.height}, .values = image.rgb, .channels = 3, .scale = float(shown.meaning.scale), .vertical_fov = vertical, .outside = lamps},
+        shown.picture = mapper.map(settings,
+                                   {.extent = {image.width, image.height},
+                                    .values = image.rgb,
+                                    .channels = 3,
+                                    .scale = float(shown.meaning.scale),
+                                    .vertical_fov = vertical,
+                                    .outside = lamps},
                                    float(job.seconds), outputs);
-        if (asks_glare) shown.glare = glare_of(arguments.glare, settings, shown.picture, angles_of(View::symmetric(shown.picture.extent, float(vertical), glm::mat4(1))), lamps);
+        if (asks_glare)
+            shown.glare =
+                glare_of(arguments.glare, settings, shown.picture,
+                         angles_of(View::symmetric(shown.picture.extent, float(vertical), glm::mat4(1))), lamps);
     } catch (const Error& error) {
         throw Error(one_line(job.input) + ": " + error.what());
     }
     return shown;
 }
 
-void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& settings, const Device& device, const Job& job, const TonemappedPicture& shown) {
+void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& settings, const Device& device,
+                   const Job& job, const TonemappedPicture& shown) {
     const ToneMapped& picture = shown.picture;
     const Header scale{{"vesper:sourceScale", digits(shown.meaning.scale)},
                        {"vesper:sourceScaleFrom", shown.meaning.scale_source},
@@ -146,7 +166,8 @@ void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& s
     const bool own_scale = shown.meaning.scale_source == "header" && arguments.scale.exposure == 0;
     for (const std::string& output : job.outputs) {
         if (output.ends_with(".png")) {
-            // PNGs have no other provenance: shown at the file's own scale, a frame has the bytes that `vesper render` writes.
+            // PNGs have no other provenance: shown at the file's own scale, a frame has the bytes that `vesper render`
+            // writes.
             write_codes(output, picture, settings.display, own_scale ? Header() : scale);
             continue;
         }
@@ -193,17 +214,23 @@ private:
 void report(const TonemapArguments& arguments, const Job& job, const TonemappedPicture& shown) {
     const ToneMapped& p = shown.picture;
     if (p.histogram.non_finite > 0)
-        std::fprintf(stderr, "note: %s: %u of %u pixels are not finite and shown black\n", one_line(job.input).c_str(), p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite);
+        std::fprintf(stderr, "note: %s: %u of %u pixels are not finite and shown black\n", one_line(job.input).c_str(),
+                     p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite);
     if (!arguments.glare.target.empty())
         std::printf("%s: %s", one_line(job.input).c_str(), target_line(shown.glare).c_str());
     if (!arguments.statistics) return;
     double device = 0;
     for (const Timing& timing : p.timings) device += timing.milliseconds;
-    std::printf("%s: %u x %u px, %.4g cd/m^2 per unit, adaptation %.4g cd/m^2, maximum %.4g cd/m^2, foveal level %u (%.3g degrees), %.1f ms (device %.1f)\n",
-                one_line(job.input).c_str(), p.extent.width, p.extent.height, shown.meaning.scale, double(p.curve.adaptation), double(p.curve.maximum), p.foveal_level, shown.meaning.fov,
-                p.milliseconds, device);
-    std::printf("  veil %.4g cd/m^2, threshold increment %.3g %%, background %.4g cd/m^2\n", shown.glare.veil, shown.glare.increment, shown.glare.background);
-    if (p.pupil > 0) std::printf("  pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", p.pupil, p.pattern_milliseconds);
+    std::printf(
+        "%s: %u x %u px, %.4g cd/m^2 per unit, adaptation %.4g cd/m^2, maximum %.4g cd/m^2, foveal level %u (%.3g "
+        "degrees), %.1f ms (device %.1f)\n",
+        one_line(job.input).c_str(), p.extent.width, p.extent.height, shown.meaning.scale, double(p.curve.adaptation),
+        double(p.curve.maximum), p.foveal_level, shown.meaning.fov, p.milliseconds, device);
+    std::printf("  veil %.4g cd/m^2, threshold increment %.3g %%, background %.4g cd/m^2\n", shown.glare.veil,
+                shown.glare.increment, shown.glare.background);
+    if (p.pupil > 0)
+        std::printf("  pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", p.pupil,
+                    p.pattern_milliseconds);
     for (const Timing& timing : p.timings) std::printf("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
 }
 
@@ -213,7 +240,8 @@ void run(const TonemapArguments& arguments) {
     const Plan plan = plan_of(arguments);
     const std::vector<OffscreenLamp> lamps = read_lamps(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs)
-        if (output.ends_with('/') && !fs::is_directory(output)) throw Error("-o " + one_line(output) + ": there is no such folder");
+        if (output.ends_with('/') && !fs::is_directory(output))
+            throw Error("-o " + one_line(output) + ": there is no such folder");
 
     Device device({.select = arguments.device});
     ToneMapper mapper(device);
@@ -227,7 +255,8 @@ void run(const TonemapArguments& arguments) {
         try {
             const TonemappedPicture shown = show(arguments, settings, lamps, mapper, job, !plan.film.empty(), held);
             const auto [width, height] = shown.picture.extent;
-            if (!plan.film.empty() && !film) film = std::make_unique<Video>(plan.film, width, height, plan.fps, settings.display);
+            if (!plan.film.empty() && !film)
+                film = std::make_unique<Video>(plan.film, width, height, plan.fps, settings.display);
             write_outputs(arguments, settings, device, job, shown);
             if (film) film->add(shown.picture.display);
             notes.tell(job, shown.meaning, plan.sequence);
@@ -242,7 +271,9 @@ void run(const TonemapArguments& arguments) {
         progress.step();
     }
     if (film) film->finish();
-    if (failed > 0) throw Error(std::to_string(failed) + " of " + std::to_string(plan.jobs.size()) + " pictures could not be shown");
+    if (failed > 0)
+        throw Error(std::to_string(failed) + " of " + std::to_string(plan.jobs.size()) +
+                    " pictures could not be shown");
 }
 
 }  // namespace
@@ -250,26 +281,35 @@ void run(const TonemapArguments& arguments) {
 void add_tonemap(Command program) {
     Command command = program.add_command("tonemap", "Show HDR pictures and films on a display (docs/tonemap.md)");
     const auto a = std::make_shared<TonemapArguments>();
-    command.add_option("pictures", a->inputs, "OpenEXR or Radiance pictures, or frame.%04d.exr for a sequence").required();
-    command.add_option("--output,-o", a->outputs,
-                        "OUT.png: codes; OUT.exr: cd/m^2 on the display; OUT.mp4; or a folder\n"
-                        "A folder or %04d for several; may be given more than once")
+    command.add_option("pictures", a->inputs, "OpenEXR or Radiance pictures, or frame.%04d.exr for a sequence")
+        .required();
+    command
+        .add_option("--output,-o", a->outputs,
+                    "OUT.png: codes; OUT.exr: cd/m^2 on the display; OUT.mp4; or a folder\n"
+                    "A folder or %04d for several; may be given more than once")
         .required();
     command.add_option("--layer", a->layer, kLayerHelp);
     add_scale_options(command, a->scale);
-    command.add_option("--fps", a->fps, "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for frame.%04d.exr: 30)").check(between(0.001, 10000.0));
-    command.add_option("--fov", a->fov,
-                        "Angle the picture covers in height, degrees\n"
-                        "Default: what the picture says, if Vesper or Radiance made it, or 40")
+    command
+        .add_option("--fps", a->fps,
+                    "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for "
+                    "frame.%04d.exr: 30)")
+        .check(between(0.001, 10000.0));
+    command
+        .add_option("--fov", a->fov,
+                    "Angle the picture covers in height, degrees\n"
+                    "Default: what the picture says, if Vesper or Radiance made it, or 40")
         .check(between(0.1, 170.0));
     command.add_flag("--stats", a->statistics, "Print adaptation, glare and milliseconds of each picture");
-    command.add_option("--device", a->device, "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    command.add_option("--device", a->device,
+                       "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     add_tone_options(command, a->tone);
     add_glare_options(command, a->glare);
-    command.footer("Examples:\n  vesper tonemap night.exr --display projector -o night.png\n"
-                    "  vesper tonemap *.hdr --exposure 1 --operator reinhard -o shown/\n"
-                    "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"
-                    "  vesper tonemap night.exr --display hdr10 -o night-pq.png -o night-on-display.exr\n");
+    command.footer(
+        "Examples:\n  vesper tonemap night.exr --display projector -o night.png\n"
+        "  vesper tonemap *.hdr --exposure 1 --operator reinhard -o shown/\n"
+        "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"
+        "  vesper tonemap night.exr --display hdr10 -o night-pq.png -o night-on-display.exr\n");
     command.callback([a, command] {
         a->options = options_of(command, {"--output", "--stats"});
         run(*a);

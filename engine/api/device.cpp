@@ -13,9 +13,13 @@ void vesper_version(uint32_t version[3]) {
 VesperResult vesper_device_open(const VesperDeviceOptions* options, VesperDevice** device, VesperError* error) {
     return guarded(error, [&] {
         require(device, "no place for the device");
-        const VesperDeviceOptions o = options ? known(options, "device options without their size") : VesperDeviceOptions{};
+        const VesperDeviceOptions o =
+            options ? known(options, "device options without their size") : VesperDeviceOptions{};
         DeviceOptions opened{.select = o.select ? o.select : "", .validation = o.validation != 0, .on_message = {}};
-        if (o.on_message) opened.on_message = [call = o.on_message, user = o.user](const std::string& message) { call(message.c_str(), user); };
+        if (o.on_message)
+            opened.on_message = [call = o.on_message, user = o.user](const std::string& message) {
+                call(message.c_str(), user);
+            };
         *device = new VesperDevice(opened);
     });
 }
@@ -27,9 +31,11 @@ const char* const* vesper_device_extensions(uint32_t* count) {
     return kDeviceExtensions.data();
 }
 
-VesperResult vesper_device_features(VkPhysicalDevice physical_device, VkPhysicalDeviceFeatures2* features, VesperError* error) {
+VesperResult vesper_device_features(VkPhysicalDevice physical_device, VkPhysicalDeviceFeatures2* features,
+                                    VesperError* error) {
     return guarded(error, [&] {
-        require(physical_device && features && features->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, "no physical device, or no features to set");
+        require(physical_device && features && features->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                "no physical device, or no features to set");
         const std::string missing = missing_support(physical_device);
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(physical_device, &properties);
@@ -42,10 +48,13 @@ VesperResult vesper_device_borrow(const VesperHostDevice* host, VesperDevice** d
     return guarded(error, [&] {
         require(device, "no place for the device");
         const VesperHostDevice h = known(host, "a device of the host's without its size");
-        require(h.instance && h.physical_device && h.device && h.queue, "a device of the host's has an instance, a physical device, a device and a queue");
-        require(h.created_with && h.created_with->sType == VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, "what the device was made with is missing");
+        require(h.instance && h.physical_device && h.device && h.queue,
+                "a device of the host's has an instance, a physical device, a device and a queue");
+        require(h.created_with && h.created_with->sType == VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                "what the device was made with is missing");
         require(!h.lock_queue == !h.unlock_queue, "a queue is locked and unlocked, or neither");
-        BorrowedDevice given{h.instance, h.physical_device, h.device, h.queue, h.queue_family, h.api_version, h.created_with, {}, {}};
+        BorrowedDevice given{h.instance,    h.physical_device, h.device, h.queue, h.queue_family,
+                             h.api_version, h.created_with,    {},       {}};
         if (h.lock_queue) {
             given.lock = [call = h.lock_queue, user = h.user] { call(user); };
             given.unlock = [call = h.unlock_queue, user = h.user] { call(user); };

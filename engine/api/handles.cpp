@@ -37,7 +37,8 @@ struct KeptEye {
     shared::EyeState eye;
 };
 
-/// FNV-1a (Fowler, Noll and Vo), 32 bits, of the version and the eye: files damaged on the way give pictures, but wrong ones.
+/// FNV-1a (Fowler, Noll and Vo), 32 bits, of the version and the eye: files damaged on the way give pictures, but wrong
+/// ones.
 uint32_t sum_of(const shared::EyeState& eye) {
     constexpr uint32_t kVersion[]{VESPER_VERSION_MAJOR, VESPER_VERSION_MINOR, VESPER_VERSION_PATCH};
     uint32_t sum = 2166136261u;
@@ -50,24 +51,36 @@ uint32_t sum_of(const shared::EyeState& eye) {
 }
 
 // What an image of colours can be in, by Vulkan 1.3 and in a host that presents.
-constexpr std::array kLayouts{VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_PREINITIALIZED, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                              VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
+constexpr std::array kLayouts{VK_IMAGE_LAYOUT_UNDEFINED,
+                              VK_IMAGE_LAYOUT_PREINITIALIZED,
+                              VK_IMAGE_LAYOUT_GENERAL,
+                              VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                              VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                              VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL,
+                              VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL,
+                              VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
                               VK_IMAGE_LAYOUT_ATTACHMENT_FEEDBACK_LOOP_OPTIMAL_EXT};
 
 ExternalImage image_of(const VesperImage* given) {
     const VesperImage i = known(given, "an image without its size");
     require(i.image != VK_NULL_HANDLE, "no image");
-    for (const VkImageLayout layout : {i.layout_before, i.layout_after}) require(std::ranges::find(kLayouts, layout) != kLayouts.end(), "colours have no such layout");
-    require(i.layout_after != VK_IMAGE_LAYOUT_UNDEFINED && i.layout_after != VK_IMAGE_LAYOUT_PREINITIALIZED, "an image has a layout after the call");
+    for (const VkImageLayout layout : {i.layout_before, i.layout_after})
+        require(std::ranges::find(kLayouts, layout) != kLayouts.end(), "colours have no such layout");
+    require(i.layout_after != VK_IMAGE_LAYOUT_UNDEFINED && i.layout_after != VK_IMAGE_LAYOUT_PREINITIALIZED,
+            "an image has a layout after the call");
     require(i.reserved == 0, "what is reserved in an image is 0");
     return {i.image, i.format, extent_of(i.width, i.height), i.layout_before, i.layout_after};
 }
 
 // A field that is added changes one of these: then kFirstSize of that structure is what stands here.
-static_assert(sizeof(void*) != 8 || (sizeof(VesperDeviceOptions) == 40 && sizeof(VesperToneSettings) == 128 && sizeof(VesperFrameReport) == 32 && sizeof(VesperOutputs) == 40 &&
-                                     sizeof(VesperPicture) == 48 && sizeof(VesperMaterial) == 56 && sizeof(VesperMesh) == 56 && sizeof(VesperLamp) == 80 && sizeof(VesperView) == 96 &&
-                                     sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 && sizeof(VesperImagePicture) == 40));
+static_assert(sizeof(void*) != 8 ||
+              (sizeof(VesperDeviceOptions) == 40 && sizeof(VesperToneSettings) == 128 &&
+               sizeof(VesperFrameReport) == 32 && sizeof(VesperOutputs) == 40 && sizeof(VesperPicture) == 48 &&
+               sizeof(VesperMaterial) == 56 && sizeof(VesperMesh) == 56 && sizeof(VesperLamp) == 80 &&
+               sizeof(VesperView) == 96 && sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 &&
+               sizeof(VesperImagePicture) == 40));
 
 }  // namespace
 
@@ -103,19 +116,23 @@ VesperResult result_of(VesperError* error, void (*call)(const void*), const void
 glm::mat4 place_of(const float* node_to_world) {
     const glm::mat4 place = glm::make_mat4(node_to_world);
     const float size = std::abs(glm::determinant(place));
-    require(std::isnormal(size) && glm::row(place, 3) == glm::vec4(0, 0, 0, 1), "a place is an affine matrix that can be inverted, column by column");
+    require(std::isnormal(size) && glm::row(place, 3) == glm::vec4(0, 0, 0, 1),
+            "a place is an affine matrix that can be inverted, column by column");
     return place;
 }
 
 VkExtent2D extent_of(uint32_t width, uint32_t height) {
-    require(width > 0 && height > 0 && width <= kMostPixels && height <= kMostPixels, "an image is 1 to 16384 pixels wide and high");
+    require(width > 0 && height > 0 && width <= kMostPixels && height <= kMostPixels,
+            "an image is 1 to 16384 pixels wide and high");
     return {width, height};
 }
 
 std::optional<ImageAngles> angles_of(const float (&edges)[4], VkExtent2D extent) {
     if (std::all_of(edges, edges + 4, [](float edge) { return edge == 0; })) return {};
-    require(std::all_of(edges, edges + 4, [](float edge) { return std::abs(edge) <= 100; }) && edges[0] < edges[1] && edges[2] < edges[3],
-            "edges are tangents from -100 to 100, of the left less than of the right and of the bottom less than of the top");
+    require(std::all_of(edges, edges + 4, [](float edge) { return std::abs(edge) <= 100; }) && edges[0] < edges[1] &&
+                edges[2] < edges[3],
+            "edges are tangents from -100 to 100, of the left less than of the right and of the bottom less than of "
+            "the top");
     return ImageAngles{int(extent.width), int(extent.height), {edges[0], edges[2]}, {edges[1], edges[3]}};
 }
 
@@ -130,17 +147,26 @@ VesperOutputs outputs_of(const VesperOutputs* given) {
     return to;
 }
 
-Outputs wanted(const VesperOutputs& to) { return {.display = to.codes != nullptr, .scene = to.luminance != nullptr, .display_light = to.display_light != nullptr}; }
+Outputs wanted(const VesperOutputs& to) {
+    return {
+        .display = to.codes != nullptr, .scene = to.luminance != nullptr, .display_light = to.display_light != nullptr};
+}
 
 void give(const ToneMapped& frame, const VesperOutputs& to) {
     give(frame.display, to.codes), give(frame.scene, to.luminance), give(frame.display_light, to.display_light);
     if (to.report) give_known(report_of(frame), to.report);
 }
 
-void check_report(const VesperFrameReport* report) { require(!report || (report->size >= kFirstSize<VesperFrameReport> && report->size <= 65536), "a report without its size"); }
+void check_report(const VesperFrameReport* report) {
+    require(!report || (report->size >= kFirstSize<VesperFrameReport> && report->size <= 65536),
+            "a report without its size");
+}
 
 VesperFrameReport report_of(const ToneMapped& frame) {
-    return {.size = sizeof(VesperFrameReport), .adaptation = frame.curve.adaptation, .log_average = frame.curve.log_average, .not_finite = frame.histogram.non_finite,
+    return {.size = sizeof(VesperFrameReport),
+            .adaptation = frame.curve.adaptation,
+            .log_average = frame.curve.log_average,
+            .not_finite = frame.histogram.non_finite,
             .milliseconds = frame.milliseconds};
 }
 
@@ -161,29 +187,35 @@ shared::EyeState eye_of(const void* bytes, size_t size) {
     KeptEye kept;
     require(size == sizeof kept, "what an eye of another version remembers");
     std::memcpy(&kept, bytes, sizeof kept);
-    require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye && kept.sum == sum_of(kept.eye), "what an eye of another version remembers, or damaged bytes");
+    require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye && kept.sum == sum_of(kept.eye),
+            "what an eye of another version remembers, or damaged bytes");
     shared::EyeState young = kept.eye;
     young.seconds = 0;  // which may be more than the others
     float values[sizeof young / sizeof(float)];
     std::memcpy(values, &young, sizeof values);
     require(kept.eye.seconds >= 0 && kept.eye.seconds <= shared::kLongestLife, "no eye remembers that");
-    require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }), "no eye remembers that");
+    require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }),
+            "no eye remembers that");
     require(kept.eye.steps >= 0 && kept.eye.steps <= float(shared::kMaxBins), "no eye remembers that");
     return kept.eye;
 }
 
 ExternalImage picture_image(const VesperImage* given) {
     const ExternalImage image = image_of(given);
-    constexpr VkFormat formats[] = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32, VK_FORMAT_E5B9G9R9_UFLOAT_PACK32};
-    require(std::ranges::find(formats, image.format) != std::end(formats), "a picture is of rgba32f, rgba16f, b10g11r11 or e5b9g9r9");
+    constexpr VkFormat formats[] = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT,
+                                    VK_FORMAT_B10G11R11_UFLOAT_PACK32, VK_FORMAT_E5B9G9R9_UFLOAT_PACK32};
+    require(std::ranges::find(formats, image.format) != std::end(formats),
+            "a picture is of rgba32f, rgba16f, b10g11r11 or e5b9g9r9");
     require(image.before != VK_IMAGE_LAYOUT_UNDEFINED, "a picture has a layout before the call");
     return image;
 }
 
 ExternalImage shown_image(const VesperImage* given, VkExtent2D extent) {
     const ExternalImage image = image_of(given);
-    require(image.extent.width == extent.width && image.extent.height == extent.height, "what is shown has the extent of the image it is shown in");
-    require(shown_format(image.format).has_value(), "pictures are shown in images of RGBA or BGRA, of 8 bits (UNORM or SRGB) or 10 bits");
+    require(image.extent.width == extent.width && image.extent.height == extent.height,
+            "what is shown has the extent of the image it is shown in");
+    require(shown_format(image.format).has_value(),
+            "pictures are shown in images of RGBA or BGRA, of 8 bits (UNORM or SRGB) or 10 bits");
     return image;
 }
 

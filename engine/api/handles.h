@@ -1,4 +1,5 @@
-// Behind the handles of vesper.h, and what every call does: arguments checked, exceptions turned into results. SPDX-License-Identifier: MIT
+// Behind the handles of vesper.h, and what every call does: arguments checked, exceptions turned into results.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vesper/vulkan.h>
@@ -31,14 +32,16 @@ struct VesperToneMapper {
 
 struct VesperScene {
     vesper::Scene scene;
-    uint64_t version = 0;    // of what a renderer takes to the device
-    std::map<std::pair<std::string, std::vector<uint8_t>>, uint32_t> distributions;  // of the scene, by their files and what was in those
+    uint64_t version = 0;  // of what a renderer takes to the device
+    std::map<std::pair<std::string, std::vector<uint8_t>>, uint32_t>
+        distributions;       // of the scene, by their files and what was in those
     std::vector<bool> gone;  // by node; shorter than those, or of as many
 };
 
 struct VesperRenderer {
     static constexpr const char* kNone = "no renderer";
-    VesperRenderer(vesper::Device& of, const VesperScene& drawn) : device(of), scene(drawn), version(drawn.version), engine(of, drawn.scene) {}
+    VesperRenderer(vesper::Device& of, const VesperScene& drawn)
+        : device(of), scene(drawn), version(drawn.version), engine(of, drawn.scene) {}
     const vesper::Device& device;
     const VesperScene& scene;
     uint64_t version;  // of the scene on the device
@@ -63,14 +66,16 @@ inline void require(bool holds, const char* otherwise) {
 VesperResult result_of(VesperError* error, void (*call)(const void*), const void* what) noexcept;
 template <class Call>
 VesperResult guarded(VesperError* error, const Call& call) noexcept {
-    return result_of(error, [](const void* it) { (*static_cast<const Call*>(it))(); }, &call);
+    return result_of(
+        error, [](const void* it) { (*static_cast<const Call*>(it))(); }, &call);
 }
 
 /// What a structure was in the first version that had it: to be pinned where a field is added (handles.cpp checks).
 template <class T>
 constexpr size_t kFirstSize = sizeof(T);
 
-/// A structure as this library has it: what an older caller does not have is zero, and what a newer one has beyond is passed over.
+/// A structure as this library has it: what an older caller does not have is zero, and what a newer one has beyond is
+/// passed over.
 template <class T>
 T known(const T* given, const char* otherwise) {
     require(given && given->size >= kFirstSize<T> && given->size <= 65536, otherwise);
@@ -118,8 +123,8 @@ VesperFrameReport report_of_submitted(const ToneMapped& frame);
 void give_eye(const shared::EyeState& eye, void* bytes);
 shared::EyeState eye_of(const void* bytes, size_t size);
 
-/// Waits for the submitted frames of a tone mapper or renderer. The report of the last one stays known, whatever comes of
-/// the call that waits.
+/// Waits for the submitted frames of a tone mapper or renderer. The report of the last one stays known, whatever comes
+/// of the call that waits.
 template <class Handle>
 void finish(Handle& handle) {
     const auto frame = handle.engine.finish();

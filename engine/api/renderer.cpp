@@ -23,7 +23,8 @@ View view_of(const VesperView& v, const Scene& scene, const SceneFrame& frame) {
     const VkExtent2D extent = extent_of(v.width, v.height);
     if (v.camera) return camera_view(scene, frame, v.camera, extent);
     const auto angles = angles_of(v.edges, extent);
-    require(finite(v.eye) && finite(v.forward) && finite(v.up) && (angles || (v.vertical_fov > 0 && v.vertical_fov < 3.1f)) && v.near_plane > 0 && v.near_plane < 1e6f,
+    require(finite(v.eye) && finite(v.forward) && finite(v.up) &&
+                (angles || (v.vertical_fov > 0 && v.vertical_fov < 3.1f)) && v.near_plane > 0 && v.near_plane < 1e6f,
             "a view has an eye, a vertical angle of 0 to 3.1 rad and a near plane beyond 0 m");
     constexpr const char* kTwo = "a view's forward and up are two directions";
     const glm::dvec3 eye(vector(v.eye)), forward = direction(v.forward, kTwo), up = direction(v.up, kTwo);
@@ -46,21 +47,27 @@ Seen see(const VesperRenderer& renderer, const VesperView* view) {
     return seen;
 }
 
-/// With all that changed in it. After everything a call is given has been checked: a call that is refused changes nothing.
+/// With all that changed in it. After everything a call is given has been checked: a call that is refused changes
+/// nothing.
 void take_over_scene(VesperRenderer& renderer) {
     if (renderer.version == renderer.scene.version) return;
     renderer.engine.set_scene(renderer.scene.scene);
-    const auto is_gone = [&](const auto& of_node) { return of_node.first < renderer.scene.gone.size() && renderer.scene.gone[of_node.first]; };
+    const auto is_gone = [&](const auto& of_node) {
+        return of_node.first < renderer.scene.gone.size() && renderer.scene.gone[of_node.first];
+    };
     std::erase_if(renderer.places, is_gone);
     std::erase_if(renderer.dimming, is_gone);
     renderer.version = renderer.scene.version;
 }
 
-void require_node(const VesperRenderer& renderer, uint32_t node) { require(node < renderer.scene.scene.nodes.size(), "the scene has no such node"); }
+void require_node(const VesperRenderer& renderer, uint32_t node) {
+    require(node < renderer.scene.scene.nodes.size(), "the scene has no such node");
+}
 
 }  // namespace
 
-VesperResult vesper_renderer_create(VesperDevice* device, const VesperScene* scene, VesperRenderer** renderer, VesperError* error) {
+VesperResult vesper_renderer_create(VesperDevice* device, const VesperScene* scene, VesperRenderer** renderer,
+                                    VesperError* error) {
     return guarded(error, [&] {
         require(device && scene && renderer, "no device, no scene, or no place for the renderer");
         *renderer = new VesperRenderer(device->device, *scene);
@@ -68,7 +75,8 @@ VesperResult vesper_renderer_create(VesperDevice* device, const VesperScene* sce
 }
 void vesper_renderer_destroy(VesperRenderer* renderer) { delete renderer; }
 
-VesperResult vesper_renderer_place(VesperRenderer* renderer, uint32_t node, const float node_to_world[16], VesperError* error) {
+VesperResult vesper_renderer_place(VesperRenderer* renderer, uint32_t node, const float node_to_world[16],
+                                   VesperError* error) {
     return guarded(error, [&] {
         require(renderer && node_to_world, "no renderer, or no place");
         require_node(*renderer, node);
@@ -86,7 +94,8 @@ VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float 
     });
 }
 
-VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view, float seconds, const VesperOutputs* outputs, VesperError* error) {
+VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view,
+                           float seconds, const VesperOutputs* outputs, VesperError* error) {
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         const VesperOutputs to = outputs_of(outputs);
@@ -100,8 +109,9 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
     });
 }
 
-VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view, float seconds, const VesperImage* shown,
-                                 const VesperHandover* handover, VesperError* error) {
+VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view,
+                                 float seconds, const VesperImage* shown, const VesperHandover* handover,
+                                 VesperError* error) {
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         const RenderSettings how = settings_of(settings);
@@ -115,7 +125,13 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
     });
 }
 
-VesperResult vesper_renderer_finish(VesperRenderer* renderer, VesperFrameReport* report, VesperError* error) { return finish(renderer, report, error); }
+VesperResult vesper_renderer_finish(VesperRenderer* renderer, VesperFrameReport* report, VesperError* error) {
+    return finish(renderer, report, error);
+}
 VesperResult vesper_renderer_reset(VesperRenderer* renderer, VesperError* error) { return reset_eye(renderer, error); }
-VesperResult vesper_renderer_eye(VesperRenderer* renderer, void* bytes, VesperError* error) { return read_eye(renderer, bytes, error); }
-VesperResult vesper_renderer_set_eye(VesperRenderer* renderer, const void* bytes, size_t size, VesperError* error) { return set_eye(renderer, bytes, size, error); }
+VesperResult vesper_renderer_eye(VesperRenderer* renderer, void* bytes, VesperError* error) {
+    return read_eye(renderer, bytes, error);
+}
+VesperResult vesper_renderer_set_eye(VesperRenderer* renderer, const void* bytes, size_t size, VesperError* error) {
+    return set_eye(renderer, bytes, size, error);
+}

@@ -32,10 +32,15 @@ std::pair<float, glm::vec3> split(const float rgb[3], const char* otherwise) {
 
 Primitive primitive_of(const Scene& scene, const VesperMesh& m) {
     require(m.material < scene.materials.size(), "the scene has no such material");
-    require(m.vertex_count >= 3 && m.positions && m.index_count >= 3 && m.index_count % 3 == 0 && m.indices, "a mesh has positions, and three indices per triangle");
-    const auto all_finite = [&](const float* values, size_t each) { return !values || std::all_of(values, values + each * m.vertex_count, [](float v) { return std::isfinite(v); }); };
-    require(all_finite(m.positions, 3) && all_finite(m.normals, 3) && all_finite(m.uvs, 2), "positions, normals and uvs are finite");
-    require(std::all_of(m.indices, m.indices + m.index_count, [&](uint32_t i) { return i < m.vertex_count; }), "an index is less than the number of vertices");
+    require(m.vertex_count >= 3 && m.positions && m.index_count >= 3 && m.index_count % 3 == 0 && m.indices,
+            "a mesh has positions, and three indices per triangle");
+    const auto all_finite = [&](const float* values, size_t each) {
+        return !values || std::all_of(values, values + each * m.vertex_count, [](float v) { return std::isfinite(v); });
+    };
+    require(all_finite(m.positions, 3) && all_finite(m.normals, 3) && all_finite(m.uvs, 2),
+            "positions, normals and uvs are finite");
+    require(std::all_of(m.indices, m.indices + m.index_count, [&](uint32_t i) { return i < m.vertex_count; }),
+            "an index is less than the number of vertices");
     Primitive made;
     made.material = m.material;
     made.vertices.resize(m.vertex_count);
@@ -79,11 +84,15 @@ uint32_t distribution_of(VesperScene& scene, const std::string& file) {
 
 /// A lamp, but for what was measured.
 Lamp lamp_of(const VesperLamp& l) {
-    require(finite(l.position) && finite(l.axis) && finite(l.up) && finite(l.colour) && l.intensity >= 0 && std::isfinite(l.intensity), "a lamp has a place, an axis, at least 0 cd and a colour");
+    require(finite(l.position) && finite(l.axis) && finite(l.up) && finite(l.colour) && l.intensity >= 0 &&
+                std::isfinite(l.intensity),
+            "a lamp has a place, an axis, at least 0 cd and a colour");
     const auto [y, colour] = split(l.colour, "a lamp's colour has no negative part");
     require(y > 0, "a lamp's colour has luminance");
-    require(l.inner_cone >= 0 && l.outer_cone >= l.inner_cone && l.outer_cone <= 1.5707964f, "a lamp's cones are 0 <= inner <= outer <= pi / 2");
-    require(l.opening_width >= 0 && l.opening_width <= 1000 && l.opening_height >= 0 && l.opening_height <= 1000, "a lamp's opening is 0 to 1000 m wide and high");
+    require(l.inner_cone >= 0 && l.outer_cone >= l.inner_cone && l.outer_cone <= 1.5707964f,
+            "a lamp's cones are 0 <= inner <= outer <= pi / 2");
+    require(l.opening_width >= 0 && l.opening_width <= 1000 && l.opening_height >= 0 && l.opening_height <= 1000,
+            "a lamp's opening is 0 to 1000 m wide and high");
     require((l.opening_width > 0) == (l.opening_height > 0), "a lamp's opening has a width and a height, or neither");
     require(!l.distribution || (l.inner_cone == 0 && l.outer_cone == 0), "a lamp has cones or a distribution");
     Lamp lamp;
@@ -120,11 +129,13 @@ const char* vesper_scene_node_name(const VesperScene* scene, uint32_t node) {
     return scene && node < scene->scene.nodes.size() ? scene->scene.nodes[node].name.c_str() : nullptr;
 }
 
-VesperResult vesper_scene_add_material(VesperScene* scene, const VesperMaterial* material, uint32_t* index, VesperError* error) {
+VesperResult vesper_scene_add_material(VesperScene* scene, const VesperMaterial* material, uint32_t* index,
+                                       VesperError* error) {
     return guarded(error, [&] {
         require(scene && index, "no scene, or no place for the number of the material");
         const VesperMaterial m = known(material, "a material without its size");
-        require(fractions(m.base_colour) && m.metallic >= 0 && m.metallic <= 1 && m.roughness >= 0 && m.roughness <= 1, "reflectance, metallic and roughness are 0 to 1");
+        require(fractions(m.base_colour) && m.metallic >= 0 && m.metallic <= 1 && m.roughness >= 0 && m.roughness <= 1,
+                "reflectance, metallic and roughness are 0 to 1");
         const auto [emitted, emission] = split(m.emission, "a material emits 0 to 1e9 cd/m^2");
         Material made;
         made.base_colour = glm::vec4(vector(m.base_colour), 1);
@@ -132,7 +143,9 @@ VesperResult vesper_scene_add_material(VesperScene* scene, const VesperMaterial*
         made.emission = emitted * emission;
         made.double_sided = m.double_sided;
         if (m.texture) {
-            require(m.texture_width > 0 && m.texture_height > 0 && m.texture_width <= kMostTexels && m.texture_height <= kMostTexels, "a texture is 1 to 16384 pixels wide and high");
+            require(m.texture_width > 0 && m.texture_height > 0 && m.texture_width <= kMostTexels &&
+                        m.texture_height <= kMostTexels,
+                    "a texture is 1 to 16384 pixels wide and high");
             Image image{"", m.texture_width, m.texture_height, {}};
             image.rgba.assign(m.texture, m.texture + size_t{4} * m.texture_width * m.texture_height);
             scene->scene.images.push_back(std::move(image));
@@ -151,10 +164,13 @@ VesperResult vesper_scene_add_mesh(VesperScene* scene, const VesperMesh* mesh, u
     });
 }
 
-VesperResult vesper_scene_add_node(VesperScene* scene, const char* name, uint32_t mesh, const float* node_to_world, uint32_t* node, VesperError* error) {
+VesperResult vesper_scene_add_node(VesperScene* scene, const char* name, uint32_t mesh, const float* node_to_world,
+                                   uint32_t* node, VesperError* error) {
     return guarded(error, [&] {
         require(scene && node, "no scene, or no place for the number of the node");
-        require(mesh == VESPER_NONE || (mesh < scene->scene.meshes.size() && !scene->scene.meshes[mesh].primitives.empty()), "the scene has no such mesh");
+        require(
+            mesh == VESPER_NONE || (mesh < scene->scene.meshes.size() && !scene->scene.meshes[mesh].primitives.empty()),
+            "the scene has no such mesh");
         Node made;
         made.name = name ? name : "";
         made.mesh = mesh;
@@ -218,10 +234,12 @@ VesperResult vesper_scene_remove(VesperScene* scene, uint32_t node, VesperError*
     });
 }
 
-VesperResult vesper_scene_set_sky(VesperScene* scene, const float illuminance[3], const float luminance[3], VesperError* error) {
+VesperResult vesper_scene_set_sky(VesperScene* scene, const float illuminance[3], const float luminance[3],
+                                  VesperError* error) {
     return guarded(error, [&] {
         require(scene && illuminance && luminance, "no scene, or no light");
-        const auto ambient = split(illuminance, "ambient light is 0 to 1e9 lx"), sky = split(luminance, "a sky has 0 to 1e9 cd/m^2");
+        const auto ambient = split(illuminance, "ambient light is 0 to 1e9 lx"),
+                   sky = split(luminance, "a sky has 0 to 1e9 cd/m^2");
         Scene& lit = scene->scene;
         std::tie(lit.ambient_illuminance, lit.ambient_colour) = ambient;
         std::tie(lit.sky_luminance, lit.sky_colour) = sky;

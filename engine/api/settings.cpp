@@ -17,9 +17,12 @@ constexpr Scattering kScatterings[] = {{VESPER_GLARE_CIE, ScatterSettings::Model
                                        {VESPER_GLARE_TEMPORAL, ScatterSettings::Model::Temporal},
                                        {VESPER_GLARE_SPENCER, ScatterSettings::Model::Spencer},
                                        {VESPER_GLARE_WARD, ScatterSettings::Model::Ward}};
-constexpr uint32_t kAdaptTo[] = {shared::kAdaptAverage, shared::kAdaptGaze, shared::kAdaptGazeMean, shared::kAdaptTexel};  // from VESPER_ADAPT_AVERAGE on
-constexpr uint32_t kGamuts[] = {shared::kGamutLuminance, shared::kGamutChromaticity, shared::kGamutClip};  // by VesperGamut
-static_assert(VESPER_PUPIL_MESOPIC == int(SpencerState::Mesopic) && VESPER_PUPIL_SCOTOPIC == int(SpencerState::Scotopic));
+constexpr uint32_t kAdaptTo[] = {shared::kAdaptAverage, shared::kAdaptGaze, shared::kAdaptGazeMean,
+                                 shared::kAdaptTexel};  // from VESPER_ADAPT_AVERAGE on
+constexpr uint32_t kGamuts[] = {shared::kGamutLuminance, shared::kGamutChromaticity,
+                                shared::kGamutClip};  // by VesperGamut
+static_assert(VESPER_PUPIL_MESOPIC == int(SpencerState::Mesopic) &&
+              VESPER_PUPIL_SCOTOPIC == int(SpencerState::Scotopic));
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 
@@ -33,8 +36,10 @@ VesperToneSettings default_settings() {
     made.gaze[0] = tone.gaze.x, made.gaze[1] = tone.gaze.y;
     made.display_peak = display.peak, made.display_black = display.black, made.display_ambient = display.ambient;
     made.display_gamma = display.gamma, made.display_reflection = display.reflection;
-    made.smoothing = tone.smoothing_seconds, made.low_vision = float(tone.observer.low_vision), made.rods = tone.observer.use_rods;
-    made.histogram_low = std::pow(10.0f, settings.histogram.log10_low), made.histogram_high = std::pow(10.0f, settings.histogram.log10_high);
+    made.smoothing = tone.smoothing_seconds, made.low_vision = float(tone.observer.low_vision),
+    made.rods = tone.observer.use_rods;
+    made.histogram_low = std::pow(10.0f, settings.histogram.log10_low),
+    made.histogram_high = std::pow(10.0f, settings.histogram.log10_high);
     made.key = tone.operators.reinhard.key, made.eye_seed = settings.scatter.aperture.seed;
     return made;
 }
@@ -51,29 +56,38 @@ Display display_of(const VesperToneSettings& s) {
 
 RenderSettings vesper::api::settings_of(const VesperToneSettings* given) {
     const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
-    const auto is_operator = [&](const OperatorInfo& info) { return info.tone_operator != Operator::Ldr && uint32_t(info.tone_operator) == s.tone_operator; };
+    const auto is_operator = [&](const OperatorInfo& info) {
+        return info.tone_operator != Operator::Ldr && uint32_t(info.tone_operator) == s.tone_operator;
+    };
     require(s.gamut <= VESPER_GAMUT_CLIP, "there is no such gamut");
     require(std::ranges::any_of(operators(), is_operator), "there is no such tone operator");
     require(s.glare <= VESPER_GLARE_WARD, "there is no such glare");
     require(s.bins >= 1 && s.bins <= shared::kMaxBins, "a histogram has 1 to 256 bins");
-    require(within(s.age, 1, 120) && within(s.pigmentation, 0, 1.5f), "an observer is 1 to 120 years old, with a pigmentation of 0 to 1.5");
+    require(within(s.age, 1, 120) && within(s.pigmentation, 0, 1.5f),
+            "an observer is 1 to 120 years old, with a pigmentation of 0 to 1.5");
     require(within(s.gaze[0], 0, 1) && within(s.gaze[1], 0, 1), "the gaze is a part of the image, 0 to 1");
     require(s.adapt_to <= VESPER_ADAPT_TEXEL, "there is nothing like that to adapt to");
     require(s.pupil <= VESPER_PUPIL_SCOTOPIC, "there is no such pupil");
-    require(within(s.smoothing, 0, 60) && within(s.low_vision, 0.1f, 100), "a curve is smoothed over 0 to 60 s, and low vision is a factor of 0.1 to 100");
-    require(within(s.histogram_low, 1e-6f, 1e9f) && within(s.histogram_high, 1.01f * s.histogram_low, 1e9f), "a histogram begins at 1e-6 cd/m^2 or more and ends higher, at 1e9 or less");
-    require(within(s.key, 1e-4f, 10) && within(s.white, 0, 1e9f) && within(s.black, 0, 1e9f), "a key is 1e-4 to 10, and luminances shown as white and black are 0 to 1e9 cd/m^2");
+    require(within(s.smoothing, 0, 60) && within(s.low_vision, 0.1f, 100),
+            "a curve is smoothed over 0 to 60 s, and low vision is a factor of 0.1 to 100");
+    require(within(s.histogram_low, 1e-6f, 1e9f) && within(s.histogram_high, 1.01f * s.histogram_low, 1e9f),
+            "a histogram begins at 1e-6 cd/m^2 or more and ends higher, at 1e9 or less");
+    require(within(s.key, 1e-4f, 10) && within(s.white, 0, 1e9f) && within(s.black, 0, 1e9f),
+            "a key is 1e-4 to 10, and luminances shown as white and black are 0 to 1e9 cd/m^2");
     require(s.white == 0 || s.white > s.black, "white is more than black");
     RenderSettings settings;
     settings.tone_operator = Operator(s.tone_operator);
-    settings.glare = s.glare == VESPER_GLARE_NONE ? Glare::None : s.glare == VESPER_GLARE_LDR ? Glare::Ldr : Glare::Scatter;
+    settings.glare = s.glare == VESPER_GLARE_NONE  ? Glare::None
+                     : s.glare == VESPER_GLARE_LDR ? Glare::Ldr
+                                                   : Glare::Scatter;
     for (const Scattering& one : kScatterings)
         if (one.glare == VesperGlare(s.glare)) settings.scatter.model = one.model;
     settings.scatter.eye = {double(s.age), double(s.pigmentation)};
     settings.scatter.state = SpencerState(s.pupil);
     settings.scatter.aperture = {s.eye_seed, s.lashes != 0};
     settings.histogram.bins = s.bins;
-    settings.histogram.log10_low = std::log10(s.histogram_low), settings.histogram.log10_high = std::log10(s.histogram_high);
+    settings.histogram.log10_low = std::log10(s.histogram_low),
+    settings.histogram.log10_high = std::log10(s.histogram_high);
     ToneSettings& tone = settings.tone;
     tone.observer.age = s.age, tone.observer.low_vision = s.low_vision, tone.observer.use_rods = s.rods;
     tone.gaze = {s.gaze[0], s.gaze[1]};

@@ -21,8 +21,8 @@ VesperResult vesper_tone_mapper_create(VesperDevice* device, VesperToneMapper** 
 }
 void vesper_tone_mapper_destroy(VesperToneMapper* mapper) { delete mapper; }
 
-VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings* settings, const VesperPicture* picture, float seconds, const VesperOutputs* outputs,
-                             VesperError* error) {
+VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings* settings, const VesperPicture* picture,
+                             float seconds, const VesperOutputs* outputs, VesperError* error) {
     return guarded(error, [&] {
         require(mapper, VesperToneMapper::kNone);
         const VesperPicture p = known(picture, "a picture without its size");
@@ -31,7 +31,12 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
         require(p.values && (p.channels == 3 || p.channels == 4), "a picture has values, of 3 or 4 channels");
         const auto angles = angles_of(p.edges, extent);
         check_picture(p.scale, p.vertical_fov, angles.has_value());
-        const HostPicture host{.extent = extent, .values = {p.values, size_t{p.width} * p.height * p.channels}, .channels = p.channels, .scale = p.scale, .vertical_fov = double(p.vertical_fov), .angles = angles ? &*angles : nullptr};
+        const HostPicture host{.extent = extent,
+                               .values = {p.values, size_t{p.width} * p.height * p.channels},
+                               .channels = p.channels,
+                               .scale = p.scale,
+                               .vertical_fov = double(p.vertical_fov),
+                               .angles = angles ? &*angles : nullptr};
         const RenderSettings how = settings_of(settings);
         const float passed = seconds_of(seconds);
         finish(*mapper);  // what it left stays should this picture fail
@@ -40,7 +45,8 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
     });
 }
 
-VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSettings* settings, const VesperImagePicture* picture, float seconds, const VesperImage* shown,
+VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSettings* settings,
+                                   const VesperImagePicture* picture, float seconds, const VesperImage* shown,
                                    const VesperHandover* handover, VesperError* error) {
     return guarded(error, [&] {
         require(mapper, VesperToneMapper::kNone);
@@ -55,7 +61,13 @@ VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSet
     });
 }
 
-VesperResult vesper_tone_mapper_finish(VesperToneMapper* mapper, VesperFrameReport* report, VesperError* error) { return finish(mapper, report, error); }
+VesperResult vesper_tone_mapper_finish(VesperToneMapper* mapper, VesperFrameReport* report, VesperError* error) {
+    return finish(mapper, report, error);
+}
 VesperResult vesper_tone_mapper_reset(VesperToneMapper* mapper, VesperError* error) { return reset_eye(mapper, error); }
-VesperResult vesper_tone_mapper_eye(VesperToneMapper* mapper, void* bytes, VesperError* error) { return read_eye(mapper, bytes, error); }
-VesperResult vesper_tone_mapper_set_eye(VesperToneMapper* mapper, const void* bytes, size_t size, VesperError* error) { return set_eye(mapper, bytes, size, error); }
+VesperResult vesper_tone_mapper_eye(VesperToneMapper* mapper, void* bytes, VesperError* error) {
+    return read_eye(mapper, bytes, error);
+}
+VesperResult vesper_tone_mapper_set_eye(VesperToneMapper* mapper, const void* bytes, size_t size, VesperError* error) {
+    return set_eye(mapper, bytes, size, error);
+}

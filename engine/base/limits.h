@@ -11,8 +11,8 @@
 
 namespace vesper {
 
-/// A standard limit times the factor in the environment's VESPER_LIMITS, 0.001 to 16 (beyond, indices of 32 bits would not do); without
-/// one the limit itself. Throws Error where that is no such number.
+/// A standard limit times the factor in the environment's VESPER_LIMITS, 0.001 to 16 (beyond, indices of 32 bits would
+/// not do); without one the limit itself. Throws Error where that is no such number.
 inline uint64_t scaled_limit(uint64_t standard) {
     const char* text = std::getenv("VESPER_LIMITS");
     if (!text || !*text) return standard;

@@ -22,8 +22,8 @@ void CommandBuffer::begin() const {
     check(vkBeginCommandBuffer(commands_, &begin), "recording");
 }
 
-VkImageMemoryBarrier2 image_barrier(VkImage image, Touch before, Touch after, VkImageLayout from, VkImageLayout to, VkImageAspectFlags aspect,
-                                    uint32_t levels) {
+VkImageMemoryBarrier2 image_barrier(VkImage image, Touch before, Touch after, VkImageLayout from, VkImageLayout to,
+                                    VkImageAspectFlags aspect, uint32_t levels) {
     return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
             .srcStageMask = before.stages,
             .srcAccessMask = before.accesses,
@@ -37,7 +37,8 @@ VkImageMemoryBarrier2 image_barrier(VkImage image, Touch before, Touch after, Vk
             .subresourceRange = {aspect, 0, levels, 0, 1}};
 }
 
-void pipeline_barrier(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> images, const VkMemoryBarrier2* memory) {
+void pipeline_barrier(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> images,
+                      const VkMemoryBarrier2* memory) {
     const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                       .memoryBarrierCount = memory ? 1u : 0u,
                                       .pMemoryBarriers = memory,
@@ -50,11 +51,13 @@ void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage image, std::
     constexpr Touch copy{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
     constexpr Touch sample{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
     const auto change = [&](Touch before, Touch after, VkImageLayout old_layout, VkImageLayout new_layout) {
-        const VkImageMemoryBarrier2 barrier = image_barrier(image, before, after, old_layout, new_layout, VK_IMAGE_ASPECT_COLOR_BIT, uint32_t(copies.size()));
+        const VkImageMemoryBarrier2 barrier = image_barrier(image, before, after, old_layout, new_layout,
+                                                            VK_IMAGE_ASPECT_COLOR_BIT, uint32_t(copies.size()));
         pipeline_barrier(commands, {&barrier, 1});
     };
     change({}, copy, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    vkCmdCopyBufferToImage(commands, from, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, uint32_t(copies.size()), copies.data());
+    vkCmdCopyBufferToImage(commands, from, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, uint32_t(copies.size()),
+                           copies.data());
     change(copy, sample, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 

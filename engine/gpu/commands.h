@@ -30,7 +30,8 @@ struct Touch {
 /// The first levels of an image go from one layout to another, after `before` and ahead of `after`.
 VkImageMemoryBarrier2 image_barrier(VkImage image, Touch before, Touch after, VkImageLayout from, VkImageLayout to,
                                     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT, uint32_t levels = 1);
-void pipeline_barrier(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> images, const VkMemoryBarrier2* memory = nullptr);
+void pipeline_barrier(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> images,
+                      const VkMemoryBarrier2* memory = nullptr);
 
 /// Fills levels of a new image, one with each copy, for fragment shaders to sample.
 void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage image, std::span<const VkBufferImageCopy> copies);

@@ -63,10 +63,14 @@ std::string missing(VkPhysicalDevice device) {
 
 int rank(VkPhysicalDeviceType type) {
     switch (type) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 0;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 1;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-        default: return 3;
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 1;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 2;
+        default:
+            return 3;
     }
 }
 
@@ -102,17 +106,28 @@ VkInstance make_instance(const void* next, const std::vector<const char*>& layer
 
 std::string text_of(VkResult result) {
     switch (result) {
-        case VK_ERROR_OUT_OF_HOST_MEMORY: return "out of memory";
-        case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "out of device memory";
-        case VK_ERROR_INITIALIZATION_FAILED: return "initialization failed";
-        case VK_ERROR_DEVICE_LOST: return "the device was lost";
-        case VK_ERROR_MEMORY_MAP_FAILED: return "memory could not be mapped";
-        case VK_ERROR_EXTENSION_NOT_PRESENT: return "an extension is missing";
-        case VK_ERROR_SURFACE_LOST_KHR: return "the window was lost";
-        case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR: return "the window is in use";
-        case VK_ERROR_FEATURE_NOT_PRESENT: return "a feature is missing";
-        case VK_ERROR_FORMAT_NOT_SUPPORTED: return "a format is not supported";
-        default: return "Vulkan result " + std::to_string(result);
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return "out of memory";
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return "out of device memory";
+        case VK_ERROR_INITIALIZATION_FAILED:
+            return "initialization failed";
+        case VK_ERROR_DEVICE_LOST:
+            return "the device was lost";
+        case VK_ERROR_MEMORY_MAP_FAILED:
+            return "memory could not be mapped";
+        case VK_ERROR_EXTENSION_NOT_PRESENT:
+            return "an extension is missing";
+        case VK_ERROR_SURFACE_LOST_KHR:
+            return "the window was lost";
+        case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR:
+            return "the window is in use";
+        case VK_ERROR_FEATURE_NOT_PRESENT:
+            return "a feature is missing";
+        case VK_ERROR_FORMAT_NOT_SUPPORTED:
+            return "a format is not supported";
+        default:
+            return "Vulkan result " + std::to_string(result);
     }
 }
 
@@ -156,16 +171,25 @@ Device::Device(const DeviceOptions& options) : on_message_(options.on_message), 
 }
 
 Device::Device(const BorrowedDevice& given)
-    : borrowed_(true), instance_(given.instance), physical_(given.physical), device_(given.device), queue_(given.queue), queue_family_(given.queue_family),
-      lock_(given.lock), unlock_(given.unlock) {
+    : borrowed_(true),
+      instance_(given.instance),
+      physical_(given.physical),
+      device_(given.device),
+      queue_(given.queue),
+      queue_family_(given.queue_family),
+      lock_(given.lock),
+      unlock_(given.unlock) {
     vkGetPhysicalDeviceProperties(physical_, &properties_);
     std::string reason = missing_support(physical_);
     if (reason.empty()) reason = missing_of(*given.created_with, given.version);
     if (!reason.empty()) throw Error(name() + ", as it was made, has no " + reason);
-    const std::span<const VkDeviceQueueCreateInfo> queues(given.created_with->pQueueCreateInfos, given.created_with->queueCreateInfoCount);
+    const std::span<const VkDeviceQueueCreateInfo> queues(given.created_with->pQueueCreateInfos,
+                                                          given.created_with->queueCreateInfoCount);
     if (!is_queue_family(physical_, queue_family_) ||
-        std::none_of(queues.begin(), queues.end(), [&](const VkDeviceQueueCreateInfo& q) { return q.queueFamilyIndex == queue_family_; }))
-        throw Error(name() + ", as it was made, has no queue for graphics and compute of family " + std::to_string(queue_family_));
+        std::none_of(queues.begin(), queues.end(),
+                     [&](const VkDeviceQueueCreateInfo& q) { return q.queueFamilyIndex == queue_family_; }))
+        throw Error(name() + ", as it was made, has no queue for graphics and compute of family " +
+                    std::to_string(queue_family_));
     learn(filters_along(*given.created_with));
 }
 
@@ -184,7 +208,8 @@ void Device::close() noexcept {
 
 std::optional<uint32_t> Device::queue_family(VkPhysicalDevice device) const {
     if (!presentation_) return graphics_queue_family(device);
-    return graphics_queue_family(device, [&](uint32_t family) { return presentation_->possible(instance_, device, family); });
+    return graphics_queue_family(device,
+                                 [&](uint32_t family) { return presentation_->possible(instance_, device, family); });
 }
 
 std::string Device::missing(VkPhysicalDevice device) const {
@@ -198,7 +223,8 @@ void Device::open_instance(bool validation) {
     std::vector<const char*> extensions;
     if (presentation_) {
         for (const std::string& name : presentation_->instance_extensions) extensions.push_back(name.c_str());
-        if (has_instance_extension(VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME)) extensions.push_back(VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME);
+        if (has_instance_extension(VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME))
+            extensions.push_back(VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME);
     }
     if (!validation) {
         instance_ = make_instance(nullptr, {}, extensions);
@@ -234,7 +260,8 @@ void Device::choose(const std::string& select) {
         std::string reason = missing(devices[i]);
         if (reason.empty() && !matches(select, i, properties)) reason = "not '" + select + "'";
         if (!reason.empty()) {
-            refused += (refused.empty() ? "" : "; ") + std::to_string(i) + ": " + properties.deviceName + " (" + reason + ")";
+            refused +=
+                (refused.empty() ? "" : "; ") + std::to_string(i) + ": " + properties.deviceName + " (" + reason + ")";
         } else if (rank(properties.deviceType) < best) {
             best = rank(properties.deviceType);
             physical_ = devices[i];
@@ -309,9 +336,8 @@ void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const 
     check(vkEndCommandBuffer(commands), "recording");
     const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                               .commandBuffer = commands};
-    const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                               .commandBufferInfoCount = 1,
-                               .pCommandBufferInfos = &submitted};
+    const VkSubmitInfo2 submit{
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted};
     const OwnedFence done = make_fence(*this);
     this->submit(submit, done.get(), "submitting");
     wait(done.get());
@@ -331,8 +357,8 @@ void Device::wait(VkFence fence) const {
 }
 
 void Device::settle(VkFence fence) const noexcept {
-    // A lost device does nothing any more. Without memory for waiting there may be some a little later; a borrowed device has other queues, at
-    // which others may be, so that it cannot be waited for as a whole.
+    // A lost device does nothing any more. Without memory for waiting there may be some a little later; a borrowed
+    // device has other queues, at which others may be, so that it cannot be waited for as a whole.
     for (int tries = 0; tries < 1000; ++tries) {
         const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
         if (waited == VK_SUCCESS || waited == VK_ERROR_DEVICE_LOST) return;

@@ -35,7 +35,8 @@ public:
     Owned() = default;
     Owned(VkDevice device, T handle) : device_(device), handle_(handle) {}
     Owned(Owned&& other) noexcept
-        : device_(std::exchange(other.device_, VK_NULL_HANDLE)), handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
+        : device_(std::exchange(other.device_, VK_NULL_HANDLE)),
+          handle_(std::exchange(other.handle_, VK_NULL_HANDLE)) {}
     Owned& operator=(Owned&& other) noexcept {
         std::swap(device_, other.device_), std::swap(handle_, other.handle_);
         return *this;
@@ -54,14 +55,16 @@ private:
 /// What a window system asks of a device that is to show pictures in its windows.
 struct Presentation {
     std::vector<std::string> instance_extensions;
-    std::function<bool(VkInstance, VkPhysicalDevice, uint32_t family)> possible;  ///< whether a queue of this family can
+    std::function<bool(VkInstance, VkPhysicalDevice, uint32_t family)>
+        possible;  ///< whether a queue of this family can
 };
 
 struct DeviceOptions {
     std::string select;       ///< part of a name, "cpu", or an index; empty: VESPER_DEVICE, else the best there is
     bool validation = false;  ///< core, synchronization and best-practice-free checks of the Khronos layer
     std::function<void(const std::string&)> on_message;  ///< called for every validation message
-    std::optional<Presentation> presentation;  ///< for windows (window/swapchain.h); a device that shows none needs none
+    std::optional<Presentation>
+        presentation;  ///< for windows (window/swapchain.h); a device that shows none needs none
 };
 
 /// An external device: its owner made it, goes on using it, and destroys it.
@@ -80,7 +83,7 @@ struct BorrowedDevice {
 struct DeviceUse {
     uint64_t bytes = 0, peak_bytes = 0;  ///< of its memory: allocated now, and at most at any time
     uint32_t pipelines = 0;              ///< made
-    double pipeline_ms = 0;              ///< in the driver's calls that make them; some drivers compile later, at first use
+    double pipeline_ms = 0;  ///< in the driver's calls that make them; some drivers compile later, at first use
 };
 
 /// One line per Vulkan device of the machine, for `--device`.
@@ -156,7 +159,8 @@ private:
     void learn(bool filters_along);
     void close() noexcept;
 
-    mutable std::unique_ptr<CommandBuffer> once_;  // of run_once, from the first on. A new one each time leaves 3 KB in the validation layer, for good
+    mutable std::unique_ptr<CommandBuffer>
+        once_;  // of run_once, from the first on. A new one each time leaves 3 KB in the validation layer, for good
 };
 
 using OwnedFence = Owned<VkFence, vkDestroyFence>;

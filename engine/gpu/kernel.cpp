@@ -5,18 +5,19 @@
 namespace vesper {
 
 OwnedShaderModule make_shader(const Device& device, std::span<const uint32_t> spirv) {
-    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                        .codeSize = spirv.size_bytes(),
-                                        .pCode = spirv.data()};
+    const VkShaderModuleCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv.size_bytes(), .pCode = spirv.data()};
     VkShaderModule module = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "loading a shader");
     return {device.handle(), module};
 }
 
-OwnedSetLayout make_set_layout(const Device& device, std::span<const VkDescriptorType> types, VkShaderStageFlags stages) {
+OwnedSetLayout make_set_layout(const Device& device, std::span<const VkDescriptorType> types,
+                               VkShaderStageFlags stages) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const VkDescriptorType type : types)
-        bindings.push_back({.binding = uint32_t(bindings.size()), .descriptorType = type, .descriptorCount = 1, .stageFlags = stages});
+        bindings.push_back(
+            {.binding = uint32_t(bindings.size()), .descriptorType = type, .descriptorCount = 1, .stageFlags = stages});
     const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                                .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
                                                .bindingCount = uint32_t(bindings.size()),
@@ -45,7 +46,8 @@ Kernel::Kernel(const Device& device, const std::string& shader, std::span<const 
       set_(make_set_layout(device, bindings, VK_SHADER_STAGE_COMPUTE_BIT)),
       layout_(make_pipeline_layout(device, set_.get(), push_bytes, VK_SHADER_STAGE_COMPUTE_BIT)) {
     std::vector<VkSpecializationMapEntry> entries;
-    for (uint32_t i = 0; i < constants.size(); ++i) entries.push_back({i, i * uint32_t(sizeof(uint32_t)), sizeof(uint32_t)});
+    for (uint32_t i = 0; i < constants.size(); ++i)
+        entries.push_back({i, i * uint32_t(sizeof(uint32_t)), sizeof(uint32_t)});
     const VkSpecializationInfo specialization{.mapEntryCount = uint32_t(entries.size()),
                                               .pMapEntries = entries.data(),
                                               .dataSize = constants.size() * sizeof(uint32_t),

@@ -31,7 +31,8 @@ private:
 
 OwnedShaderModule make_shader(const Device& device, std::span<const uint32_t> spirv);
 /// A layout of push descriptors, binding i of kind types[i].
-OwnedSetLayout make_set_layout(const Device& device, std::span<const VkDescriptorType> types, VkShaderStageFlags stages);
+OwnedSetLayout make_set_layout(const Device& device, std::span<const VkDescriptorType> types,
+                               VkShaderStageFlags stages);
 OwnedPipelineLayout make_pipeline_layout(const Device& device, VkDescriptorSetLayout set, uint32_t push_bytes,
                                          VkShaderStageFlags push_stages);
 

@@ -60,12 +60,11 @@ VkImageAspectFlags aspect_of(VkFormat format) {
 }
 
 OwnedImageView make_view(const Device& device, VkImage image, VkFormat format, uint32_t levels) {
-    const VkImageViewCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-        .image = image,
-        .viewType = VK_IMAGE_VIEW_TYPE_2D,
-        .format = format,
-        .subresourceRange = {aspect_of(format), 0, levels, 0, 1}};
+    const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                     .image = image,
+                                     .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                                     .format = format,
+                                     .subresourceRange = {aspect_of(format), 0, levels, 0, 1}};
     VkImageView view = VK_NULL_HANDLE;
     check(vkCreateImageView(device.handle(), &info, nullptr, &view), "viewing an image");
     return {device.handle(), view};
@@ -75,8 +74,8 @@ HostBuffer::HostBuffer(const Device& device, uint64_t bytes, VkBufferUsageFlags 
     : device_(device.handle()), buffer_(make_buffer(device, bytes, usage)), bytes_(bytes) {
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device_, buffer_.get(), &needs);
-    const VkMemoryPropertyFlags preferred = direction == Direction::FromDevice ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
-                                                                               : VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    const VkMemoryPropertyFlags preferred =
+        direction == Direction::FromDevice ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT : VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const uint32_t type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT, preferred);
     coherent_ = device.is_coherent(type);
     memory_ = allocate(device, needs.size, type);

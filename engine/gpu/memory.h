@@ -40,7 +40,8 @@ OwnedMemory allocate(const Device& device, uint64_t bytes, uint32_t memory_type)
 OwnedBuffer make_buffer(const Device& device, uint64_t bytes, VkBufferUsageFlags usage);
 VkImageCreateInfo image_info(VkFormat format, VkExtent2D extent, uint32_t levels, VkImageUsageFlags usage);
 OwnedImage make_image(const Device& device, const VkImageCreateInfo& info);
-OwnedImageView make_view(const Device& device, VkImage image, VkFormat format, uint32_t levels = VK_REMAINING_MIP_LEVELS);
+OwnedImageView make_view(const Device& device, VkImage image, VkFormat format,
+                         uint32_t levels = VK_REMAINING_MIP_LEVELS);
 VkImageAspectFlags aspect_of(VkFormat format);
 
 /// Host-visible memory with one buffer in it, mapped for as long as it lives.

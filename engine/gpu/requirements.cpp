@@ -16,39 +16,48 @@ struct FeatureField {
     VkStructureType type;
     size_t offset;
 };
-/// A feature by its name in Vulkan, and the structures it may be in: of a version, and of the extension that became part of that.
+/// A feature by its name in Vulkan, and the structures it may be in: of a version, and of the extension that became
+/// part of that.
 struct Feature {
     const char* name;
     std::array<FeatureField, 2> fields;
 };
 
-constexpr FeatureField in_core(size_t offset) { return {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, offsetof(VkPhysicalDeviceFeatures2, features) + offset}; }
+constexpr FeatureField in_core(size_t offset) {
+    return {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, offsetof(VkPhysicalDeviceFeatures2, features) + offset};
+}
 
 constexpr FeatureField kIndependentBlend = in_core(offsetof(VkPhysicalDeviceFeatures, independentBlend));
 constexpr FeatureField kAnisotropy = in_core(offsetof(VkPhysicalDeviceFeatures, samplerAnisotropy));
-constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                          k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
 
 constexpr Feature kFeatures[] = {
     {"independentBlend", {kIndependentBlend, kIndependentBlend}},
     {"scalarBlockLayout",
      {{{k12, offsetof(VkPhysicalDeviceVulkan12Features, scalarBlockLayout)},
-       {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES, offsetof(VkPhysicalDeviceScalarBlockLayoutFeatures, scalarBlockLayout)}}}},
+       {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES,
+        offsetof(VkPhysicalDeviceScalarBlockLayoutFeatures, scalarBlockLayout)}}}},
     {"dynamicRendering",
      {{{k13, offsetof(VkPhysicalDeviceVulkan13Features, dynamicRendering)},
-       {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, offsetof(VkPhysicalDeviceDynamicRenderingFeatures, dynamicRendering)}}}},
+       {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES,
+        offsetof(VkPhysicalDeviceDynamicRenderingFeatures, dynamicRendering)}}}},
     {"synchronization2",
      {{{k13, offsetof(VkPhysicalDeviceVulkan13Features, synchronization2)},
-       {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, offsetof(VkPhysicalDeviceSynchronization2Features, synchronization2)}}}},
+       {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+        offsetof(VkPhysicalDeviceSynchronization2Features, synchronization2)}}}},
     {"maintenance4",
      {{{k13, offsetof(VkPhysicalDeviceVulkan13Features, maintenance4)},
-       {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES, offsetof(VkPhysicalDeviceMaintenance4Features, maintenance4)}}}},
+       {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
+        offsetof(VkPhysicalDeviceMaintenance4Features, maintenance4)}}}},
 };
 
 /// Where a chain of structures has one of these, or null.
 VkBool32* find(void* chain, std::span<const FeatureField> fields) {
     for (auto* at = static_cast<VkBaseOutStructure*>(chain); at; at = at->pNext)
         for (const FeatureField& home : fields)
-            if (at->sType == home.type) return reinterpret_cast<VkBool32*>(reinterpret_cast<std::byte*>(at) + home.offset);
+            if (at->sType == home.type)
+                return reinterpret_cast<VkBool32*>(reinterpret_cast<std::byte*>(at) + home.offset);
     return nullptr;
 }
 
@@ -77,7 +86,9 @@ private:
     void* chain_;
 };
 
-std::string version_text(uint32_t version) { return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)); }
+std::string version_text(uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
+}
 
 }  // namespace
 
@@ -93,7 +104,8 @@ std::string missing_support(VkPhysicalDevice device) {
     VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceProperties2 more{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
     vkGetPhysicalDeviceProperties2(device, &more);
-    if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) || !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT))
+    if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
+        !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT))
         list(names, "subgroup votes in compute shaders");
     for (const char* extension : kDeviceExtensions)
         if (!has_extension(device, extension)) list(names, extension);
@@ -107,11 +119,15 @@ std::string missing_support(VkPhysicalDevice device) {
 
 std::string missing_of(const VkDeviceCreateInfo& info, uint32_t version) {
     std::string names;
-    if (version < kVulkanVersion) list(names, "Vulkan " + version_text(kVulkanVersion) + " (its instance was made for " + version_text(version) + ")");
+    if (version < kVulkanVersion)
+        list(names,
+             "Vulkan " + version_text(kVulkanVersion) + " (its instance was made for " + version_text(version) + ")");
     if (const std::string features = missing_features(MadeWith(info).chain()); !features.empty()) list(names, features);
     const std::span<const char* const> enabled(info.ppEnabledExtensionNames, info.enabledExtensionCount);
     for (const char* extension : kDeviceExtensions)
-        if (std::none_of(enabled.begin(), enabled.end(), [&](const char* name) { return std::strcmp(name, extension) == 0; })) list(names, extension);
+        if (std::none_of(enabled.begin(), enabled.end(),
+                         [&](const char* name) { return std::strcmp(name, extension) == 0; }))
+            list(names, extension);
     return names;
 }
 

@@ -14,11 +14,13 @@ constexpr std::array<const char*, 1> kDeviceExtensions{VK_KHR_PUSH_DESCRIPTOR_EX
 
 /// Everything that a physical device lacks, with commas; empty: nothing.
 std::string missing_support(VkPhysicalDevice);
-/// Everything that a device was made without, likewise. `version` is that of its instance (VkApplicationInfo::apiVersion).
+/// Everything that a device was made without, likewise. `version` is that of its instance
+/// (VkApplicationInfo::apiVersion).
 std::string missing_of(const VkDeviceCreateInfo&, uint32_t version);
 
-/// Sets the features that the engine needs, and anisotropic filtering where there is any; leaves others as they are. The chain holds the structures of
-/// Vulkan 1.2 and 1.3, or those of the extensions that became part of these. Throws Error naming the features that have no place in it.
+/// Sets the features that the engine needs, and anisotropic filtering where there is any; leaves others as they are.
+/// The chain holds the structures of Vulkan 1.2 and 1.3, or those of the extensions that became part of these. Throws
+/// Error naming the features that have no place in it.
 void enable_features(VkPhysicalDevice, VkPhysicalDeviceFeatures2& chain);
 /// Whether a device was made with anisotropic filtering.
 bool filters_along(const VkDeviceCreateInfo&);

@@ -36,7 +36,8 @@ View framing_view(const Scene& scene, const SceneFrame& frame, VkExtent2D extent
     const float narrow = std::min(1.0f, float(extent.width) / float(extent.height));
     const float distance = radius / std::sin(std::atan(std::tan(kFov / 2) * narrow));
     const glm::vec3 eye = centre + glm::normalize(glm::vec3(0.35f, 0.4f, 1)) * distance;
-    return View::symmetric(extent, kFov, glm::lookAt(eye, centre, glm::vec3(0, 1, 0)), std::max(1e-4f, (distance - radius) * 0.1f));
+    return View::symmetric(extent, kFov, glm::lookAt(eye, centre, glm::vec3(0, 1, 0)),
+                           std::max(1e-4f, (distance - radius) * 0.1f));
 }
 
 // World to the frame of a node, without its scale.
@@ -55,7 +56,8 @@ glm::dmat4 view_from(const glm::dmat4& world) {
 std::vector<std::string> camera_names(const Scene& scene) {
     std::vector<std::string> names;
     for (const Node& node : scene.nodes)
-        if (node.camera != kNone) names.push_back(scene.cameras[node.camera].name.empty() ? node.name : scene.cameras[node.camera].name);
+        if (node.camera != kNone)
+            names.push_back(scene.cameras[node.camera].name.empty() ? node.name : scene.cameras[node.camera].name);
     return names;
 }
 
@@ -69,7 +71,8 @@ View camera_view(const Scene& scene, const SceneFrame& frame, const std::string&
     if (name.empty()) return framing_view(scene, frame, extent);
     std::string known;
     for (const std::string& n : camera_names(scene)) known += (known.empty() ? "" : ", ") + n;
-    throw Error((scene.name.empty() ? "the scene" : scene.name) + ": no camera '" + name + "'; there is " + (known.empty() ? "none" : known));
+    throw Error((scene.name.empty() ? "the scene" : scene.name) + ": no camera '" + name + "'; there is " +
+                (known.empty() ? "none" : known));
 }
 
 }  // namespace vesper

@@ -7,7 +7,7 @@ namespace vesper {
 namespace {
 
 constexpr uint32_t kMantissaBits = 23;
-constexpr float kNever = 2;  // no light is
+constexpr float kNever = 2;                      // no light is
 constexpr uint32_t kMinBits = 4, kMaxBits = 12;  // of the mantissa that tell cells apart
 
 /// Displayed light from which on the code is i + 1 or more, ascending: that of a code half a step below it.
@@ -54,7 +54,8 @@ Encoding make_encoding(const Display& display) {
     const std::vector<float> thresholds = thresholds_of(display);
     Encoding made;
     bool exact = false;
-    for (uint32_t mantissa = kMinBits; mantissa <= kMaxBits && !exact; ++mantissa) made = cells_of(thresholds, mantissa, exact);
+    for (uint32_t mantissa = kMinBits; mantissa <= kMaxBits && !exact; ++mantissa)
+        made = cells_of(thresholds, mantissa, exact);
     made.push.bits = display.bits;
     return made;
 }

@@ -5,8 +5,8 @@
 
 #include <glm/glm.hpp>
 
-#include "vision/display.h"
 #include "shared/encode.h"
+#include "vision/display.h"
 
 namespace vesper {
 

@@ -6,8 +6,8 @@
 
 #include <glm/glm.hpp>
 
-#include "vision/glare_pattern.h"
 #include "gpu_scene/eye_scatter.h"
+#include "vision/glare_pattern.h"
 
 namespace vesper {
 

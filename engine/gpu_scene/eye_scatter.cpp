@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/glare_pattern.h"
 #include "gpu_scene/gpu_scene.h"
 #include "shared/eye_scatter.h"
+#include "vision/glare_pattern.h"
 
 namespace vesper {
 namespace {
@@ -39,7 +39,8 @@ std::vector<glm::vec4> transposed(const std::vector<float>& matrix, size_t rows)
 }  // namespace
 
 EyeScatter eye_scatter(const ScatterSettings& settings) {
-    if (settings.model == ScatterSettings::Model::Spencer) return EyeScatter([state = settings.state](double theta) { return spencer_veil(theta, state); });
+    if (settings.model == ScatterSettings::Model::Spencer)
+        return EyeScatter([state = settings.state](double theta) { return spencer_veil(theta, state); });
     if (settings.model == ScatterSettings::Model::Ward) return EyeScatter(ward_veil);
     return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
 }
@@ -84,15 +85,18 @@ std::vector<glm::vec4> GpuScatter::lamps_of(int level, const std::vector<Offscre
 std::vector<glm::vec4> GpuScatter::far_veil(const std::vector<OffscreenLamp>& lamps) const {
     std::vector<OffscreenLamp> far;
     for (const OffscreenLamp& lamp : lamps)
-        if (lamp.direction.z < 0 && !scatter_entry(image_, lamp.direction)) far.push_back({glm::normalize(lamp.direction), lamp.illuminance});
+        if (lamp.direction.z < 0 && !scatter_entry(image_, lamp.direction))
+            far.push_back({glm::normalize(lamp.direction), lamp.illuminance});
     const glm::ivec2 rows = scatter_size(image_, levels_) + 2 * kScatterReach;
     std::vector<glm::vec4> veil(size_t(rows.x * rows.y), glm::vec4(0));
     for (int y = 0; y < rows.y && !far.empty(); ++y)
         for (int x = 0; x < rows.x; ++x) {
-            const dvec3 to = glm::normalize(dvec3(image_.at(std::exp2(levels_) * (dvec2(x, y) - double(kScatterReach) + 0.5)), -1));
+            const dvec3 to =
+                glm::normalize(dvec3(image_.at(std::exp2(levels_) * (dvec2(x, y) - double(kScatterReach) + 0.5)), -1));
             dvec3 sum(0);
             for (const OffscreenLamp& lamp : far) {
-                const double theta = std::acos(std::clamp(glm::dot(to, lamp.direction), -1.0, 1.0)) * 180 / std::numbers::pi;
+                const double theta =
+                    std::acos(std::clamp(glm::dot(to, lamp.direction), -1.0, 1.0)) * 180 / std::numbers::pi;
                 sum += psf_(theta) * lamp.illuminance;
             }
             veil[size_t(y * rows.x + x)] = glm::vec4(sum, 0);
@@ -102,7 +106,9 @@ std::vector<glm::vec4> GpuScatter::far_veil(const std::vector<OffscreenLamp>& la
 
 const GpuScatter& ScatterCache::at(const ScatterSettings& settings, const View& view) {
     const ImageAngles image = angles_of(view);
-    const auto known = std::find_if(fits_.begin(), fits_.end(), [&](const GpuScatter& fit) { return fit.settings() == settings && fit.image() == image; });
+    const auto known = std::find_if(fits_.begin(), fits_.end(), [&](const GpuScatter& fit) {
+        return fit.settings() == settings && fit.image() == image;
+    });
     if (known != fits_.end()) {
         fits_.splice(fits_.begin(), fits_, known);
     } else {
@@ -113,7 +119,9 @@ const GpuScatter& ScatterCache::at(const ScatterSettings& settings, const View& 
 }
 
 bool ScatterCache::has(const ScatterSettings& settings, const View& view) const {
-    return std::any_of(fits_.begin(), fits_.end(), [&](const GpuScatter& fit) { return fit.settings() == settings && fit.image() == angles_of(view); });
+    return std::any_of(fits_.begin(), fits_.end(), [&](const GpuScatter& fit) {
+        return fit.settings() == settings && fit.image() == angles_of(view);
+    });
 }
 
 }  // namespace vesper

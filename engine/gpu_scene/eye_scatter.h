@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "gpu/memory.h"
+#include "gpu_scene/view.h"
 #include "vision/eye_aperture.h"
 #include "vision/scatter_fit.h"
-#include "gpu_scene/view.h"
 
 namespace vesper {
 
@@ -15,9 +15,9 @@ namespace vesper {
 struct ScatterSettings {
     enum class Model : uint8_t { Cie, Spencer, Ward, Temporal };
     Model model = Model::Cie;
-    ScatteringEye eye;                             ///< CIE; Temporal, whose mean it is
-    SpencerState state = SpencerState::Photopic;   ///< Spencer
-    ApertureSettings aperture;                     ///< Temporal; Spencer's needles have its seed
+    ScatteringEye eye;                            ///< CIE; Temporal, whose mean it is
+    SpencerState state = SpencerState::Photopic;  ///< Spencer
+    ApertureSettings aperture;                    ///< Temporal; Spencer's needles have its seed
 
     /// Whether bright lamps have needles and a halo (vision/glare_pattern.h).
     bool has_corona() const { return model == Model::Spencer || model == Model::Temporal; }
@@ -30,7 +30,8 @@ ImageAngles angles_of(const View&);
 /// Texels that one invocation of scatter_down.comp does; of rows at most so many.
 glm::ivec2 scatter_down_strip(const Device&);
 
-/// Light of a lamp outside of the picture, which is not in its pixels. It scatters nothing from behind the plane of the eye.
+/// Light of a lamp outside of the picture, which is not in its pixels. It scatters nothing from behind the plane of the
+/// eye.
 struct OffscreenLamp {
     glm::dvec3 direction{0, 0, -1};  ///< from the eye, view frame
     glm::dvec3 illuminance{0};       ///< RGB lx, on a plane at the eye that faces the lamp
@@ -59,7 +60,8 @@ public:
 
     /// Lamps whose light begins at a level, two texels each (shared/eye_scatter.h).
     std::vector<glm::vec4> lamps_of(int level, const std::vector<OffscreenLamp>&) const;
-    /// Veiling luminance of the lamps that are too far outside for that, cd/m^2 RGB, for each texel of the top that takes.
+    /// Veiling luminance of the lamps that are too far outside for that, cd/m^2 RGB, for each texel of the top that
+    /// takes.
     std::vector<glm::vec4> far_veil(const std::vector<OffscreenLamp>&) const;
 
 private:

@@ -36,7 +36,8 @@ std::vector<InDiffuse> in_diffuse(const Scene& scene) {
     std::vector<InDiffuse> roads;
     for (size_t i = 0; i < scene.reflection_tables.size(); ++i) {
         const ReflectionTable table = rendered_table(scene, i);
-        roads.push_back({reflectance_in_diffuse(table), float(diffuse_luminance_coefficient(without_sheen(table)) / diffuse_luminance_coefficient(table))});
+        roads.push_back({reflectance_in_diffuse(table), float(diffuse_luminance_coefficient(without_sheen(table)) /
+                                                              diffuse_luminance_coefficient(table))});
     }
     return roads;
 }
@@ -73,7 +74,8 @@ Sphere sphere_of(const GpuScene::Part& part, const glm::mat4& m) {
     return {glm::vec3(m * glm::vec4(part.centre, 1)), part.radius * largest_stretch(m)};
 }
 
-OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const std::byte> bytes, VkBufferUsageFlags usage) {
+OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const std::byte> bytes,
+                          VkBufferUsageFlags usage) {
     OwnedBuffer buffer = make_buffer(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     arena.bind(buffer.get());
     const HostBuffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
@@ -88,7 +90,8 @@ OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const st
 
 GpuScene::GpuScene(const Device& device, const Scene& scene, PictureFormat pictures)
     : arena_(device), textures_(device, arena_, pictures), push_descriptors_(device.push_descriptors) {
-    const VkDescriptorType sampled[3] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    const VkDescriptorType sampled[3] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                          VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
     set_ = make_set_layout(device, sampled, VK_SHADER_STAGE_FRAGMENT_BIT);
     layout_ = make_pipeline_layout(device, set_.get(), sizeof(shared::GBufferPush), VK_SHADER_STAGE_VERTEX_BIT);
@@ -104,7 +107,8 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         mesh_parts_.emplace_back(uint32_t(parts_.size()), uint32_t(mesh.primitives.size()));
         for (const Primitive& primitive : mesh.primitives) {
-            const glm::vec3 centre = primitive.bounds.empty() ? glm::vec3(0) : (primitive.bounds.low + primitive.bounds.high) * 0.5f;
+            const glm::vec3 centre =
+                primitive.bounds.empty() ? glm::vec3(0) : (primitive.bounds.low + primitive.bounds.high) * 0.5f;
             const float radius = primitive.bounds.empty() ? 0 : glm::length(primitive.bounds.high - centre);
             parts_.push_back({primitive.material, uint32_t(indices.size()), uint32_t(primitive.indices.size()),
                               int32_t(vertices.size()), centre, radius});
@@ -131,7 +135,8 @@ void GpuScene::make_surfaces(const Device&, const Scene& scene) {
     const std::vector<MaterialUse> uses = roads.empty() ? std::vector<MaterialUse>{} : material_uses(scene);
     for (size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& stated = scene.materials[i];
-        Material m = stated.reflection_table != kNone ? as_road(scene, roads.at(stated.reflection_table), uses[i], stated)
+        Material m = stated.reflection_table != kNone
+                         ? as_road(scene, roads.at(stated.reflection_table), uses[i], stated)
                      : stated.retroreflector != kNone ? as_sheet(stated)
                                                       : stated;
         // Opacity passes through half floats, which may be half a step (2^-11 of the value) less than the code said.
@@ -149,7 +154,8 @@ void GpuScene::make_surfaces(const Device&, const Scene& scene) {
         const VkDescriptorImageInfo emission = picture ? textures_.get_picture(scene, m.emission_picture, unit)
                                                        : textures_.get(scene, m.emission_texture, Decode::Srgb);
         m.emission *= unit;
-        surfaces_.push_back({m, variant,
+        surfaces_.push_back({m,
+                             variant,
                              {textures_.get(scene, m.base_colour_texture, Decode::Colour, cutoff),
                               textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission}});
     }
@@ -178,23 +184,24 @@ void GpuScene::make_pipelines(const Device& device) {
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo viewport{.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-                                                     .viewportCount = 1,
-                                                     .scissorCount = 1};
-    const VkPipelineRasterizationStateCreateInfo raster{.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-                                                        .polygonMode = VK_POLYGON_MODE_FILL,
-                                                        .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples{.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-                                                       .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineDepthStencilStateCreateInfo depth{.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-                                                      .depthTestEnable = VK_TRUE,
-                                                      .depthWriteEnable = VK_TRUE,
-                                                      .depthCompareOp = VK_COMPARE_OP_GREATER};
+    const VkPipelineViewportStateCreateInfo viewport{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
+    const VkPipelineRasterizationStateCreateInfo raster{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .polygonMode = VK_POLYGON_MODE_FILL,
+        .lineWidth = 1};
+    const VkPipelineMultisampleStateCreateInfo samples{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
+    const VkPipelineDepthStencilStateCreateInfo depth{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+        .depthTestEnable = VK_TRUE,
+        .depthWriteEnable = VK_TRUE,
+        .depthCompareOp = VK_COMPARE_OP_GREATER};
     VkPipelineColorBlendAttachmentState blend[3];
     for (auto& b : blend) b = {.colorWriteMask = 0xf};
-    const VkPipelineColorBlendStateCreateInfo blending{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                       .attachmentCount = 3,
-                                                       .pAttachments = blend};
+    const VkPipelineColorBlendStateCreateInfo blending{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO, .attachmentCount = 3, .pAttachments = blend};
     const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE,
                                      VK_DYNAMIC_STATE_FRONT_FACE};
     const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
@@ -208,8 +215,8 @@ void GpuScene::make_pipelines(const Device& device) {
     for (const uint32_t variant : variants) {
         // Emission is cleared to 0; what emits is drawn after everything that could hide it.
         blend[2].colorWriteMask = (variant & kEmits) ? 0xf : 0;
-        const uint32_t constants[4] = {variant & kBaseTexture, variant & kMetallicRoughnessTexture, variant & kEmissionTexture,
-                                       variant & kMask};
+        const uint32_t constants[4] = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
+                                       variant & kEmissionTexture, variant & kMask};
         const VkSpecializationMapEntry entries[4] = {{0, 0, 4}, {1, 4, 4}, {2, 8, 4}, {3, 12, 4}};
         const VkSpecializationInfo specialization{4, entries, sizeof constants, constants};
         const VkPipelineShaderStageCreateInfo stages[] = {{.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
@@ -236,7 +243,8 @@ void GpuScene::make_pipelines(const Device& device) {
                                                 .layout = layout_.get()};
         VkPipeline pipeline = VK_NULL_HANDLE;
         const PipelineTimer timer(device);
-        check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "compiling the G-buffer");
+        check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+              "compiling the G-buffer");
         pipelines_[variant] = {device.handle(), pipeline};
     }
 }

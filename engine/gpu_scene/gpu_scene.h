@@ -46,9 +46,15 @@ public:
         uint32_t node;
         uint32_t first_part, part_count;
     };
-    /// Bits of a pipeline variant. Variants that emit have the largest numbers: they are drawn last, and only they write
-    /// emission.
-    enum Variant : uint32_t { kBaseTexture = 1, kMetallicRoughnessTexture = 2, kEmissionTexture = 4, kMask = 8, kEmits = 16 };
+    /// Bits of a pipeline variant. Variants that emit have the largest numbers: they are drawn last, and only they
+    /// write emission.
+    enum Variant : uint32_t {
+        kBaseTexture = 1,
+        kMetallicRoughnessTexture = 2,
+        kEmissionTexture = 4,
+        kMask = 8,
+        kEmits = 16
+    };
     struct Surface {
         Material material;
         uint32_t variant;
@@ -98,6 +104,7 @@ struct Sphere {
 Sphere sphere_of(const GpuScene::Part& part, const glm::mat4& transform);
 
 /// Copies bytes into a new device-local buffer, by way of a host buffer, and waits.
-OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
+OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const std::byte> bytes,
+                          VkBufferUsageFlags usage);
 
 }  // namespace vesper

@@ -41,18 +41,22 @@ Nodes nodes_of(const std::vector<double>& values, double low, double high, Spaci
         divisor = std::gcd(divisor, std::llround(units));
     }
     const bool exact = whole && double(divisor) >= spacing.finest;
-    const int64_t steps = std::max<int64_t>(1, std::llround((high - low) * kUnit / (exact ? double(divisor) : spacing.otherwise)));
+    const int64_t steps =
+        std::max<int64_t>(1, std::llround((high - low) * kUnit / (exact ? double(divisor) : spacing.otherwise)));
     return {low, (high - low) / double(steps), uint32_t(steps) + 1, exact};
 }
 
-// The frame a distribution is measured in: azimuth from `start` towards cross(start, pole), and the angle from the pole.
-// C and gamma; H, and 90 degrees less V; minus V, and 90 degrees less H.
+// The frame a distribution is measured in: azimuth from `start` towards cross(start, pole), and the angle from the
+// pole. C and gamma; H, and 90 degrees less V; minus V, and 90 degrees less H.
 glm::dvec3 direction(Goniometry goniometry, double azimuth, double polar) {
     const double a = glm::radians(azimuth), s = std::sin(glm::radians(polar)), c = std::cos(glm::radians(polar));
     switch (goniometry) {
-        case Goniometry::CGamma: return {s * std::cos(a), s * std::sin(a), -c};
-        case Goniometry::TypeB: return {c, -s * std::sin(a), -s * std::cos(a)};
-        case Goniometry::TypeA: break;
+        case Goniometry::CGamma:
+            return {s * std::cos(a), s * std::sin(a), -c};
+        case Goniometry::TypeB:
+            return {c, -s * std::sin(a), -s * std::cos(a)};
+        case Goniometry::TypeA:
+            break;
     }
     return {s * std::sin(a), c, -s * std::cos(a)};
 }
@@ -78,8 +82,9 @@ Range range_of(const Distribution& d) {
             break;
     }
     const bool around = d.goniometry == Goniometry::CGamma;
-    return {around ? nodes_of(azimuth, -180, 180, kAngles) : nodes_of(azimuth, azimuth.front(), azimuth.back(), kAngles),
-            nodes_of(polar, polar.front(), polar.back(), kAngles), around, polar.front() <= 0, polar.back() >= 180};
+    return {
+        around ? nodes_of(azimuth, -180, 180, kAngles) : nodes_of(azimuth, azimuth.front(), azimuth.back(), kAngles),
+        nodes_of(polar, polar.front(), polar.back(), kAngles), around, polar.front() <= 0, polar.back() >= 180};
 }
 
 // Values at the nodes; beyond them what goes on around, stays at a pole, or is nothing.
@@ -93,8 +98,12 @@ public:
         };
         for (uint32_t i = 0; i < range.azimuth.count; ++i)
             for (uint32_t j = 0; j < range.polar.count; ++j)
-                values_.push_back(float(intensity(d, direction(d.goniometry, range.around ? range.azimuth.at(i) : within(range.azimuth.at(i), range.azimuth),
-                                                               within(range.polar.at(j), range.polar))) / largest));
+                values_.push_back(float(
+                    intensity(d,
+                              direction(d.goniometry,
+                                        range.around ? range.azimuth.at(i) : within(range.azimuth.at(i), range.azimuth),
+                                        within(range.polar.at(j), range.polar))) /
+                    largest));
     }
 
     // Corners of a cell; cell (0, 0) lies before the first nodes.
@@ -117,25 +126,31 @@ private:
 // Bins of directions, or windows of them: values by ring and sector.
 using Windows = std::vector<std::vector<float>>;
 
-// The largest value that cells have in each bin. Within a cell they are bilinear, so the largest in a part of it is at one of the corners of that part.
+// The largest value that cells have in each bin. Within a cell they are bilinear, so the largest in a part of it is at
+// one of the corners of that part.
 class Bins {
 public:
     Bins() {
-        for (uint32_t r = 0; r <= shared::kRings; ++r) rings_.push_back(glm::degrees(2 * std::asin(double(r) / shared::kRings)));
+        for (uint32_t r = 0; r <= shared::kRings; ++r)
+            rings_.push_back(glm::degrees(2 * std::asin(double(r) / shared::kRings)));
     }
 
     // The range of a cell, deg, and its values.
     void add(glm::dvec2 azimuth, glm::dvec2 polar, const glm::vec4& corners) {
-        const auto part = [](double angle, glm::dvec2 range) { return std::clamp((angle - range.x) / (range.y - range.x), 0.0, 1.0); };
+        const auto part = [](double angle, glm::dvec2 range) {
+            return std::clamp((angle - range.x) / (range.y - range.x), 0.0, 1.0);
+        };
         const auto sector = [](int64_t s) { return 360.0 * double(s) / shared::kSectors - 180; };
         const auto first_ring = size_t(std::sin(glm::radians(std::clamp(polar.x, 0.0, 180.0) / 2)) * shared::kRings);
         for (auto s = int64_t(std::floor((azimuth.x + 180) / 360 * shared::kSectors)); sector(s) <= azimuth.y; ++s)
             for (size_t r = first_ring; r < shared::kRings && rings_[r] <= polar.y; ++r) {
-                const double u[]{part(sector(s), azimuth), part(sector(s + 1), azimuth)}, v[]{part(rings_[r], polar), part(rings_[r + 1], polar)};
+                const double u[]{part(sector(s), azimuth), part(sector(s + 1), azimuth)},
+                    v[]{part(rings_[r], polar), part(rings_[r + 1], polar)};
                 float& largest = values[r][size_t((s % shared::kSectors + shared::kSectors) % shared::kSectors)];
                 for (const double x : u)
                     for (const double y : v)
-                        largest = std::max(largest, 1.001f * float(glm::mix(glm::mix(corners.x, corners.y, x), glm::mix(corners.z, corners.w, x), y)));
+                        largest = std::max(largest, 1.001f * float(glm::mix(glm::mix(corners.x, corners.y, x),
+                                                                            glm::mix(corners.z, corners.w, x), y)));
             }
     }
 
@@ -152,7 +167,8 @@ Windows transposed(const Windows& w) {
     return t;
 }
 
-// Windows of every length along the first coordinate (shared/tables.h), which goes on around, from bins; 3 N of N, of which the last two hold all.
+// Windows of every length along the first coordinate (shared/tables.h), which goes on around, from bins; 3 N of N, of
+// which the last two hold all.
 Windows windows_of(Windows bins) {
     const size_t count = bins.size();
     for (size_t below = 0, number = count, length = 2; length <= count; length *= 2) {
@@ -188,7 +204,8 @@ IntensityTables::Intensities add_intensities(const Distribution& d, std::vector<
     map.low = {glm::radians(range.azimuth.low), glm::radians(range.polar.low)};
     map.step = {glm::radians(range.azimuth.step), glm::radians(range.polar.step)};
     if (size_t(map.cells.x) * map.cells.y > kMostTexels)
-        throw Error("the light distribution '" + d.name + "' is too fine: " + std::to_string(map.cells.x) + " x " + std::to_string(map.cells.y) + " cells");
+        throw Error("the light distribution '" + d.name + "' is too fine: " + std::to_string(map.cells.x) + " x " +
+                    std::to_string(map.cells.y) + " cells");
 
     const Grid grid(d, range, largest);
     Bins bins;
@@ -196,7 +213,8 @@ IntensityTables::Intensities add_intensities(const Distribution& d, std::vector<
     for (int64_t i = 0; i < map.cells.x; ++i)
         for (int64_t j = 0; j < map.cells.y; ++j) {
             cells.push_back(grid.cell(i, j));
-            bins.add({range.azimuth.at(i - 1), range.azimuth.at(i)}, {range.polar.at(j - 1), range.polar.at(j)}, cells.back());
+            bins.add({range.azimuth.at(i - 1), range.azimuth.at(i)}, {range.polar.at(j - 1), range.polar.at(j)},
+                     cells.back());
         }
     append_windows(bins, texels);
     map.first = uint32_t(texels.size());
@@ -221,10 +239,13 @@ glm::vec4 add_road(const ReflectionTable& table, size_t budget, std::vector<glm:
     // Beyond the last tan(gamma) there may be nothing: no node may get there by rounding.
     const double last = table.tan_gamma.back();
     const double scale = std::numbers::pi / reflectance_in_diffuse(table);
-    const auto value = [&](uint32_t t, uint32_t b) { return float(scale * reduced_luminance_coefficient(table, std::min(tan_gamma.at(t), last), beta.at(b))); };
+    const auto value = [&](uint32_t t, uint32_t b) {
+        return float(scale * reduced_luminance_coefficient(table, std::min(tan_gamma.at(t), last), beta.at(b)));
+    };
     const glm::vec4 head(cells.x / last, last, cells.y / std::numbers::pi, texels.size());
     for (uint32_t t = 0; t < cells.x; ++t)
-        for (uint32_t b = 0; b < cells.y; ++b) texels.emplace_back(value(t, b), value(t + 1, b), value(t, b + 1), value(t + 1, b + 1));
+        for (uint32_t b = 0; b < cells.y; ++b)
+            texels.emplace_back(value(t, b), value(t + 1, b), value(t, b + 1), value(t + 1, b + 1));
     return head;
 }
 
@@ -236,7 +257,8 @@ ReflectionTable rendered_table(const Scene& scene, size_t index) {
 }
 
 float reflectance_in_diffuse(const ReflectionTable& rendered) {
-    // Normal numbers of half floats: a table that is darker or brighter than any road is as the texels say, which are relative to this.
+    // Normal numbers of half floats: a table that is darker or brighter than any road is as the texels say, which are
+    // relative to this.
     const double wanted = std::clamp(std::numbers::pi * diffuse_luminance_coefficient(rendered), 0x1p-14, 65504.0);
     return glm::unpackHalf1x16(glm::packHalf1x16(float(wanted)));
 }
@@ -245,9 +267,11 @@ IntensityTables intensity_tables(const Scene& scene) {
     IntensityTables tables;
     const auto check_size = [&] {
         if (tables.texels.size() > kMostTexels)
-            throw Error("the scene's light distributions need more than " + std::to_string(kMostTexels) + " texels in all");
+            throw Error("the scene's light distributions need more than " + std::to_string(kMostTexels) +
+                        " texels in all");
     };
-    for (const Distribution& d : scene.distributions) tables.intensities.push_back(add_intensities(d, tables.texels)), check_size();
+    for (const Distribution& d : scene.distributions)
+        tables.intensities.push_back(add_intensities(d, tables.texels)), check_size();
     if (const size_t count = scene.reflection_tables.size()) {
         tables.roads = uint32_t(tables.texels.size());
         tables.texels.resize(tables.texels.size() + count);

@@ -9,10 +9,14 @@ namespace {
 
 int order(Lamp::Kind kind) {
     switch (kind) {
-        case Lamp::Kind::CosinePower: return 1;
-        case Lamp::Kind::Measured: return 2;
-        case Lamp::Kind::Directional: return 3;
-        default: return 0;
+        case Lamp::Kind::CosinePower:
+            return 1;
+        case Lamp::Kind::Measured:
+            return 2;
+        case Lamp::Kind::Directional:
+            return 3;
+        default:
+            return 0;
     }
 }
 
@@ -26,12 +30,19 @@ glm::vec3 unit(glm::vec4 column, glm::vec3 otherwise) {
 void place_map(shared::Lamp& lamp, const IntensityTables::Intensities& map, glm::vec3 x, glm::vec3 y, glm::vec3 z) {
     glm::vec3 turn;  // where azimuth goes from `start`
     switch (map.goniometry) {
-        case Goniometry::CGamma: lamp.start = x, lamp.pole = -z, turn = y; break;
-        case Goniometry::TypeA: lamp.start = -z, lamp.pole = y, turn = x; break;
-        case Goniometry::TypeB: lamp.start = -z, lamp.pole = x, turn = -y; break;
+        case Goniometry::CGamma:
+            lamp.start = x, lamp.pole = -z, turn = y;
+            break;
+        case Goniometry::TypeA:
+            lamp.start = -z, lamp.pole = y, turn = x;
+            break;
+        case Goniometry::TypeB:
+            lamp.start = -z, lamp.pole = x, turn = -y;
+            break;
     }
     lamp.start -= glm::dot(lamp.start, lamp.pole) * lamp.pole;
-    const glm::vec3 across = glm::cross(lamp.pole, std::abs(lamp.pole.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
+    const glm::vec3 across =
+        glm::cross(lamp.pole, std::abs(lamp.pole.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
     lamp.start = unit(glm::vec4(lamp.start, 0), glm::normalize(across));  // of a flat node
     const bool mirrored = glm::dot(glm::cross(lamp.start, lamp.pole), turn) < 0;
     const glm::dvec2 scale = 1.0 / map.step;
@@ -52,7 +63,8 @@ std::vector<PlacedLamp> placed_lamps(const Scene& scene) {
     return placed;
 }
 
-LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& tables, const SceneFrame& frame, const View& view) {
+LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& tables, const SceneFrame& frame,
+                   const View& view) {
     LampList list;
     for (const PlacedLamp& placed : lamps) {
         const Lamp& lamp = placed.lamp;
@@ -63,15 +75,31 @@ LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& 
         const glm::vec3 x = unit(m[0], {1, 0, 0}), y = unit(m[1], {0, 0, -1}), z = unit(m[2], {0, 1, 0});
         const bool power = lamp.kind == Lamp::Kind::CosinePower;
         const glm::vec2 lobe = power ? glm::vec2(lamp.exponent, 0) : glm::vec2(cone_ramp(lamp));
-        shared::Lamp made{.position = glm::vec3(m[3]), .intensity = intensity, .axis = -z, .lobe_a = lobe.x,
-                           .colour = lamp.colour, .lobe_b = lobe.y, .start = x, .map = -1, .pole = -z, .last_azimuth = 0, .grid = {}};
+        shared::Lamp made{.position = glm::vec3(m[3]),
+                          .intensity = intensity,
+                          .axis = -z,
+                          .lobe_a = lobe.x,
+                          .colour = lamp.colour,
+                          .lobe_b = lobe.y,
+                          .start = x,
+                          .map = -1,
+                          .pole = -z,
+                          .last_azimuth = 0,
+                          .grid = {}};
         if (measured) place_map(made, tables.intensities[lamp.distribution], x, y, z);
         list.lamps.push_back(made);
         switch (order(lamp.kind)) {
-            case 0: ++list.counts.cones; break;
-            case 1: ++list.counts.powers; break;
-            case 2: ++list.counts.tables; break;
-            default: ++list.counts.directional;
+            case 0:
+                ++list.counts.cones;
+                break;
+            case 1:
+                ++list.counts.powers;
+                break;
+            case 2:
+                ++list.counts.tables;
+                break;
+            default:
+                ++list.counts.directional;
         }
     }
     return list;

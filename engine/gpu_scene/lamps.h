@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "gpu_scene/intensity_tables.h"
 #include "gpu_scene/gpu_scene.h"
+#include "gpu_scene/intensity_tables.h"
 #include "gpu_scene/view.h"
 #include "scene/scene.h"
 #include "shared/lamp.h"
@@ -28,7 +28,8 @@ struct PlacedLamp {
 std::vector<PlacedLamp> placed_lamps(const Scene& scene);
 
 /// Lights at the poses of a frame, as the view sees them. Lamps of no intensity are left out.
-LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& tables, const SceneFrame& frame, const View& view);
+LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& tables, const SceneFrame& frame,
+                   const View& view);
 
 /// The LDR baseline's lamps: of intensity 1.0, that is, lighting a surface `reference_distance` (m) away on their axis
 /// with 1.0, and of a colour whose largest component is 1.

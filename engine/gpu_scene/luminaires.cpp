@@ -42,7 +42,8 @@ struct Aim {
 };
 
 // Nothing where the eye gets no light from there.
-std::optional<Aim> aim_of(const Lamp& lamp, float dimming, const std::vector<Distribution>& distributions, const glm::mat4& m, const View& view) {
+std::optional<Aim> aim_of(const Lamp& lamp, float dimming, const std::vector<Distribution>& distributions,
+                          const glm::mat4& m, const View& view) {
     const dvec3 centre(m[3]);
     const dvec3 columns[] = {dvec3(m[0]), dvec3(m[1]), dvec3(m[2])};
     for (const dvec3& column : columns)
@@ -70,7 +71,8 @@ Seen look_at(const Lamp& lamp, const Aim& aim, const View& view) {
     const dvec3 normal = seen_normal(lamp, -aim.back, aim.up, aim.to_eye);
     const glm::dquat turned = turn(-aim.back, normal, aim.up);
     // Axes of a sheared node are not at right angles; those of the opening are.
-    const dvec3 across = turned * glm::normalize(aim.right - glm::dot(aim.right, aim.back) * aim.back), along = glm::cross(normal, across);
+    const dvec3 across = turned * glm::normalize(aim.right - glm::dot(aim.right, aim.back) * aim.back),
+                along = glm::cross(normal, across);
     const LuminousOpening& o = lamp.opening;
     const Opening opening{aim.centre, 0.5 * o.length * across, 0.5 * o.width * along, o.round};
     Silhouette outline = project(opening, view, kSmallest);
@@ -94,9 +96,11 @@ double part_inside(const Seen& seen, const Aim& aim, const View& view) {
     return part > 0.99 ? 1 : part;  // outlines are good to so much
 }
 
-// Part of a lamp without opening that the picture shows, as if what is modelled of it were kLantern wide: it comes in without a step.
+// Part of a lamp without opening that the picture shows, as if what is modelled of it were kLantern wide: it comes in
+// without a step.
 double middle_inside(const Aim& aim, const View& view) {
-    const dvec2 at = dvec2(aim.centre) / -aim.centre.z, low = glm::min(view.tangent_low, view.tangent_high), high = glm::max(view.tangent_low, view.tangent_high);
+    const dvec2 at = dvec2(aim.centre) / -aim.centre.z, low = glm::min(view.tangent_low, view.tangent_high),
+                high = glm::max(view.tangent_low, view.tangent_high);
     const dvec2 within = glm::min(at - low, high - at) * -aim.centre.z / kLantern + 0.5;  // of its width
     const dvec2 part = glm::clamp(within, 0.0, 1.0);
     return part.x * part.y;
@@ -142,8 +146,8 @@ void for_each_tile(const std::vector<dvec2>& polygon, VkExtent2D image, Touch to
     }
 }
 
-// The shader's loops over the outlines of a tile end by themselves well before lavapipe silently ends them, after 65,535
-// turns of the lanes of two tiles together.
+// The shader's loops over the outlines of a tile end by themselves well before lavapipe silently ends them, after
+// 65,535 turns of the lanes of two tiles together.
 constexpr uint64_t kMostTurns = 30000;
 
 // A tile (row, column), and an entry of it.
@@ -176,16 +180,21 @@ LuminaireSet placed_luminaires(const Scene& scene) {
     return set;
 }
 
-LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, const View& view, std::optional<float> white) {
+LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, const View& view,
+                             std::optional<float> white) {
     LuminaireList list;
     std::vector<Touched> touched;
     for (const PlacedLamp& placed : set.lamps) {
         const Lamp& lamp = placed.lamp;
         const uint32_t node = placed.node;
-        const std::optional<Aim> aim = aim_of(lamp, frame.dimming_of(node), set.distributions, view.from(frame.world[node]), view);
+        const std::optional<Aim> aim =
+            aim_of(lamp, frame.dimming_of(node), set.distributions, view.from(frame.world[node]), view);
         if (!aim) continue;
         const auto dazzles = [&](double inside) {
-            if (aim->to_eye.z > 0) list.glare_sources.push_back({node, -aim->to_eye, aim->distance, aim->candela, aim->candela / (aim->distance * aim->distance) * dvec3(lamp.colour), inside});
+            if (aim->to_eye.z > 0)
+                list.glare_sources.push_back({node, -aim->to_eye, aim->distance, aim->candela,
+                                              aim->candela / (aim->distance * aim->distance) * dvec3(lamp.colour),
+                                              inside});
         };
         if (!(lamp.opening.area() > 0)) {  // what is modelled of it is seen where the picture has its place
             dazzles(middle_inside(*aim, view));
@@ -200,7 +209,8 @@ LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, c
         const glm::vec3 luminance(scale * dvec3(c));
         if (std::isfinite(luminance.r + luminance.g + luminance.b)) add(list, touched, seen, luminance, view.extent);
     }
-    std::stable_sort(touched.begin(), touched.end(), [](const Touched& a, const Touched& b) { return a.tile < b.tile; });
+    std::stable_sort(touched.begin(), touched.end(),
+                     [](const Touched& a, const Touched& b) { return a.tile < b.tile; });
     uint64_t turns = 0;
     for (const Touched& t : touched) {
         const uint32_t row = uint32_t(t.tile >> 32), column = uint32_t(t.tile);
@@ -208,8 +218,10 @@ LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, c
             list.tiles.emplace_back(column, row, list.entries.size(), 0), turns = 0;
         turns += 2 + uint64_t(list.luminaires[t.entry & ~shared::kCoversTile].vertices);
         if (turns > kMostTurns)
-            throw Error("more than " + std::to_string(list.tiles.back().w) + " lamps are seen within the same pixels (column " +
-                        std::to_string(column * shared::kLuminaireTile) + ", row " + std::to_string(row * shared::kLuminaireTile) + "): too many to draw their openings");
+            throw Error("more than " + std::to_string(list.tiles.back().w) +
+                        " lamps are seen within the same pixels (column " +
+                        std::to_string(column * shared::kLuminaireTile) + ", row " +
+                        std::to_string(row * shared::kLuminaireTile) + "): too many to draw their openings");
         list.entries.push_back(t.entry);
         ++list.tiles.back().w;
     }

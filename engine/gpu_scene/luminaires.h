@@ -28,28 +28,28 @@ constexpr double kSmallest = 0.5;
 
 /// A lamp as it dazzles: what of its light arrives at the eye, where nothing stands between them.
 struct GlareSource {
-    uint32_t node;               ///< of the scene, that carries it
-    glm::dvec3 direction;        ///< from the eye, view frame, of unit length
-    double distance;             ///< m
-    double candela;              ///< towards the eye
-    glm::dvec3 illuminance;      ///< RGB lx, on a plane at the eye that faces the lamp
-    /// Part of its light that the picture has, 0 .. 1. Of a lamp without opening, of the 0.4 m about its middle: in the picture it dazzles by
-    /// the surfaces that are modelled of it, if any; beside the picture it does as a point.
+    uint32_t node;           ///< of the scene, that carries it
+    glm::dvec3 direction;    ///< from the eye, view frame, of unit length
+    double distance;         ///< m
+    double candela;          ///< towards the eye
+    glm::dvec3 illuminance;  ///< RGB lx, on a plane at the eye that faces the lamp
+    /// Part of its light that the picture has, 0 .. 1. Of a lamp without opening, of the 0.4 m about its middle: in the
+    /// picture it dazzles by the surfaces that are modelled of it, if any; beside the picture it does as a point.
     double inside;
 };
 
 /// Outlines in the image, and which squares of kLuminaireTile px they touch.
 struct LuminaireList {
     std::vector<shared::Luminaire> luminaires;
-    std::vector<glm::vec2> outline;    ///< px from the source's origin, x right and y down, of positive area
-    std::vector<glm::uvec4> tiles;     ///< column, row, first entry, entries; row by row
-    std::vector<uint32_t> entries;     ///< a source, ascending in a tile, and kCoversTile
-    std::vector<GlareSource> glare_sources; ///< all lamps before the eye, in the order of the scene
+    std::vector<glm::vec2> outline;          ///< px from the source's origin, x right and y down, of positive area
+    std::vector<glm::uvec4> tiles;           ///< column, row, first entry, entries; row by row
+    std::vector<uint32_t> entries;           ///< a source, ascending in a tile, and kCoversTile
+    std::vector<GlareSource> glare_sources;  ///< all lamps before the eye, in the order of the scene
 };
 
 /// The openings a view sees, with the luminance L = I(towards the eye) / projected area, I / d^2 being what arrives at
 /// the eye. `white` is what the largest component of each is instead: the LDR baseline.
 LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, const View& view,
-                       std::optional<float> white = {});
+                             std::optional<float> white = {});
 
 }  // namespace vesper

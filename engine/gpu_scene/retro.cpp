@@ -13,7 +13,6 @@ namespace {
 
 static_assert(shared::kRetroRamps == kMaxRetroNodes);
 
-
 void append(std::vector<glm::vec4>& texels, const Retroreflector& r) {
     // A ramp that is not needed starts beyond every angle.
     std::vector<shared::RetroRamp> ramps(shared::kRetroRamps, {4, 0, 0, 0});

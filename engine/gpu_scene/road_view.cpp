@@ -13,10 +13,10 @@
 namespace vesper {
 namespace {
 
-constexpr double kDepth = 0.05;    // m of road in a pixel
-constexpr double kAcross = 0.02;   // m
+constexpr double kDepth = 0.05;   // m of road in a pixel
+constexpr double kAcross = 0.02;  // m
 constexpr uint32_t kFewest = 256, kMostColumns = 1024;
-constexpr float kNear = 1;         // m
+constexpr float kNear = 1;  // m
 
 /// The world from an eye that looks along the road, level.
 glm::mat4 along_road(glm::dvec3 eye) {
@@ -26,7 +26,8 @@ glm::mat4 along_road(glm::dvec3 eye) {
 }
 
 uint32_t pixels(double span, double size, uint32_t most) {
-    return static_cast<uint32_t>(std::clamp(std::ceil(span / size), static_cast<double>(kFewest), static_cast<double>(most)));
+    return static_cast<uint32_t>(
+        std::clamp(std::ceil(span / size), static_cast<double>(kFewest), static_cast<double>(most)));
 }
 
 }  // namespace
@@ -104,10 +105,12 @@ double luminance_at(std::span<const float> rgba, VkExtent2D extent, glm::dvec2 p
     if (!(corner.x >= 0 && corner.y >= 0 && corner.x + 1 < extent.width && corner.y + 1 < extent.height))
         return std::numeric_limits<double>::quiet_NaN();
     const auto pixel = [&](int dx, int dy) {
-        const float* p = &rgba[4 * ((static_cast<size_t>(corner.y) + dy) * extent.width + static_cast<size_t>(corner.x) + dx)];
+        const float* p =
+            &rgba[4 * ((static_cast<size_t>(corner.y) + dy) * extent.width + static_cast<size_t>(corner.x) + dx)];
         return luminance({p[0], p[1], p[2]});
     };
-    return glm::mix(glm::mix(pixel(0, 0), pixel(1, 0), weight.x), glm::mix(pixel(0, 1), pixel(1, 1), weight.x), weight.y);
+    return glm::mix(glm::mix(pixel(0, 0), pixel(1, 0), weight.x), glm::mix(pixel(0, 1), pixel(1, 1), weight.x),
+                    weight.y);
 }
 
 }  // namespace vesper

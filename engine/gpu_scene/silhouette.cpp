@@ -25,8 +25,8 @@ std::vector<Point> cut(const std::vector<Point>& polygon, Inside inside) {
 
 std::vector<dvec3> corners(const Opening& o, double pixels) {
     if (!o.round)
-        return {o.centre - o.across - o.along, o.centre + o.across - o.along,
-                o.centre + o.across + o.along, o.centre - o.across + o.along};
+        return {o.centre - o.across - o.along, o.centre + o.across - o.along, o.centre + o.across + o.along,
+                o.centre - o.across + o.along};
     // The polygon's edge strays from the ellipse by radius (pi / n)^2 / 4 either way.
     const int n = std::clamp(4 * int(std::ceil(0.25 * kPi * std::sqrt(pixels / 0.2))), 8, 128);
     const double scale = std::sqrt(2 * kPi / (n * std::sin(2 * kPi / n)));

@@ -29,9 +29,12 @@ Tap taps(uint32_t to, uint32_t count, uint32_t size) {
 
 VkSamplerAddressMode address_mode(Wrap wrap) {
     switch (wrap) {
-        case Wrap::Mirror: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-        case Wrap::Clamp: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-        default: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+        case Wrap::Mirror:
+            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+        case Wrap::Clamp:
+            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        default:
+            return VK_SAMPLER_ADDRESS_MODE_REPEAT;
     }
 }
 
@@ -48,10 +51,12 @@ Level decoded(const Image& image, const std::vector<float>& table, bool linear_a
     return base;
 }
 
-/// The part of a level that `cutoff` leaves of its opacities times `scale`: of its area, between texels as filters see it, where that is no more than 256 x 256
-/// texels; of its texels otherwise.
+/// The part of a level that `cutoff` leaves of its opacities times `scale`: of its area, between texels as filters see
+/// it, where that is no more than 256 x 256 texels; of its texels otherwise.
 double covered(const Level& level, float cutoff, float scale = 1) {
-    const auto opacity = [&](uint32_t x, uint32_t y) { return std::min(level.rgba[(size_t(y) * level.width + x) * 4 + 3] * scale, 1.0f); };
+    const auto opacity = [&](uint32_t x, uint32_t y) {
+        return std::min(level.rgba[(size_t(y) * level.width + x) * 4 + 3] * scale, 1.0f);
+    };
     const uint32_t steps = size_t(level.width) * level.height <= 65536 ? 4 : 1;
     size_t count = 0;
     for (uint32_t y = 0; y < level.height; ++y)
@@ -66,7 +71,8 @@ double covered(const Level& level, float cutoff, float scale = 1) {
             for (uint32_t j = 0; j < steps; ++j)
                 for (uint32_t i = 0; i < steps; ++i) {
                     const float u = float(i) / float(steps), v = float(j) / float(steps);
-                    count += std::lerp(std::lerp(corners[0], corners[1], u), std::lerp(corners[2], corners[3], u), v) >= cutoff;
+                    count += std::lerp(std::lerp(corners[0], corners[1], u), std::lerp(corners[2], corners[3], u), v) >=
+                             cutoff;
                 }
         }
     return double(count) / (double(level.width) * level.height * steps * steps);
@@ -162,7 +168,9 @@ std::vector<Level> masked_levels(Level base, float cutoff) {
                     for (int c = 0; c < 3; ++c) texel[c] /= texel[3];
                 } else if (l + 1 < levels.size()) {
                     const Level& smaller = levels[l + 1];
-                    const float* there = &smaller.rgba[(size_t(std::min(y / 2, smaller.height - 1)) * smaller.width + std::min(x / 2, smaller.width - 1)) * 4];
+                    const float* there = &smaller.rgba[(size_t(std::min(y / 2, smaller.height - 1)) * smaller.width +
+                                                        std::min(x / 2, smaller.width - 1)) *
+                                                       4];
                     std::copy(there, there + 3, texel);
                 }
             }
@@ -178,14 +186,16 @@ TextureStore::TextureStore(const Device& device, Arena& arena, PictureFormat pic
     : device_(&device), arena_(&arena), picture_format_(filters_floats(device) ? pictures : PictureFormat::Half) {}
 
 VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& use, Decode decode, float cutoff) {
-    const auto key = std::tuple(use.image, use.image == kNone ? Decode::Data : decode, use.image == kNone ? 0.0f : cutoff);
+    const auto key =
+        std::tuple(use.image, use.image == kNone ? Decode::Data : decode, use.image == kNone ? 0.0f : cutoff);
     auto found = textures_.find(key);
     if (found == textures_.end()) {
         const Image white{"white", 1, 1, {255, 255, 255, 255}};
         const Image& image = use.image == kNone ? white : scene.images[use.image];
         const bool data = std::get<Decode>(key) == Decode::Data;
         Level base = decoded(image, decode_table(std::get<Decode>(key), scene.transfer), !data);
-        const auto levels = std::get<float>(key) > 0 ? masked_levels(std::move(base), std::get<float>(key)) : with_smaller(std::move(base));
+        const auto levels = std::get<float>(key) > 0 ? masked_levels(std::move(base), std::get<float>(key))
+                                                     : with_smaller(std::move(base));
         const VkFormat format = data ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
         found = textures_.emplace(key, upload(levels, format)).first;
     }
@@ -223,12 +233,12 @@ TextureStore::Texture TextureStore::upload(const std::vector<Level>& levels, VkF
     staging.flush();
 
     Texture texture;
-    texture.image = make_image(*device_, image_info(format, {levels[0].width, levels[0].height}, uint32_t(levels.size()),
-                                                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+    texture.image =
+        make_image(*device_, image_info(format, {levels[0].width, levels[0].height}, uint32_t(levels.size()),
+                                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
     arena_->bind(texture.image.get());
-    device_->run_once([&](VkCommandBuffer commands) {
-        record_upload(commands, staging.buffer(), texture.image.get(), copies);
-    });
+    device_->run_once(
+        [&](VkCommandBuffer commands) { record_upload(commands, staging.buffer(), texture.image.get(), copies); });
     texture.view = make_view(*device_, texture.image.get(), format);
     return texture;
 }

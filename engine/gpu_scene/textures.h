@@ -23,10 +23,10 @@ struct Level {
 std::vector<float> decode_table(Decode decode, const Transfer& transfer);
 /// Half the size, rounded down: every texel is the mean of the area it covers, whole or in part.
 Level half_size(const Level& level);
-/// Mip levels of a picture whose opacity says where a surface is: at or above `cutoff`. Colours are means of what is opaque; where nothing is, those of
-/// what is nearest, as filters reach that far. Opacities are scaled so that each level covers as much as the first (I. Castano, "Computing Alpha
-/// Mipmaps", 2010). The last level has 8 texels a side, or more: where its area
-/// would be off by a tenth of the whole, as all of it would be there or nothing.
+/// Mip levels of a picture whose opacity says where a surface is: at or above `cutoff`. Colours are means of what is
+/// opaque; where nothing is, those of what is nearest, as filters reach that far. Opacities are scaled so that each
+/// level covers as much as the first (I. Castano, "Computing Alpha Mipmaps", 2010). The last level has 8 texels a side,
+/// or more: where its area would be off by a tenth of the whole, as all of it would be there or nothing.
 std::vector<Level> masked_levels(Level base, float cutoff);
 
 /// How luminance pictures lie on the device. Float: 32 bits, as they are, where the device filters such textures. Half:
@@ -39,7 +39,8 @@ public:
     /// `pictures`: Half also where Float is possible.
     TextureStore(const Device& device, Arena& arena, PictureFormat pictures = PictureFormat::Float);
 
-    /// View and sampler for a use of an image. Without an image: a white texel. `cutoff`: of opacity, where that masks; 0: it does not.
+    /// View and sampler for a use of an image. Without an image: a white texel. `cutoff`: of opacity, where that masks;
+    /// 0: it does not.
     VkDescriptorImageInfo get(const Scene& scene, const TextureUse& use, Decode decode, float cutoff = 0);
     /// The same for a luminance picture. `unit`: the luminance that a value of 1 in the texture is of the picture's.
     VkDescriptorImageInfo get_picture(const Scene& scene, const TextureUse& use, float& unit);

@@ -1,8 +1,8 @@
 // One eye's view of the scene. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <glm/glm.hpp>
 #include <vulkan/vulkan_core.h>
+#include <glm/glm.hpp>
 
 namespace vesper {
 

@@ -42,8 +42,8 @@ struct Executor::Past {
     OwnedImage images[2];
     OwnedImageView views[2];
     OwnedBuffer buffers[2];
-    int current = 0;        // the half the next frame writes
-    bool is_new = true;     // zero before the next frame
+    int current = 0;     // the half the next frame writes
+    bool is_new = true;  // zero before the next frame
 
     Past(const Device& device, const Shape& s, uint32_t u) : shape(s), usage(u), arena(device) {
         for (int half : {0, 1}) {
@@ -60,16 +60,19 @@ struct Executor::Past {
 
     // Within a barrier for all that uses it.
     void zero(VkCommandBuffer commands) const {
-        constexpr Touch before{VK_PIPELINE_STAGE_2_CLEAR_BIT}, clear{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+        constexpr Touch before{VK_PIPELINE_STAGE_2_CLEAR_BIT},
+            clear{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
         for (int half : {0, 1}) {
             if (!shape.is_image()) {
                 vkCmdFillBuffer(commands, buffers[half].get(), 0, VK_WHOLE_SIZE, 0);
                 continue;
             }
-            const VkImageMemoryBarrier2 barrier = image_barrier(images[half].get(), before, clear, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+            const VkImageMemoryBarrier2 barrier =
+                image_barrier(images[half].get(), before, clear, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
             pipeline_barrier(commands, {&barrier, 1});
             const VkClearColorValue black{};
-            vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1, &barrier.subresourceRange);
+            vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1,
+                                 &barrier.subresourceRange);
         }
     }
 };
@@ -95,13 +98,14 @@ Measure Executor::measure() const {
         VkMemoryRequirements2 needs{.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
         if (shape.is_image()) {
             const VkImageCreateInfo info = image_info(shape.format, shape.extent, 1, usage);
-            const VkDeviceImageMemoryRequirements query{
-                .sType = VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS, .pCreateInfo = &info};
+            const VkDeviceImageMemoryRequirements query{.sType = VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS,
+                                                        .pCreateInfo = &info};
             vkGetDeviceImageMemoryRequirements(device_.handle(), &query, &needs);
         } else {
-            const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = shape.bytes, .usage = usage};
-            const VkDeviceBufferMemoryRequirements query{
-                .sType = VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS, .pCreateInfo = &info};
+            const VkBufferCreateInfo info{
+                .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = shape.bytes, .usage = usage};
+            const VkDeviceBufferMemoryRequirements query{.sType = VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS,
+                                                         .pCreateInfo = &info};
             vkGetDeviceBufferMemoryRequirements(device_.handle(), &query, &needs);
         }
         const VkMemoryRequirements& m = needs.memoryRequirements;
@@ -118,8 +122,10 @@ void Executor::run(const FrameGraph& graph) {
 
 void Executor::submit(const FrameGraph& graph, const SubmitSemaphores& semaphores) {
     Stopwatch watch;
-    const bool has_external_images = std::ranges::any_of(graph.resources(), [](const auto& r) { return r.external_image.image != VK_NULL_HANDLE; });
-    const bool among_others = has_external_images || !semaphores.wait.empty() || !semaphores.signal.empty() || std::ranges::any_of(slots_, &FrameSlot::under_way);
+    const bool has_external_images =
+        std::ranges::any_of(graph.resources(), [](const auto& r) { return r.external_image.image != VK_NULL_HANDLE; });
+    const bool among_others = has_external_images || !semaphores.wait.empty() || !semaphores.signal.empty() ||
+                              std::ranges::any_of(slots_, &FrameSlot::under_way);
     FrameSlot* const last = slot_;
     HostTimes times;
     Plan before = std::move(plan_);
@@ -184,11 +190,13 @@ void Executor::enter_slot() {
 void Executor::place(const FrameGraph& graph) {
     // Everything the transients' objects are made from; names and contents of passes may change freely.
     std::string key = std::to_string(graph.resources().size());
-    for (const Plan::Heap& heap : plan_.heaps) key += " h" + std::to_string(heap.bytes) + "," + std::to_string(heap.memory_types);
+    for (const Plan::Heap& heap : plan_.heaps)
+        key += " h" + std::to_string(heap.bytes) + "," + std::to_string(heap.memory_types);
     for (const Plan::Placement& p : plan_.placements) {
         const Shape& s = graph.resources()[p.resource].shape;
-        for (const uint64_t part : {uint64_t(p.resource), uint64_t(p.heap), p.offset, uint64_t(s.format),
-                                    uint64_t(s.extent.width), uint64_t(s.extent.height), s.bytes, uint64_t(plan_.usage[p.resource])})
+        for (const uint64_t part :
+             {uint64_t(p.resource), uint64_t(p.heap), p.offset, uint64_t(s.format), uint64_t(s.extent.width),
+              uint64_t(s.extent.height), s.bytes, uint64_t(plan_.usage[p.resource])})
             key += " " + std::to_string(part);
     }
     if (key == placed_key_) return;
@@ -198,7 +206,8 @@ void Executor::place(const FrameGraph& graph) {
     resources_.clear();
     heaps_.clear();
     for (const Plan::Heap& heap : plan_.heaps)
-        heaps_.push_back(allocate(device_, heap.bytes, device_.memory_type(heap.memory_types, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)));
+        heaps_.push_back(
+            allocate(device_, heap.bytes, device_.memory_type(heap.memory_types, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)));
     resources_.resize(graph.resources().size());
     for (const Plan::Placement& p : plan_.placements) {
         const Shape& shape = graph.resources()[p.resource].shape;
@@ -206,13 +215,16 @@ void Executor::place(const FrameGraph& graph) {
         Realized& r = resources_[p.resource];
         if (shape.is_image()) {
             r.owned_image = make_image(device_, image_info(shape.format, shape.extent, 1, usage));
-            check(vkBindImageMemory(device_.handle(), r.owned_image.get(), heaps_[p.heap].get(), p.offset), "placing an image");
+            check(vkBindImageMemory(device_.handle(), r.owned_image.get(), heaps_[p.heap].get(), p.offset),
+                  "placing an image");
             r.owned_view = make_view(device_, r.owned_image.get(), shape.format);
             r.image = r.owned_image.get(), r.view = r.owned_view.get(), r.aspect = aspect_of(shape.format);
         } else {
             r.owned_buffer = make_buffer(device_, shape.bytes, usage);
-            check(vkBindBufferMemory(device_.handle(), r.owned_buffer.get(), heaps_[p.heap].get(), p.offset), "placing a buffer");
-            if (is_texel(usage)) r.owned_texels = view_texels(device_, r.owned_buffer.get(), shape.format, 0, shape.bytes);
+            check(vkBindBufferMemory(device_.handle(), r.owned_buffer.get(), heaps_[p.heap].get(), p.offset),
+                  "placing a buffer");
+            if (is_texel(usage))
+                r.owned_texels = view_texels(device_, r.owned_buffer.get(), shape.format, 0, shape.bytes);
             r.texels = r.owned_texels.get();
             r.buffer = r.owned_buffer.get(), r.bytes = shape.bytes;
         }
@@ -222,7 +234,9 @@ void Executor::place(const FrameGraph& graph) {
 
 // Texels of a buffer that is not the resource's own are viewed for one frame.
 void Executor::view_borrowed(Realized& r, VkFormat format, uint32_t usage) {
-    r.texels = r.buffer && is_texel(usage) ? slot_->texels.emplace_back(view_texels(device_, r.buffer, format, r.offset, r.bytes)).get() : VK_NULL_HANDLE;
+    r.texels = r.buffer && is_texel(usage)
+                   ? slot_->texels.emplace_back(view_texels(device_, r.buffer, format, r.offset, r.bytes)).get()
+                   : VK_NULL_HANDLE;
 }
 
 void Executor::realize_histories(const FrameGraph& graph) {
@@ -231,7 +245,8 @@ void Executor::realize_histories(const FrameGraph& graph) {
         const auto& info = graph.resources()[i];
         if (info.origin != FrameGraph::Origin::HistoryCurrent || !plan_.usage[i]) continue;
         uint32_t usage = plan_.usage[i] | plan_.usage[info.partner];
-        usage |= info.shape.is_image() ? uint32_t(VK_IMAGE_USAGE_TRANSFER_DST_BIT) : uint32_t(VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        usage |= info.shape.is_image() ? uint32_t(VK_IMAGE_USAGE_TRANSFER_DST_BIT)
+                                       : uint32_t(VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         auto& past = histories_[info.name];
         const bool fits = past && past->shape == info.shape && past->usage == usage;
         if (!fits) {
@@ -260,7 +275,8 @@ void Executor::record_clearing() const {
 void Executor::find_turning(const FrameGraph& graph) {
     turning_.clear();
     for (uint32_t i = 0; i < graph.resources().size(); ++i)
-        if (graph.resources()[i].origin == FrameGraph::Origin::HistoryCurrent && plan_.usage[i]) turning_.push_back(histories_.at(graph.resources()[i].name).get());
+        if (graph.resources()[i].origin == FrameGraph::Origin::HistoryCurrent && plan_.usage[i])
+            turning_.push_back(histories_.at(graph.resources()[i].name).get());
 }
 
 void Executor::realize_uploads(const FrameGraph& graph) {
@@ -269,7 +285,8 @@ void Executor::realize_uploads(const FrameGraph& graph) {
         if (info.origin == FrameGraph::Origin::Upload) total = aligned(total, kSliceAlignment) + info.contents.size();
     HostBuffer& uploads = slot_->uploads;
     if (uploads.bytes() < total)
-        uploads = HostBuffer(device_, aligned(total * 3 / 2, kSliceAlignment), kHostUsage, HostBuffer::Direction::ToDevice);
+        uploads =
+            HostBuffer(device_, aligned(total * 3 / 2, kSliceAlignment), kHostUsage, HostBuffer::Direction::ToDevice);
     uint64_t offset = 0;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
@@ -300,7 +317,8 @@ void Executor::realize_external_images(const FrameGraph& graph) {
         if (!info.external_image.image) continue;
         Realized& r = resources_[i];
         r.image = info.external_image.image;
-        const bool copied_only = !(plan_.usage[i] & ~uint32_t(VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+        const bool copied_only =
+            !(plan_.usage[i] & ~uint32_t(VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
         if (!copied_only) r.view = slot_->views.emplace_back(make_view(device_, r.image, info.shape.format, 1)).get();
     }
 }
@@ -310,7 +328,8 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
     for (const auto& info : graph.resources())
         if (info.origin == FrameGraph::Origin::Readback) total = aligned(total, kSliceAlignment) + info.shape.bytes;
     HostBuffer& readbacks = slot_->readbacks;
-    if (readbacks.bytes() < total) readbacks = HostBuffer(device_, total, kHostUsage, HostBuffer::Direction::FromDevice);
+    if (readbacks.bytes() < total)
+        readbacks = HostBuffer(device_, total, kHostUsage, HostBuffer::Direction::FromDevice);
     slot_->places.clear();
     uint64_t offset = 0;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {

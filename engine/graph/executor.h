@@ -20,7 +20,7 @@ struct HostTimes {
     double plan = 0;     ///< compiling the plan, placing resources, writing uploads
     double record = 0;
     double submit = 0;
-    double wait = 0;     ///< for the device
+    double wait = 0;  ///< for the device
 };
 
 /// Owns the memory behind a frame graph's resources and what survives from frame to frame.
@@ -33,16 +33,18 @@ public:
 
     /// What the device's resources of a shape occupy.
     Measure measure() const;
-    /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error; a frame that failed has left
-    /// histories as they were, and unless the device is lost the next can be run.
+    /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error; a frame that failed
+    /// has left histories as they were, and unless the device is lost the next can be run.
     void run(const FrameGraph& graph);
-    /// Hands the frame to the queue, behind all that is there already, and returns. Waits where it is declared unlike the frame before, or where
-    /// kFramesUnderWay are on their way.
+    /// Hands the frame to the queue, behind all that is there already, and returns. Waits where it is declared unlike
+    /// the frame before, or where kFramesUnderWay are on their way.
     void submit(const FrameGraph& graph, const SubmitSemaphores& semaphores);
     static constexpr size_t kFramesUnderWay = 3;
-    /// Waits for every frame that was submitted. What the last of them left can be read, and stays until another one is submitted.
+    /// Waits for every frame that was submitted. What the last of them left can be read, and stays until another one is
+    /// submitted.
     void wait();
-    /// Waits, and gives up what the last frame left once the next begins. Whether there is anything that no call before this one gave up.
+    /// Waits, and gives up what the last frame left once the next begins. Whether there is anything that no call before
+    /// this one gave up.
     bool finish();
     /// What the last frame left in one of its readback resources. It must be finished.
     std::span<const std::byte> read(Resource readback) const;
@@ -52,15 +54,17 @@ public:
         return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
     }
 
-    const Plan& plan() const { return plan_; }                             ///< of the last frame
-    const std::vector<Timing>& timings() const { return slot_->timings; }  ///< of the last frame, which is finished; empty without timestamps
-    const HostTimes& host_times() const { return host_times_; }            ///< of the last frame
-    uint64_t heap_bytes() const;  ///< device memory behind transients, bytes
+    const Plan& plan() const { return plan_; }  ///< of the last frame
+    const std::vector<Timing>& timings() const {
+        return slot_->timings;
+    }  ///< of the last frame, which is finished; empty without timestamps
+    const HostTimes& host_times() const { return host_times_; }  ///< of the last frame
+    uint64_t heap_bytes() const;                                 ///< device memory behind transients, bytes
 
 private:
-    struct Realized;          // what stands for one resource in this frame
+    struct Realized;  // what stands for one resource in this frame
     class FrameRecording;
-    struct Past;              // both halves of a history
+    struct Past;  // both halves of a history
 
     void enter_slot();
     void place(const FrameGraph& graph);
@@ -85,7 +89,7 @@ private:
     std::vector<Realized> resources_;
     std::map<std::string, std::unique_ptr<Past>> histories_;
     std::vector<Past*> turned_, turning_;  // by the last frame; by the one that is being submitted
-    std::vector<Past*> cleared_;            // by it
+    std::vector<Past*> cleared_;           // by it
     std::vector<OwnedMemory> heaps_;
     std::string placed_key_;  // what the transients were made for
     OwnedSampler sampler_;

@@ -24,14 +24,27 @@ struct TexelBytes {
     uint64_t bytes;
 };
 constexpr TexelBytes kTexelBytes[] = {
-    {VK_FORMAT_R8_UNORM, 1},           {VK_FORMAT_R16_SFLOAT, 2},    {VK_FORMAT_R8G8B8A8_UNORM, 4},
-    {VK_FORMAT_R8G8B8A8_SRGB, 4},      {VK_FORMAT_R16G16_SFLOAT, 4}, {VK_FORMAT_R32_SFLOAT, 4},
-    {VK_FORMAT_R32_UINT, 4},           {VK_FORMAT_D32_SFLOAT, 4},    {VK_FORMAT_R16G16B16A16_SFLOAT, 8},
-    {VK_FORMAT_R32G32_SFLOAT, 8},      {VK_FORMAT_R32G32_UINT, 8},   {VK_FORMAT_R32G32B32A32_SFLOAT, 16},
-    {VK_FORMAT_R32G32B32A32_UINT, 16}, {VK_FORMAT_B8G8R8A8_UNORM, 4}, {VK_FORMAT_B8G8R8A8_SRGB, 4},
-    {VK_FORMAT_A8B8G8R8_UNORM_PACK32, 4},    {VK_FORMAT_A8B8G8R8_SRGB_PACK32, 4},
-    {VK_FORMAT_A2B10G10R10_UNORM_PACK32, 4}, {VK_FORMAT_A2R10G10B10_UNORM_PACK32, 4},
-    {VK_FORMAT_B10G11R11_UFLOAT_PACK32, 4},  {VK_FORMAT_E5B9G9R9_UFLOAT_PACK32, 4},
+    {VK_FORMAT_R8_UNORM, 1},
+    {VK_FORMAT_R16_SFLOAT, 2},
+    {VK_FORMAT_R8G8B8A8_UNORM, 4},
+    {VK_FORMAT_R8G8B8A8_SRGB, 4},
+    {VK_FORMAT_R16G16_SFLOAT, 4},
+    {VK_FORMAT_R32_SFLOAT, 4},
+    {VK_FORMAT_R32_UINT, 4},
+    {VK_FORMAT_D32_SFLOAT, 4},
+    {VK_FORMAT_R16G16B16A16_SFLOAT, 8},
+    {VK_FORMAT_R32G32_SFLOAT, 8},
+    {VK_FORMAT_R32G32_UINT, 8},
+    {VK_FORMAT_R32G32B32A32_SFLOAT, 16},
+    {VK_FORMAT_R32G32B32A32_UINT, 16},
+    {VK_FORMAT_B8G8R8A8_UNORM, 4},
+    {VK_FORMAT_B8G8R8A8_SRGB, 4},
+    {VK_FORMAT_A8B8G8R8_UNORM_PACK32, 4},
+    {VK_FORMAT_A8B8G8R8_SRGB_PACK32, 4},
+    {VK_FORMAT_A2B10G10R10_UNORM_PACK32, 4},
+    {VK_FORMAT_A2R10G10B10_UNORM_PACK32, 4},
+    {VK_FORMAT_B10G11R11_UFLOAT_PACK32, 4},
+    {VK_FORMAT_E5B9G9R9_UFLOAT_PACK32, 4},
 };
 
 /// Bytes of one tightly packed texel; 0 for formats the engine does not copy.
@@ -273,14 +286,17 @@ void FrameGraph::dispatch(std::string_view name, const KernelInterface& kernel, 
     add_pass({std::string(name), PassKind::Dispatch, uses, &kernel, {push.begin(), push.end()}, groups, 0, {}});
 }
 
-void FrameGraph::dispatch_indirect(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
-                                   std::span<const std::byte> push, Arguments arguments) {
-    PassInfo pass{std::string(name), PassKind::Dispatch, uses, &kernel, {push.begin(), push.end()}, {}, arguments.offset, {}};
+void FrameGraph::dispatch_indirect(std::string_view name, const KernelInterface& kernel,
+                                   std::initializer_list<Use> uses, std::span<const std::byte> push,
+                                   Arguments arguments) {
+    PassInfo pass{
+        std::string(name), PassKind::Dispatch, uses, &kernel, {push.begin(), push.end()}, {}, arguments.offset, {}};
     if (arguments.buffer.index >= resources_.size()) fail(pass, "has no valid resource as arguments");
     const ResourceInfo& r = resources_[arguments.buffer.index];
     if (r.shape.is_image()) fail(pass, "reads arguments from the image " + in_quotes(r.name));
     if (arguments.offset % 4 != 0 || arguments.offset + sizeof(VkDispatchIndirectCommand) > r.shape.bytes)
-        fail(pass, "reads arguments at byte " + std::to_string(arguments.offset) + " of " + in_quotes(r.name) + ", which has " + std::to_string(r.shape.bytes));
+        fail(pass, "reads arguments at byte " + std::to_string(arguments.offset) + " of " + in_quotes(r.name) +
+                       ", which has " + std::to_string(r.shape.bytes));
     pass.uses.push_back({arguments.buffer, Access::Arguments});
     add_pass(std::move(pass));
 }
@@ -314,8 +330,10 @@ void FrameGraph::copy(std::string_view name, Resource from, Resource to) {
     if (to.index >= resources_.size()) fail(pass, "has no valid resource to copy to");
     const ResourceInfo &source = resources_[from.index], &target = resources_[to.index];
     const VkExtent2D area = source.shape.extent;
-    if (source.shape.is_image() && target.shape.is_image() && (area.width != target.shape.extent.width || area.height != target.shape.extent.height))
-        fail(pass, "copies the image " + in_quotes(source.name) + " to the image " + in_quotes(target.name) + " of another extent");
+    if (source.shape.is_image() && target.shape.is_image() &&
+        (area.width != target.shape.extent.width || area.height != target.shape.extent.height))
+        fail(pass, "copies the image " + in_quotes(source.name) + " to the image " + in_quotes(target.name) +
+                       " of another extent");
     const uint64_t have = packed_bytes(source.shape), room = packed_bytes(target.shape);
     if (have != 0 && room != 0 && have != room)
         fail(pass, "copies " + std::to_string(have) + " bytes of " + in_quotes(source.name) + " to " +
@@ -324,7 +342,8 @@ void FrameGraph::copy(std::string_view name, Resource from, Resource to) {
         pass.record = [from, to, area](const Recording& frame) {
             const VkImageSubresourceLayers layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
             const VkImageCopy region{layer, {}, layer, {}, {area.width, area.height, 1}};
-            vkCmdCopyImage(frame.commands(), frame.image(from), VK_IMAGE_LAYOUT_GENERAL, frame.image(to), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+            vkCmdCopyImage(frame.commands(), frame.image(from), VK_IMAGE_LAYOUT_GENERAL, frame.image(to),
+                           VK_IMAGE_LAYOUT_GENERAL, 1, &region);
         };
     } else if (source.shape.is_image()) {
         pass.record = [from, to, shape = source.shape](const Recording& frame) {

@@ -1,5 +1,6 @@
-// The frame graph: a frame is declared once, as resources and passes in the order they run. SPDX-License-Identifier: MIT
-// A declared frame is compiled to a Plan (graph/plan.h), which knows no device; an Executor (graph/executor.h) runs it.
+// The frame graph: a frame is declared once, as resources and passes in the order they run. SPDX-License-Identifier:
+// MIT A declared frame is compiled to a Plan (graph/plan.h), which knows no device; an Executor (graph/executor.h) runs
+// it.
 #pragma once
 
 #include <cstring>
@@ -35,7 +36,8 @@ struct Shape {
 
     bool is_image() const { return extent.width != 0; }
     bool operator==(const Shape& o) const {
-        return format == o.format && extent.width == o.extent.width && extent.height == o.extent.height && bytes == o.bytes;
+        return format == o.format && extent.width == o.extent.width && extent.height == o.extent.height &&
+               bytes == o.bytes;
     }
 };
 
@@ -50,7 +52,7 @@ inline Shape buffer_shape(uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED) 
 struct ExternalImage {
     VkImage image = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_UNDEFINED;
-    VkExtent2D extent{0, 0};  ///< px
+    VkExtent2D extent{0, 0};                                                              ///< px
     VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED, after = VK_IMAGE_LAYOUT_UNDEFINED;  ///< the frame
 };
 
@@ -104,10 +106,10 @@ public:
         std::string name;
         Shape shape;
         Origin origin = Origin::Transient;
-        uint32_t partner = ~0u;               ///< of a history: the other half
-        std::vector<std::byte> contents;      ///< of an upload
-        VkBuffer buffer = VK_NULL_HANDLE;     ///< of an external buffer
-        ExternalImage external_image;                 ///< of an external image or a target
+        uint32_t partner = ~0u;            ///< of a history: the other half
+        std::vector<std::byte> contents;   ///< of an upload
+        VkBuffer buffer = VK_NULL_HANDLE;  ///< of an external buffer
+        ExternalImage external_image;      ///< of an external image or a target
         bool kept = false;
     };
     /// Whether a resource of this origin holds something before any pass of the frame has written it.
@@ -121,8 +123,8 @@ public:
         const KernelInterface* kernel = nullptr;  ///< of a dispatch
         std::vector<std::byte> push;
         Groups groups;
-        uint64_t arguments_offset = 0;            ///< of an indirect dispatch, bytes
-        Record record;                            ///< of a raster or transfer pass
+        uint64_t arguments_offset = 0;  ///< of an indirect dispatch, bytes
+        Record record;                  ///< of a raster or transfer pass
 
         bool is_indirect() const { return !uses.empty() && uses.back().access == Access::Arguments; }
     };
@@ -150,25 +152,27 @@ public:
     void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
                   std::span<const std::byte> push, Groups groups);
     template <class Push>
-    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses, const Push& push,
-                  Groups groups) {
+    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+                  const Push& push, Groups groups) {
         dispatch(name, kernel, uses, std::as_bytes(std::span(&push, 1)), groups);
     }
-    /// The same for as many workgroups as an earlier pass found. More than the device allows are for that pass to prevent.
+    /// The same for as many workgroups as an earlier pass found. More than the device allows are for that pass to
+    /// prevent.
     template <class Push>
-    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses, const Push& push,
-                  Arguments arguments) {
+    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+                  const Push& push, Arguments arguments) {
         dispatch_indirect(name, kernel, uses, std::as_bytes(std::span(&push, 1)), arguments);
     }
-    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses, Groups groups) {
+    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+                  Groups groups) {
         dispatch(name, kernel, uses, std::span<const std::byte>{}, groups);
     }
     /// A raster pass: its targets are bound, cleared on their first use, and `record` draws.
     void raster(std::string_view name, std::vector<Use> uses, Record record);
     /// Fills a buffer with zeros.
     void clear(std::string_view name, Resource buffer);
-    /// Copies an image or buffer, tightly packed, into a buffer of the same size; or a buffer into an image; or the bits of an image into another
-    /// of the same extent and bytes.
+    /// Copies an image or buffer, tightly packed, into a buffer of the same size; or a buffer into an image; or the
+    /// bits of an image into another of the same extent and bytes.
     void copy(std::string_view name, Resource from, Resource to);
 
     /// The frame is made for this resource; passes that do not contribute to a kept one are not run.

@@ -7,8 +7,9 @@ FrameSlot::FrameSlot(const Device& d) : device(d), commands(d), fence(make_fence
 void FrameSlot::begin(uint32_t timestamps) {
     commands.begin();
     if (query_capacity < timestamps) {
-        const VkQueryPoolCreateInfo info{
-            .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO, .queryType = VK_QUERY_TYPE_TIMESTAMP, .queryCount = timestamps};
+        const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                         .queryCount = timestamps};
         VkQueryPool raw = VK_NULL_HANDLE;
         check(vkCreateQueryPool(device.handle(), &info, nullptr, &raw), "making timestamps");
         queries = {device.handle(), raw};
@@ -19,7 +20,8 @@ void FrameSlot::begin(uint32_t timestamps) {
 
 void FrameSlot::submit(const SubmitSemaphores& semaphores) {
     check(vkEndCommandBuffer(commands), "recording");
-    const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = commands};
+    const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                              .commandBuffer = commands};
     const VkSubmitInfo2 work{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
                              .waitSemaphoreInfoCount = uint32_t(semaphores.wait.size()),
                              .pWaitSemaphoreInfos = semaphores.wait.data(),
@@ -50,11 +52,13 @@ void FrameSlot::settle() noexcept {
 void FrameSlot::read_timestamps() {
     if (timings.empty()) return;
     std::vector<uint64_t> ticks((timings.size() + 1) * 2);
-    check(vkGetQueryPoolResults(device.handle(), queries.get(), 0, uint32_t(ticks.size()), ticks.size() * sizeof(uint64_t), ticks.data(),
-                                sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+    check(vkGetQueryPoolResults(device.handle(), queries.get(), 0, uint32_t(ticks.size()),
+                                ticks.size() * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "reading timestamps");
     for (size_t i = 0; i < timings.size(); ++i)
-        timings[i].milliseconds = double((ticks[2 * (i + 1)] - ticks[2 * i]) & device.timestamp_mask()) * double(device.limits().timestampPeriod) * 1e-6;
+        timings[i].milliseconds = double((ticks[2 * (i + 1)] - ticks[2 * i]) & device.timestamp_mask()) *
+                                  double(device.limits().timestampPeriod) * 1e-6;
 }
 
 }  // namespace vesper

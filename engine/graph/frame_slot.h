@@ -30,7 +30,7 @@ struct FrameSlot {
 
     void begin(uint32_t timestamps);  ///< recording; `timestamps`: how many it writes
     void submit(const SubmitSemaphores& semaphores);
-    void wait();  ///< until its frame, if it has one, is done; then there are its timings
+    void wait();             ///< until its frame, if it has one, is done; then there are its timings
     void settle() noexcept;  ///< likewise, without them: only so that nothing uses what goes
 
     const Device& device;

@@ -45,8 +45,8 @@ constexpr std::array<AccessRow, kAccessCount> kRows{{
     {"vertices", false, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT, VK_IMAGE_LAYOUT_GENERAL, 0,
      VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
      VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT},
-    {"arguments", false, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, VK_IMAGE_LAYOUT_GENERAL, 0, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT},
+    {"arguments", false, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, VK_IMAGE_LAYOUT_GENERAL, 0,
+     VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT},
 }};
 
 const AccessRow& row(Access access) { return kRows[static_cast<size_t>(access)]; }
@@ -67,7 +67,8 @@ VkPipelineStageFlags2 graphics_stages(Access access) {
 VkPipelineStageFlags2 vulkan_stages(Stage stage, Access access) {
     switch (stage) {
         case Stage::Compute:
-            return access == Access::Arguments ? VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+            return access == Access::Arguments ? VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT
+                                               : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
         case Stage::Graphics:
             return graphics_stages(access);
         case Stage::Transfer:

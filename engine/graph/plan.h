@@ -19,10 +19,10 @@ enum class Access : uint8_t {
     ColorTarget,  ///< colour attachment
     DepthTarget,  ///< depth attachment, tested and written
     CopySource,
-    CopyTarget,   ///< also cleared
-    HostRead,     ///< read by the host after the frame
-    Vertices,     ///< read as vertex, instance or index data
-    Arguments,    ///< read as how many workgroups a dispatch has
+    CopyTarget,  ///< also cleared
+    HostRead,    ///< read by the host after the frame
+    Vertices,    ///< read as vertex, instance or index data
+    Arguments,   ///< read as how many workgroups a dispatch has
 };
 constexpr uint32_t kAccessCount = 11;
 
@@ -50,8 +50,8 @@ private:
     uint64_t bits_ = 0;
 };
 
-bool writes(Access access);                                 ///< changes the contents
-VkImageLayout layout_of(Access access);                     ///< GENERAL except for targets
+bool writes(Access access);              ///< changes the contents
+VkImageLayout layout_of(Access access);  ///< GENERAL except for targets
 VkImageUsageFlags image_usage_of(Access access);
 VkBufferUsageFlags buffer_usage_of(Access access, bool texels);
 
@@ -66,13 +66,13 @@ struct Shape;
 using Measure = std::function<Footprint(const Shape& shape, uint32_t usage)>;
 
 /// Pure data; every index is into FrameGraph::resources() or passes(). Its barriers hold between frames only while the
-/// same plan runs on one queue: before another plan, wait for all commands. Uploads and readbacks belong to one frame in
-/// flight each.
+/// same plan runs on one queue: before another plan, wait for all commands. Uploads and readbacks belong to one frame
+/// in flight each.
 struct Plan {
     struct Barrier {
         uint32_t resource = 0;
-        AccessSet from;        ///< what to wait for; empty: nothing has touched it or its memory
-        AccessSet to;          ///< what waits
+        AccessSet from;  ///< what to wait for; empty: nothing has touched it or its memory
+        AccessSet to;    ///< what waits
         VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED, new_layout = VK_IMAGE_LAYOUT_UNDEFINED;
         bool discard = false;  ///< first use of a transient: old contents are not kept
     };
@@ -93,12 +93,12 @@ struct Plan {
         uint64_t bytes = 0, alignment = 1;
     };
 
-    std::vector<Step> steps;             ///< in declaration order
-    std::vector<uint32_t> dropped;       ///< passes that feed nothing kept
-    std::vector<Barrier> final_barriers; ///< after the last step: what the host reads
-    std::vector<Placement> placements;   ///< of live transients
+    std::vector<Step> steps;              ///< in declaration order
+    std::vector<uint32_t> dropped;        ///< passes that feed nothing kept
+    std::vector<Barrier> final_barriers;  ///< after the last step: what the host reads
+    std::vector<Placement> placements;    ///< of live transients
     std::vector<Heap> heaps;
-    std::vector<uint32_t> usage;         ///< per resource: VkImageUsageFlags or VkBufferUsageFlags; 0 if dead
+    std::vector<uint32_t> usage;  ///< per resource: VkImageUsageFlags or VkBufferUsageFlags; 0 if dead
     uint64_t bytes_without_aliasing = 0;
 };
 

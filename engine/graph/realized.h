@@ -12,7 +12,8 @@ constexpr VkMemoryBarrier2 kWholeBarrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRI
                                          .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                          .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
 
-// A transient owns its objects; everything else borrows them from a history, the slot of the frame or an external owner.
+// A transient owns its objects; everything else borrows them from a history, the slot of the frame or an external
+// owner.
 struct Executor::Realized {
     OwnedImage owned_image;
     OwnedImageView owned_view;

@@ -25,9 +25,12 @@ void Executor::record(const FrameGraph& graph, bool among_others) {
     if (among_others) record_border(graph, Border::Enter);
     record_clearing();
 
-    // Before the first pass and after each. lavapipe writes a time down no sooner than it comes to the next one, so each has a second behind it.
+    // Before the first pass and after each. lavapipe writes a time down no sooner than it comes to the next one, so
+    // each has a second behind it.
     const auto mark = [&](uint32_t boundary) {
-        for (uint32_t i = 0; timed && i < 2; ++i) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries.get(), 2 * boundary + i);
+        for (uint32_t i = 0; timed && i < 2; ++i)
+            vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot_->queries.get(),
+                                 2 * boundary + i);
     };
     const FrameRecording recording(*this);
     mark(0);
@@ -36,9 +39,15 @@ void Executor::record(const FrameGraph& graph, bool among_others) {
         const FrameGraph::PassInfo& pass = graph.passes()[step.pass];
         record_barriers(step.barriers);
         switch (pass.kind) {
-            case FrameGraph::PassKind::Dispatch: record_dispatch(pass); break;
-            case FrameGraph::PassKind::Raster: record_raster(graph, step); break;
-            case FrameGraph::PassKind::Transfer: pass.record(recording); break;
+            case FrameGraph::PassKind::Dispatch:
+                record_dispatch(pass);
+                break;
+            case FrameGraph::PassKind::Raster:
+                record_raster(graph, step);
+                break;
+            case FrameGraph::PassKind::Transfer:
+                pass.record(recording);
+                break;
         }
         mark(i + 1);
     }
@@ -50,16 +59,17 @@ void Executor::record(const FrameGraph& graph, bool among_others) {
         if (timed) slot_->timings.push_back({graph.passes()[step.pass].name, 0, step.bytes_read, step.bytes_written});
 }
 
-// What a plan says holds within it: at its borders everything waits for everything, and images of others change between their layout and ours.
+// What a plan says holds within it: at its borders everything waits for everything, and images of others change between
+// their layout and ours.
 void Executor::record_border(const FrameGraph& graph, Border border) const {
-    constexpr Touch before{kWholeBarrier.srcStageMask, kWholeBarrier.srcAccessMask}, after{kWholeBarrier.dstStageMask, kWholeBarrier.dstAccessMask};
+    constexpr Touch before{kWholeBarrier.srcStageMask, kWholeBarrier.srcAccessMask},
+        after{kWholeBarrier.dstStageMask, kWholeBarrier.dstAccessMask};
     std::vector<VkImageMemoryBarrier2> images;
     for (const auto& info : graph.resources()) {
         const ExternalImage& image = info.external_image;
         const VkImageLayout from = border == Border::Enter ? image.before : VK_IMAGE_LAYOUT_GENERAL;
         const VkImageLayout to = border == Border::Enter ? VK_IMAGE_LAYOUT_GENERAL : image.after;
-        if (image.image && from != to)
-            images.push_back(image_barrier(image.image, before, after, from, to));
+        if (image.image && from != to) images.push_back(image_barrier(image.image, before, after, from, to));
     }
     pipeline_barrier(slot_->commands, images, &kWholeBarrier);
 }
@@ -70,14 +80,16 @@ void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const
     for (const Plan::Barrier& b : barriers) {
         const Realized& r = resources_[b.resource];
         if (r.image && b.old_layout != b.new_layout)
-            images.push_back(image_barrier(r.image, {b.from.stages(), b.from.accesses()}, {b.to.stages(), b.to.accesses()}, b.old_layout, b.new_layout, r.aspect));
+            images.push_back(image_barrier(r.image, {b.from.stages(), b.from.accesses()},
+                                           {b.to.stages(), b.to.accesses()}, b.old_layout, b.new_layout, r.aspect));
         // The bytes of a new transient may have belonged to something else, which an image barrier does not speak of.
         if (!b.from.empty() && (b.discard || b.old_layout == b.new_layout)) {
             memory.srcStageMask |= b.from.stages(), memory.srcAccessMask |= b.from.accesses();
             memory.dstStageMask |= b.to.stages(), memory.dstAccessMask |= b.to.accesses();
         }
     }
-    if (memory.srcStageMask || !images.empty()) pipeline_barrier(slot_->commands, images, memory.srcStageMask ? &memory : nullptr);
+    if (memory.srcStageMask || !images.empty())
+        pipeline_barrier(slot_->commands, images, memory.srcStageMask ? &memory : nullptr);
 }
 
 void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
@@ -101,9 +113,11 @@ void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
                           .pBufferInfo = &buffers[i],
                           .pTexelBufferView = &texels[i]});
     }
-    device_.push_descriptors(slot_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, uint32_t(writes.size()), writes.data());
+    device_.push_descriptors(slot_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0,
+                             uint32_t(writes.size()), writes.data());
     if (!pass.push.empty())
-        vkCmdPushConstants(slot_->commands, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(pass.push.size()), pass.push.data());
+        vkCmdPushConstants(slot_->commands, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(pass.push.size()),
+                           pass.push.data());
     if (!pass.is_indirect()) return vkCmdDispatch(slot_->commands, pass.groups.x, pass.groups.y, pass.groups.z);
     const Realized& arguments = resources_[pass.uses.back().resource.index];
     vkCmdDispatchIndirect(slot_->commands, arguments.buffer, arguments.offset + pass.arguments_offset);
@@ -118,12 +132,13 @@ void Executor::record_raster(const FrameGraph& graph, const Plan::Step& step) co
         const Use& use = pass.uses[i];
         if (use.access != Access::ColorTarget && use.access != Access::DepthTarget) continue;
         extent = graph.resources()[use.resource.index].shape.extent;
-        const VkRenderingAttachmentInfo attachment{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                                   .imageView = resources_[use.resource.index].view,
-                                                   .imageLayout = layout_of(use.access),
-                                                   .loadOp = step.first_use[i] ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
-                                                   .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                                   .clearValue = use.clear};
+        const VkRenderingAttachmentInfo attachment{
+            .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+            .imageView = resources_[use.resource.index].view,
+            .imageLayout = layout_of(use.access),
+            .loadOp = step.first_use[i] ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
+            .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+            .clearValue = use.clear};
         if (use.access == Access::ColorTarget)
             colors.push_back(attachment);
         else

@@ -77,7 +77,8 @@ size_t character_length(std::string_view text) {
         if ((byte(i) & 0xc0) != 0x80) return 0;
     const bool control = first == 0xc2 && byte(1) < 0xa0;
     const bool overlong = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xf0 && byte(1) < 0x90);
-    const bool none = (first == 0xed && byte(1) >= 0xa0) || (first == 0xf4 && byte(1) >= 0x90);  // surrogates; beyond U+10FFFF
+    const bool none =
+        (first == 0xed && byte(1) >= 0xa0) || (first == 0xf4 && byte(1) >= 0x90);  // surrogates; beyond U+10FFFF
     return control || overlong || none ? 0 : length;
 }
 

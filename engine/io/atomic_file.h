@@ -17,10 +17,12 @@ std::vector<uint8_t> read_file(const std::filesystem::path& file, uint64_t max_b
 /// is no regular file (a pipe, /dev/stdout) is written to directly. Throws Error.
 void replace_file(const std::filesystem::path& file, std::span<const uint8_t> bytes);
 
-/// Where a file that is written really goes: a link stays a link, and what it points at, which need not exist, is replaced. Throws Error.
+/// Where a file that is written really goes: a link stays a link, and what it points at, which need not exist, is
+/// replaced. Throws Error.
 std::filesystem::path target_of(const std::filesystem::path& file);
 
-/// Text made fit for a one-line message: control characters and what is no UTF-8 replaced, shortened beyond `max_bytes`.
+/// Text made fit for a one-line message: control characters and what is no UTF-8 replaced, shortened beyond
+/// `max_bytes`.
 std::string one_line(const std::string& text, size_t max_bytes = 300);
 
 }  // namespace vesper

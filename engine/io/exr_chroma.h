@@ -12,7 +12,7 @@ namespace vesper::hdr {
 struct ChromaPlane {
     static constexpr int64_t kReach = 13;  ///< px on either side that a value between two of the file is made of
 
-    glm::ivec2 step{1};         ///< the file has the value of one pixel in so many
+    glm::ivec2 step{1};             ///< the file has the value of one pixel in so many
     int64_t width = 0, height = 0;  ///< values
     std::vector<float> values;
 

@@ -29,7 +29,10 @@ std::vector<ExrLayer> layers_of(const Imf::MultiPartInputFile& file) {
             using Kind = ExrLayer::Kind;
             const bool colour = has("R") || has("G") || has("B");
             if (!colour && !has("Y")) continue;
-            const Kind kind = colour ? Kind::Colour : has("X") && has("Z") ? Kind::Xyz : has("RY") || has("BY") ? Kind::Chroma : Kind::Grey;
+            const Kind kind = colour                   ? Kind::Colour
+                              : has("X") && has("Z")   ? Kind::Xyz
+                              : has("RY") || has("BY") ? Kind::Chroma
+                                                       : Kind::Grey;
             const std::string whole = part_name + (part_name.empty() || name.empty() ? "" : ".") + name;
             found.push_back({part, prefix, whole, kind == Kind::Xyz && !whole.empty(), kind});
         }
@@ -68,7 +71,8 @@ ExrLayer choose_layer(const Imf::MultiPartInputFile& file, const std::string& wa
     List names;
     for (const ExrLayer& layer : layers) {
         const bool whole_first = layer.part == 0 && layer.prefix.empty();
-        if (wanted.empty() ? whole_first || layers.size() == 1 : layer.name == wanted || layer.prefix == wanted + ".") return layer;
+        if (wanted.empty() ? whole_first || layers.size() == 1 : layer.name == wanted || layer.prefix == wanted + ".")
+            return layer;
         if (!layer.name.empty()) names.add(layer.name);
     }
     if (wanted.empty()) throw Error("OpenEXR: several layers: choose one of " + names.text());

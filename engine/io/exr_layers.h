@@ -10,10 +10,16 @@ namespace vesper::hdr {
 /// Channels that make a picture.
 struct ExrLayer {
     int part = 0;
-    std::string prefix;   ///< of its channels' names: "" or "layer."
-    std::string name;     ///< of the part where there are several, and of the layer
-    bool vector = false;  ///< X, Y and Z in a layer or a named part: normals or places, unless whoever asks for it knows better
-    enum class Kind { Colour, Xyz, Chroma, Grey } kind = Kind::Colour;  ///< any of R, G, B; X, Y and Z; Y with RY or BY; Y alone
+    std::string prefix;  ///< of its channels' names: "" or "layer."
+    std::string name;    ///< of the part where there are several, and of the layer
+    bool vector =
+        false;  ///< X, Y and Z in a layer or a named part: normals or places, unless whoever asks for it knows better
+    enum class Kind {
+        Colour,
+        Xyz,
+        Chroma,
+        Grey
+    } kind = Kind::Colour;  ///< any of R, G, B; X, Y and Z; Y with RY or BY; Y alone
 };
 
 /// The layer or part of that name; without a name channels R, G, B, Y of the first part, or the only picture there is.

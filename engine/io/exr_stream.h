@@ -31,8 +31,9 @@ constexpr uint32_t kExrVersion = 0xff, kExrTiled = 0x200, kExrDeep = 0x800, kExr
 /// The word (little endian) at a place of a file that has it.
 uint32_t exr_word(std::span<const uint8_t> bytes, size_t at);
 
-/// Goes through the attributes of all headers of a file before OpenEXR does, which takes the memory that each states. Throws Error
-/// unless it is an OpenEXR file with all of them in it, and what every header must have.
-void see_exr_attributes(std::span<const uint8_t> bytes, const std::function<void(std::string_view name, std::span<const uint8_t> value)>& see);
+/// Goes through the attributes of all headers of a file before OpenEXR does, which takes the memory that each states.
+/// Throws Error unless it is an OpenEXR file with all of them in it, and what every header must have.
+void see_exr_attributes(std::span<const uint8_t> bytes,
+                        const std::function<void(std::string_view name, std::span<const uint8_t> value)>& see);
 
 }  // namespace vesper

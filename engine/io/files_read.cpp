@@ -7,7 +7,8 @@ thread_local FilesRead* listener = nullptr;
 
 std::filesystem::path true_name(const std::filesystem::path& file) {
     std::error_code failed;
-    const std::filesystem::path name = std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
+    const std::filesystem::path name =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
     return failed ? file : name;
 }
 

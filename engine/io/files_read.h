@@ -6,8 +6,8 @@
 
 namespace vesper {
 
-/// Remembers what read_file() reads on this thread while it lives, so that no output can replace an input that only another input
-/// names. One at a time in a thread.
+/// Remembers what read_file() reads on this thread while it lives, so that no output can replace an input that only
+/// another input names. One at a time in a thread.
 class FilesRead {
 public:
     FilesRead();

@@ -7,10 +7,10 @@
 
 namespace vesper {
 
-/// A text file that grows as NAME.part beside the place it is meant for, and takes its name once it is complete. Whatever ends the
-/// program, what was appended is in NAME.part, and NAME holds what it held before. Of a link, NAME is what it points at. A NAME.part
-/// that is there already is removed; links of that name are, not what they lead to. Something that exists and is no regular file (a
-/// pipe, /dev/stdout) is written to directly. Functions throw Error.
+/// A text file that grows as NAME.part beside the place it is meant for, and takes its name once it is complete.
+/// Whatever ends the program, what was appended is in NAME.part, and NAME holds what it held before. Of a link, NAME is
+/// what it points at. A NAME.part that is there already is removed; links of that name are, not what they lead to.
+/// Something that exists and is no regular file (a pipe, /dev/stdout) is written to directly. Functions throw Error.
 class GrowingFile {
 public:
     explicit GrowingFile(const std::filesystem::path& file);

@@ -23,8 +23,8 @@
 namespace vesper::hdr {
 namespace {
 
-// OpenEXR takes memory for tables and buffers while it opens a file; this setting of the whole library is its only way to refuse
-// before that. Made once, as threads may read pictures at the same time.
+// OpenEXR takes memory for tables and buffers while it opens a file; this setting of the whole library is its only way
+// to refuse before that. Made once, as threads may read pictures at the same time.
 void limit_openexr() {
     static const bool limited = [] {
         constexpr int kMaxSide = 1 << 18;
@@ -35,7 +35,8 @@ void limit_openexr() {
     static_cast<void>(limited);
 }
 
-constexpr int64_t kMostUncovered = int64_t{1} << 25;  // px that no data fill: a picture of 8K; files of some bytes must not ask for more
+constexpr int64_t kMostUncovered =
+    int64_t{1} << 25;  // px that no data fill: a picture of 8K; files of some bytes must not ask for more
 
 struct Window {
     int64_t x0, y0, x1, y1;  // inclusive
@@ -80,7 +81,8 @@ void read_rows(HdrImage& image, const Window& data, const Window& display, std::
 }
 
 /// R, G and B or X, Y and Z as they are, or Y three times.
-void read_channels(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, const Window& data, const Window& display) {
+void read_channels(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, const Window& data,
+                   const Window& display) {
     const bool grey = layer.kind == ExrLayer::Kind::Grey, xyz = layer.kind == ExrLayer::Kind::Xyz;
     std::vector<float> block;
     read_rows(image, data, display, block, [&](int first, int last) {
@@ -88,8 +90,9 @@ void read_channels(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer,
         Imf::FrameBuffer pixels;
         const char* names[] = {grey ? "Y" : xyz ? "X" : "R", xyz ? "Y" : "G", xyz ? "Z" : "B"};
         for (int c = 0; c < (grey ? 1 : 3); ++c)
-            pixels.insert(layer.prefix + names[c], Imf::Slice(Imf::FLOAT, origin(block.data() + c, data.x0, first, x_stride, y_stride),
-                                               static_cast<size_t>(x_stride), static_cast<size_t>(y_stride)));
+            pixels.insert(layer.prefix + names[c],
+                          Imf::Slice(Imf::FLOAT, origin(block.data() + c, data.x0, first, x_stride, y_stride),
+                                     static_cast<size_t>(x_stride), static_cast<size_t>(y_stride)));
         part.setFrameBuffer(pixels);
         part.readPixels(first, last);
         if (grey)
@@ -98,9 +101,11 @@ void read_channels(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer,
 }
 
 /// Luminance and chroma that may be subsampled, at the precision of the file.
-void read_chroma(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, const Window& data, const Window& display) {
+void read_chroma(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, const Window& data,
+                 const Window& display) {
     const Imf::Header& exr = part.header();
-    const Imath::V3f weights = Imf::RgbaYca::computeYw(Imf::hasChromaticities(exr) ? Imf::chromaticities(exr) : Imf::Chromaticities());
+    const Imath::V3f weights =
+        Imf::RgbaYca::computeYw(Imf::hasChromaticities(exr) ? Imf::chromaticities(exr) : Imf::Chromaticities());
     const glm::dvec3 yw(weights.x, weights.y, weights.z);
     const char* names[] = {"RY", "BY"};
     ChromaPlane planes[2];
@@ -108,23 +113,31 @@ void read_chroma(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, c
         if (const Imf::Channel* channel = exr.channels().findChannel(layer.prefix + names[c]))
             planes[c].step = {channel->xSampling, channel->ySampling};
     for (const ChromaPlane& plane : planes)
-        if (!plane.is_sound()) throw Error("OpenEXR: chroma of one in " + std::to_string(plane.step.x) + " x " + std::to_string(plane.step.y) + " pixels; 1 and 2 are read");
+        if (!plane.is_sound())
+            throw Error("OpenEXR: chroma of one in " + std::to_string(plane.step.x) + " x " +
+                        std::to_string(plane.step.y) + " pixels; 1 and 2 are read");
 
     std::vector<float> luminance, block, line[2];
     read_rows(image, data, display, block, [&](int first, int last) {
         // Rows that the chroma between two rows is made of, from one that has chroma.
         const int64_t around = ChromaPlane::kReach;
-        const int64_t from = data.y0 + std::max<int64_t>(first - data.y0 - around, 0) / 2 * 2, to = std::min(last + around, data.y1);
+        const int64_t from = data.y0 + std::max<int64_t>(first - data.y0 - around, 0) / 2 * 2,
+                      to = std::min(last + around, data.y1);
         const int64_t width = data.width(), size = sizeof(float);
         luminance.resize(static_cast<size_t>(width * (to - from + 1)));
         Imf::FrameBuffer pixels;
-        pixels.insert(layer.prefix + "Y", Imf::Slice(Imf::FLOAT, origin(luminance.data(), data.x0, from, size, size * width), static_cast<size_t>(size), static_cast<size_t>(size * width)));
+        pixels.insert(layer.prefix + "Y",
+                      Imf::Slice(Imf::FLOAT, origin(luminance.data(), data.x0, from, size, size * width),
+                                 static_cast<size_t>(size), static_cast<size_t>(size * width)));
         for (int c = 0; c < 2; ++c) {
             ChromaPlane& plane = planes[c];
             plane.resize(width, to - from + 1);
             const int64_t row = size * plane.width;
-            pixels.insert(layer.prefix + names[c], Imf::Slice(Imf::FLOAT, origin(plane.values.data(), data.x0 / plane.step.x, from / plane.step.y, size, row),
-                                                              static_cast<size_t>(size), static_cast<size_t>(row), plane.step.x, plane.step.y, 0.0));
+            pixels.insert(
+                layer.prefix + names[c],
+                Imf::Slice(Imf::FLOAT,
+                           origin(plane.values.data(), data.x0 / plane.step.x, from / plane.step.y, size, row),
+                           static_cast<size_t>(size), static_cast<size_t>(row), plane.step.x, plane.step.y, 0.0));
         }
         part.setFrameBuffer(pixels);
         part.readPixels(static_cast<int>(from), static_cast<int>(to));
@@ -133,7 +146,8 @@ void read_chroma(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, c
             for (int c = 0; c < 2; ++c) planes[c].line(y - from, width, line[c]);
             const float* l = luminance.data() + width * (y - from);
             for (size_t x = 0; x < static_cast<size_t>(width); ++x, out += 3) {
-                const double Y = static_cast<double>(l[x]), r = (static_cast<double>(line[0][x]) + 1) * Y, b = (static_cast<double>(line[1][x]) + 1) * Y;
+                const double Y = static_cast<double>(l[x]), r = (static_cast<double>(line[0][x]) + 1) * Y,
+                             b = (static_cast<double>(line[1][x]) + 1) * Y;
                 out[0] = static_cast<float>(r);
                 out[1] = static_cast<float>((Y - r * yw.x - b * yw.z) / yw.y);
                 out[2] = static_cast<float>(b);
@@ -164,7 +178,8 @@ Primaries primaries_of(const Imf::Header& exr) {
 
 }  // namespace
 
-HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& limits, const std::string& wanted) {
+HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits& limits,
+                    const std::string& wanted) {
     limit_openexr();
     see_exr_attributes(bytes, [](std::string_view, std::span<const uint8_t>) {});
     ExrStream stream(name, bytes);
@@ -175,8 +190,10 @@ HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, con
     check_size("OpenEXR: data window", data.width(), data.height(), limits);
     check_size("OpenEXR: display window", display.width(), display.height(), limits);
     if (display.width() * display.height() - data.width() * data.height() > kMostUncovered)
-        throw Error("OpenEXR: its data cover " + std::to_string(data.width()) + " x " + std::to_string(data.height()) + " pixels of a picture of " +
-                    std::to_string(display.width()) + " x " + std::to_string(display.height()) + "; at most " + std::to_string(kMostUncovered) + " may be left black");
+        throw Error("OpenEXR: its data cover " + std::to_string(data.width()) + " x " + std::to_string(data.height()) +
+                    " pixels of a picture of " + std::to_string(display.width()) + " x " +
+                    std::to_string(display.height()) + "; at most " + std::to_string(kMostUncovered) +
+                    " may be left black");
     if (exr.hasTileDescription())
         check_size("OpenEXR: tile", exr.tileDescription().xSize, exr.tileDescription().ySize,
                    {limits.max_side, std::min(limits.max_pixels, uint64_t{1} << 24)});

@@ -42,7 +42,8 @@ namespace {
 
 enum class Kind { Any, Exr, Radiance };
 
-HdrImage decode(std::span<const uint8_t> bytes, const std::string& name, Kind wanted, const HdrLimits& limits, const std::string& layer) {
+HdrImage decode(std::span<const uint8_t> bytes, const std::string& name, Kind wanted, const HdrLimits& limits,
+                const std::string& layer) {
     const std::string type = media_type(bytes);
     try {
         if (type == "image/x-exr" && wanted != Kind::Radiance) return hdr::decode_exr(bytes, name, limits, layer);

@@ -29,18 +29,19 @@ struct HdrLimits {
     uint64_t max_pixels = scaled_limit(uint64_t{1} << 28);  ///< of 12 bytes each
 };
 
-/// Reads an OpenEXR picture of any compression that the OpenEXR library it is built with knows, in scan lines or tiles (the largest level), of half, float or integer
-/// values; channels R, G, B (missing ones are 0), or Y (grey), or Y, RY, BY (chroma of every pixel or of one in two), or X, Y, Z in no layer and no named part (CIE
-/// 1931; there they are normals or places). `layer`
-/// names a part, or a layer (channels LAYER.R and so on); without it those of the first part that are in no layer are
-/// read, or the only picture there is. Deep pictures are refused. The result covers the display window and is 0 outside
-/// of the data window. Other primaries (attribute chromaticities) become Rec. 709 of the same tristimulus values: no
-/// adaptation to white. Alpha is ignored. Throws Error with file and reason.
+/// Reads an OpenEXR picture of any compression that the OpenEXR library it is built with knows, in scan lines or tiles
+/// (the largest level), of half, float or integer values; channels R, G, B (missing ones are 0), or Y (grey), or Y, RY,
+/// BY (chroma of every pixel or of one in two), or X, Y, Z in no layer and no named part (CIE 1931; there they are
+/// normals or places). `layer` names a part, or a layer (channels LAYER.R and so on); without it those of the first
+/// part that are in no layer are read, or the only picture there is. Deep pictures are refused. The result covers the
+/// display window and is 0 outside of the data window. Other primaries (attribute chromaticities) become Rec. 709 of
+/// the same tristimulus values: no adaptation to white. Alpha is ignored. Throws Error with file and reason.
 HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& = {}, const std::string& layer = {});
 
-/// Reads a Radiance picture (RGBE or XYZE, run-length coded or not, in any of the eight orders of pixels). EXPOSURE is divided out,
-/// so that pictures of one series agree; PRIMARIES become Rec. 709, and so do Radiance's own where there are none in a picture that one of its programs made
-/// (its header has their command, VIEW or SOFTWARE): green and blue weigh 0.670 and 0.065 in luminance there, not 0.715 and 0.072. A mantissa m stands for m + 1/2, as in Radiance.
+/// Reads a Radiance picture (RGBE or XYZE, run-length coded or not, in any of the eight orders of pixels). EXPOSURE is
+/// divided out, so that pictures of one series agree; PRIMARIES become Rec. 709, and so do Radiance's own where there
+/// are none in a picture that one of its programs made (its header has their command, VIEW or SOFTWARE): green and blue
+/// weigh 0.670 and 0.065 in luminance there, not 0.715 and 0.072. A mantissa m stands for m + 1/2, as in Radiance.
 HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& = {});
 
 /// Reads either kind, told apart by content.

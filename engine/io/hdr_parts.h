@@ -15,7 +15,8 @@ void check_size(const char* what, int64_t width, int64_t height, const HdrLimits
 constexpr uint64_t kMaxFileBytes = uint64_t{1} << 32;
 
 /// Decode a file's bytes. Throw Error, or what OpenEXR throws, with the reason only.
-HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits&, const std::string& layer);
+HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, const HdrLimits&,
+                    const std::string& layer);
 HdrImage decode_radiance(std::span<const uint8_t> bytes, const HdrLimits&);
 
 struct ExrPixels {

@@ -60,7 +60,8 @@ std::optional<std::vector<double>> numbers(const std::string& text, size_t count
         if (word.starts_with('+')) word.remove_prefix(1);
         double value = 0;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) || values.size() == count) return std::nullopt;
+        if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) || values.size() == count)
+            return std::nullopt;
         values.push_back(value);
     }
     if (values.size() != count) return std::nullopt;
@@ -73,7 +74,9 @@ struct Axis {
     int64_t size = 0;
 
     /// Column or row, from the top left, of the index-th pixel along it. Y points up.
-    size_t place(size_t index) const { return (sign == '-') == (name == 'Y') ? index : static_cast<size_t>(size) - 1 - index; }
+    size_t place(size_t index) const {
+        return (sign == '-') == (name == 'Y') ? index : static_cast<size_t>(size) - 1 - index;
+    }
 };
 
 struct Description {
@@ -86,12 +89,17 @@ struct Description {
     Axis lines, along;  ///< from line to line, and along one
 };
 
-/// Whether a line of the header is the command of one of the programs that take colours without PRIMARIES for Radiance's own.
+/// Whether a line of the header is the command of one of the programs that take colours without PRIMARIES for
+/// Radiance's own.
 bool is_radiance_command(const std::string& line) {
-    static constexpr std::string_view kPrograms[]{"rpict", "rtpict", "rvu", "rview", "rtrace", "rcontrib", "rtcontrib", "rxpict", "rxtrace", "rpiece", "pfilt", "pcomb", "pcompos", "pcond", "pinterp", "pvalue", "dctimestep", "rmtxop", "rcomb", "falsecolor", "ra_xyze"};
+    static constexpr std::string_view kPrograms[]{
+        "rpict",   "rtpict",  "rvu",        "rview",  "rtrace", "rcontrib",   "rtcontrib",
+        "rxpict",  "rxtrace", "rpiece",     "pfilt",  "pcomb",  "pcompos",    "pcond",
+        "pinterp", "pvalue",  "dctimestep", "rmtxop", "rcomb",  "falsecolor", "ra_xyze"};
     const std::string command = word_of(line);
     const bool in_quotes = command.starts_with('"');
-    const std::string program = in_quotes ? command.substr(1, command.find('"', 1) - 1) : command.substr(0, command.find_first_of(" \t"));
+    const std::string program =
+        in_quotes ? command.substr(1, command.find('"', 1) - 1) : command.substr(0, command.find_first_of(" \t"));
     std::string_view name = std::string_view(program).substr(program.find_last_of("/\\") + 1);
     if (name.ends_with(".exe")) name.remove_suffix(4);
     return std::find(std::begin(kPrograms), std::end(kPrograms), name) != std::end(kPrograms);
@@ -108,7 +116,8 @@ void read_variable(Description& made, const std::string& name, const std::string
         made.exposure *= factor->front();
     } else if (name == "COLORCORR") {
         const auto factors = numbers(value, 3);  // cumulative, too
-        if (!factors || std::any_of(factors->begin(), factors->end(), [](double v) { return !(v > 0); })) throw Error("Radiance: COLORCORR=" + value + " are not three positive numbers");
+        if (!factors || std::any_of(factors->begin(), factors->end(), [](double v) { return !(v > 0); }))
+            throw Error("Radiance: COLORCORR=" + value + " are not three positive numbers");
         for (size_t c = 0; c < 3; ++c) made.correction[c] *= (*factors)[c];
     } else if (name == "PRIMARIES") {
         const auto p = numbers(value, 8);
@@ -134,13 +143,17 @@ Description read_description(Bytes& bytes) {
         read_variable(made, made.header.back().first, made.header.back().second);
     }
     for (const double correction : made.correction)
-        if (const double factor = made.exposure * correction; !(factor >= 1e-12 && factor <= 1e12)) throw Error("Radiance: the EXPOSUREs and COLORCORRs multiply to no exposure of a picture");
+        if (const double factor = made.exposure * correction; !(factor >= 1e-12 && factor <= 1e12))
+            throw Error("Radiance: the EXPOSUREs and COLORCORRs multiply to no exposure of a picture");
     const std::string size = bytes.line();
     Axis &a = made.lines, &b = made.along;
     int lines = 0, along = 0, end = 0;
-    const bool read = std::sscanf(size.c_str(), "%c%c %9d %c%c %9d%n", &a.sign, &a.name, &lines, &b.sign, &b.name, &along, &end) == 6 &&
+    const bool read = std::sscanf(size.c_str(), "%c%c %9d %c%c %9d%n", &a.sign, &a.name, &lines, &b.sign, &b.name,
+                                  &along, &end) == 6 &&
                       size.find_first_not_of(' ', static_cast<size_t>(end)) == std::string::npos;
-    const auto sound = [](const Axis& axis) { return (axis.sign == '+' || axis.sign == '-') && (axis.name == 'X' || axis.name == 'Y'); };
+    const auto sound = [](const Axis& axis) {
+        return (axis.sign == '+' || axis.sign == '-') && (axis.name == 'X' || axis.name == 'Y');
+    };
     if (!read || !sound(a) || !sound(b) || a.name == b.name)
         throw Error("Radiance: '" + size + "' where -Y HEIGHT +X WIDTH, or another order of the two axes, is expected");
     a.size = lines;

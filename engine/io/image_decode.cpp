@@ -71,7 +71,9 @@ void png_feed(png_structp png, png_bytep target, size_t count) {
 struct PngReading {
     png_structp png;
     png_infop header;
-    explicit PngReading(Job& job) : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, png_fail, png_ignore)), header(png ? png_create_info_struct(png) : nullptr) {}
+    explicit PngReading(Job& job)
+        : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, png_fail, png_ignore)),
+          header(png ? png_create_info_struct(png) : nullptr) {}
     ~PngReading() { png_destroy_read_struct(&png, &header, nullptr); }
     PngReading(const PngReading&) = delete;
     PngReading& operator=(const PngReading&) = delete;
@@ -85,7 +87,8 @@ bool decode_png(Job& job, const PngReading& reading) {
     png_set_read_fn(png, &job, png_feed);
     png_set_user_limits(png, job.max_side, job.max_side);
     png_set_chunk_malloc_max(png, 64u << 20);
-    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);  // texts, profiles and the like: some kilobytes hold megabytes
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr,
+                                -1);  // texts, profiles and the like: some kilobytes hold megabytes
     png_read_info(png, header);
     const png_uint_32 width = png_get_image_width(png, header), height = png_get_image_height(png, header);
     // Deflate packs at most 1032 : 1, and a texel may be a single bit.
@@ -123,8 +126,11 @@ void jpeg_progress(j_common_ptr jpeg) {
     Job& job = *static_cast<Job*>(jpeg->client_data);
     const auto& reading = *reinterpret_cast<j_decompress_ptr>(jpeg);
     const auto scans = static_cast<uint64_t>(std::max(reading.input_scan_number, 0));
-    if (scans <= kMostScans && scans * reading.image_width * reading.image_height <= kMostOfTheLargest * std::min(job.max_texels, kLargest)) return;
-    std::snprintf(job.reason, JMSG_LENGTH_MAX, "%llu scans are too many for its size", static_cast<unsigned long long>(scans));
+    if (scans <= kMostScans &&
+        scans * reading.image_width * reading.image_height <= kMostOfTheLargest * std::min(job.max_texels, kLargest))
+        return;
+    std::snprintf(job.reason, JMSG_LENGTH_MAX, "%llu scans are too many for its size",
+                  static_cast<unsigned long long>(scans));
     std::longjmp(job.escape, 1);
 }
 
@@ -207,7 +213,9 @@ std::string media_type(std::span<const uint8_t> bytes) {
     return "";
 }
 
-bool is_16_bit_png(std::span<const uint8_t> bytes) { return bytes.size() > 24 && bytes[24] == 16 && media_type(bytes) == "image/png"; }
+bool is_16_bit_png(std::span<const uint8_t> bytes) {
+    return bytes.size() > 24 && bytes[24] == 16 && media_type(bytes) == "image/png";
+}
 
 namespace {
 

@@ -96,8 +96,8 @@ bool encode_png(PngJob& job, uint32_t width, uint32_t height, const void* pixels
         return false;
     }
     png_set_write_fn(png, &job, png_collect, png_flush_nothing);
-    png_set_IHDR(png, header, width, height, wide ? 16 : 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, header, width, height, wide ? 16 : 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (wide) {
         const png_color_8 bits{10, 10, 10, 0, 0};
         png_set_sBIT(png, header, &bits);
@@ -106,7 +106,8 @@ bool encode_png(PngJob& job, uint32_t width, uint32_t height, const void* pixels
     if (!job.texts.empty()) png_set_text(png, header, job.texts.data(), static_cast<int>(job.texts.size()));
     png_set_compression_level(png, 3);  // a frame of a video is written in a third of the time, at 10 % more bytes
     png_write_info(png, header);
-    if (colour != kPngSrgb && colour.transfer != PngColour().transfer) {  // matrix (0: RGB) and full range; libpng 1.6 has no name for it
+    if (colour != kPngSrgb &&
+        colour.transfer != PngColour().transfer) {  // matrix (0: RGB) and full range; libpng 1.6 has no name for it
         const png_byte name[] = "cICP", values[] = {colour.primaries, colour.transfer, 0, 1};
         png_write_chunk(png, name, values, sizeof values);
     }
@@ -141,23 +142,25 @@ private:
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba, PngColour colour,
-               const Header& texts) {
+void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba,
+               PngColour colour, const Header& texts) {
     check_size(file, width, height, 4, rgba.size());
     PngJob job;
     job.texts = png_texts_of(texts);
     job.row.resize(static_cast<size_t>(width) * 3);
-    if (!encode_png(job, width, height, rgba.data(), false, colour)) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
+    if (!encode_png(job, width, height, rgba.data(), false, colour))
+        throw Error(one_line(file.string()) + ": PNG: " + job.reason);
     replace_file(file, job.file);
 }
 
-void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint32_t> words, PngColour colour,
-                     const Header& texts) {
+void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height,
+                     std::span<const uint32_t> words, PngColour colour, const Header& texts) {
     check_size(file, width, height, 1, words.size());
     PngJob job;
     job.texts = png_texts_of(texts);
     job.row.resize(static_cast<size_t>(width) * 6);
-    if (!encode_png(job, width, height, words.data(), true, colour)) throw Error(one_line(file.string()) + ": PNG: " + job.reason);
+    if (!encode_png(job, width, height, words.data(), true, colour))
+        throw Error(one_line(file.string()) + ": PNG: " + job.reason);
     replace_file(file, job.file);
 }
 

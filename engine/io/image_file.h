@@ -23,7 +23,8 @@ std::string media_type(std::span<const uint8_t> bytes);
 /// Whether a picture is a PNG of 16 bits a channel.
 bool is_16_bit_png(std::span<const uint8_t> bytes);
 
-/// What the codes of a picture mean, as its PNG says: code points of ITU-T H.273. Chunk cICP, sRGB for its curve in Rec. 709, none where the transfer is unknown.
+/// What the codes of a picture mean, as its PNG says: code points of ITU-T H.273. Chunk cICP, sRGB for its curve in
+/// Rec. 709, none where the transfer is unknown.
 struct PngColour {
     uint8_t primaries = 2;  ///< 1: Rec. 709, 9: Rec. 2020, 12: Display P3, 2: others
     uint8_t transfer = 2;   ///< 4: gamma 2.2, 13: sRGB, 16: PQ, 2: others
@@ -31,17 +32,18 @@ struct PngColour {
 };
 constexpr PngColour kPngSrgb{1, 13};
 
-/// Named texts of a picture: attributes of an OpenEXR header, tEXt chunks of a PNG (ASCII, names of at most 79 characters).
+/// Named texts of a picture: attributes of an OpenEXR header, tEXt chunks of a PNG (ASCII, names of at most 79
+/// characters).
 using Header = std::vector<std::pair<std::string, std::string>>;
 
 /// Writes 8-bit RGBA (alpha ignored) as an RGB PNG. The file is replaced only when complete. Throws Error.
-void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba, PngColour = kPngSrgb,
-               const Header& = {});
+void write_png(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint8_t> rgba,
+               PngColour = kPngSrgb, const Header& = {});
 
 /// Writes words of 10 bits a channel, red in the lowest (A2B10G10R10, alpha ignored), as an RGB PNG of 16 bits (chunk
 /// sBIT: 10). The file is replaced only when complete. Throws Error.
-void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const uint32_t> words, PngColour,
-                     const Header& = {});
+void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t height,
+                     std::span<const uint32_t> words, PngColour, const Header& = {});
 
 /// Writes RGBA float pixels (alpha ignored) as a 32-bit RGB OpenEXR, ZIP compressed, in cd/m^2 (whiteLuminance 1).
 /// The file is replaced only when complete. Throws Error.

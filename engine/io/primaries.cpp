@@ -24,7 +24,9 @@ glm::dmat3 to_xyz(const Primaries& p) {
 }  // namespace
 
 bool make_white(const Primaries& p) {
-    const auto side = [&](glm::dvec2 a, glm::dvec2 b) { return (b.x - a.x) * (p.white.y - a.y) - (b.y - a.y) * (p.white.x - a.x); };
+    const auto side = [&](glm::dvec2 a, glm::dvec2 b) {
+        return (b.x - a.x) * (p.white.y - a.y) - (b.y - a.y) * (p.white.x - a.x);
+    };
     const double r = side(p.red, p.green), g = side(p.green, p.blue), b = side(p.blue, p.red);
     return (r > 0 && g > 0 && b > 0) || (r < 0 && g < 0 && b < 0);
 }

@@ -9,7 +9,6 @@
 namespace vesper {
 namespace {
 
-
 glm::dvec3 direction_of(Goniometry goniometry, double h, double v) {
     const double a = h * kRadiansPerDegree, b = v * kRadiansPerDegree;
     switch (goniometry) {
@@ -26,7 +25,8 @@ glm::dvec3 direction_of(Goniometry goniometry, double h, double v) {
 /// The greatest intensity of type C over all planes at a gamma.
 double greatest_at(const Distribution& d, double gamma) {
     double greatest = 0;
-    for (const double c : d.horizontal) greatest = std::max(greatest, intensity(d, direction_of(d.goniometry, c, gamma)));
+    for (const double c : d.horizontal)
+        greatest = std::max(greatest, intensity(d, direction_of(d.goniometry, c, gamma)));
     return greatest;
 }
 
@@ -39,7 +39,8 @@ Distribution lower_half(const Distribution& d) {
     if (d.vertical.back() >= 90) half.vertical.push_back(90);
     half.candela.clear();
     for (const double c : d.horizontal)
-        for (const double gamma : half.vertical) half.candela.push_back(intensity(d, direction_of(d.goniometry, c, gamma)));
+        for (const double gamma : half.vertical)
+            half.candela.push_back(intensity(d, direction_of(d.goniometry, c, gamma)));
     return half;
 }
 
@@ -48,9 +49,9 @@ struct GlareClass {
     std::array<double, 4> limits;  // cd/klm at 70, 80, 90 deg and from 95 deg up
 };
 constexpr double kAny = HUGE_VAL;
-constexpr double kNothing = 0.5;  // cd/klm: rounds to 0
+constexpr double kNothing = 0.5;          // cd/klm: rounds to 0
 constexpr GlareClass kGlareClasses[] = {  // EN 13201-2:2015, table A.1, strictest first; G*6 asks 0 from 90 deg up
-    {"G*6", {350, 100, 0, 0}},   {"G*5", {350, 100, 10, 0}},       {"G*4", {500, 100, 10, 0}},
+    {"G*6", {350, 100, 0, 0}},      {"G*5", {350, 100, 10, 0}},     {"G*4", {500, 100, 10, 0}},
     {"G*3", {kAny, 100, 20, kAny}}, {"G*2", {kAny, 150, 30, kAny}}, {"G*1", {kAny, 200, 50, kAny}}};
 
 void find_cut_off(const Distribution& d, BeamFigures& figures) {
@@ -59,7 +60,8 @@ void find_cut_off(const Distribution& d, BeamFigures& figures) {
     for (size_t i = 0; i < 3; ++i) figures.at_70_80_90_95[i] = greatest_at(d, gammas[i]) * per_klm;
     figures.at_70_80_90_95[3] = greatest_at(d, 95) * per_klm;
     for (const double gamma : d.vertical)
-        if (gamma > 95) figures.at_70_80_90_95[3] = std::max(figures.at_70_80_90_95[3], greatest_at(d, gamma) * per_klm);
+        if (gamma > 95)
+            figures.at_70_80_90_95[3] = std::max(figures.at_70_80_90_95[3], greatest_at(d, gamma) * per_klm);
     for (const GlareClass& c : kGlareClasses) {
         bool holds = true;
         for (size_t i = 0; i < 4; ++i) holds &= figures.at_70_80_90_95[i] <= std::max(c.limits[i], kNothing);
@@ -172,9 +174,9 @@ BeamFigures beam_figures(const Distribution& d) {
 
 std::span<const BeamPoint> passing_beam_points() {
     static constexpr BeamPoint kPoints[] = {
-        {"B50L", -3.43, 0.57, 0, 350},      {"BR", 2.5, 1, 0, 1750},         {"75R", 1.15, -0.57, 10100, 0},
-        {"75L", -3.43, -0.57, 0, 10600},    {"50L", -3.43, -0.86, 0, 13200}, {"50R", 1.72, -0.86, 10100, 0},
-        {"50V", 0, -0.86, 5100, 0},         {"25L", -9, -1.72, 1700, 0},     {"25R", 9, -1.72, 1700, 0}};
+        {"B50L", -3.43, 0.57, 0, 350},   {"BR", 2.5, 1, 0, 1750},         {"75R", 1.15, -0.57, 10100, 0},
+        {"75L", -3.43, -0.57, 0, 10600}, {"50L", -3.43, -0.86, 0, 13200}, {"50R", 1.72, -0.86, 10100, 0},
+        {"50V", 0, -0.86, 5100, 0},      {"25L", -9, -1.72, 1700, 0},     {"25R", 9, -1.72, 1700, 0}};
     return kPoints;
 }
 

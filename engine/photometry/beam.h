@@ -16,7 +16,7 @@ double intensity_at(const Distribution&, double h, double v);
 
 /// A cut through a distribution: intensities over angles.
 struct Cut {
-    std::vector<double> angle;    ///< deg, ascending
+    std::vector<double> angle;  ///< deg, ascending
     std::vector<double> candela;
 };
 /// Type C: the plane of C and C + 180, angles from -180 (towards C + 180) to 180, 0 at gamma = 0.
@@ -39,10 +39,10 @@ BeamSymmetry symmetry_of(const Distribution&);
 const char* name_of(BeamSymmetry);
 
 struct BeamFigures {
-    double flux = 0;                    ///< lm
-    double output_ratio = 0;            ///< flux over that of the lamps; 0 for absolute photometry
-    double upward_share = 0;            ///< of the flux, above the horizontal; type C only
-    double largest = 0;                 ///< cd
+    double flux = 0;                      ///< lm
+    double output_ratio = 0;              ///< flux over that of the lamps; 0 for absolute photometry
+    double upward_share = 0;              ///< of the flux, above the horizontal; type C only
+    double largest = 0;                   ///< cd
     double largest_h = 0, largest_v = 0;  ///< where: C and gamma, or H and V, deg
     BeamSymmetry symmetry = BeamSymmetry::None;
     /// Greatest intensity at gamma = 70, 80, 90 and from 95 deg up, cd per 1000 lm of `flux`; type C only.
@@ -55,8 +55,8 @@ BeamFigures beam_figures(const Distribution&);
 /// A point where UN R112 limits a passing beam of class B, right-hand traffic.
 struct BeamPoint {
     const char* name;
-    double h, v;          ///< deg, right and up positive
-    double least, most;   ///< cd; 0: no such limit
+    double h, v;         ///< deg, right and up positive
+    double least, most;  ///< cd; 0: no such limit
 };
 std::span<const BeamPoint> passing_beam_points();
 

@@ -41,8 +41,8 @@ template <class Value>
 double integral_from_pole(const std::vector<double>& degrees, double pole, Value&& value) {
     double sum = 0;
     for (size_t i = 1; i < degrees.size(); ++i)
-        sum +=
-            line_times_sine((degrees[i - 1] - pole) * kRadiansPerDegree, (degrees[i] - pole) * kRadiansPerDegree, value(i - 1), value(i));
+        sum += line_times_sine((degrees[i - 1] - pole) * kRadiansPerDegree, (degrees[i] - pole) * kRadiansPerDegree,
+                               value(i - 1), value(i));
     return sum;
 }
 

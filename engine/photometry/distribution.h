@@ -21,10 +21,10 @@ enum class Goniometry : uint8_t {
 
 /// Luminous opening, m. Zero if the file does not state it.
 struct LuminousOpening {
-    double length = 0;    ///< along C0-C180; left to right of a headlamp
-    double width = 0;     ///< along C90-C270; top to bottom of a headlamp
+    double length = 0;  ///< along C0-C180; left to right of a headlamp
+    double width = 0;   ///< along C90-C270; top to bottom of a headlamp
     double height = 0;
-    bool round = false;   ///< an ellipse of these diameters
+    bool round = false;  ///< an ellipse of these diameters
     /// Area of the opening seen against the main direction, m^2; 0 where unknown.
     double area() const;
 };
@@ -33,7 +33,7 @@ struct LuminousOpening {
 /// present (equal to one another), or is the one angle 0 when the distribution has rotational symmetry; B and A keep
 /// the ranges of their file. Between the angles intensity is bilinear in degrees, outside them it is 0.
 struct Distribution {
-    std::string name;                ///< of the luminaire, or of the file
+    std::string name;  ///< of the luminaire, or of the file
     Goniometry goniometry = Goniometry::CGamma;
     std::vector<double> horizontal;  ///< C or H, deg
     std::vector<double> vertical;    ///< gamma or V, deg

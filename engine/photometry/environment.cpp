@@ -13,7 +13,6 @@
 namespace vesper {
 namespace {
 
-
 glm::dvec3 pixel(const Environment& e, uint32_t x, uint32_t y) {
     const float* c = &e.rgb[(static_cast<size_t>(y) * e.width + x) * 3];
     return {c[0], c[1], c[2]};
@@ -124,8 +123,8 @@ Irradiance9 irradiance_polynomial(const Environment& e) {
                                     15 / (4 * kPi), 5 / (16 * kPi), 15 / (4 * kPi), 15 / (16 * kPi)};
     constexpr double kLobe[3] = {kPi, 2 * kPi / 3, kPi / 4};
     for (size_t i = 0; i < 9; ++i) sums[i] *= kSquares[i] * kLobe[i == 0 ? 0 : i < 4 ? 1 : 2];
-    // What the third and higher orders take from the ground, or give it, goes with (P0 + 3 P1 + 5 P2)(y) / 9: 1 at y = 1, and the least change in the mean
-    // square that is. y^2 = 1/3 - (3 z^2 - 1) / 6 - (x^2 - y^2) / 2.
+    // What the third and higher orders take from the ground, or give it, goes with (P0 + 3 P1 + 5 P2)(y) / 9: 1 at y =
+    // 1, and the least change in the mean square that is. y^2 = 1/3 - (3 z^2 - 1) / 6 - (x^2 - y^2) / 2.
     const glm::dvec3 left = ground - (sums[0] + sums[1] - sums[6] - sums[8]);
     sums[0] += left / 9.0, sums[1] += left / 3.0, sums[6] -= left * (5 / 36.0), sums[8] -= left * (5 / 12.0);
     return sums;

@@ -147,7 +147,8 @@ Distribution parse_eulumdat(std::span<const uint8_t> text, const std::string& na
     for (size_t i = 1; i < all.size(); ++i)
         if (!(all[i] > all[i - 1])) lines.fail_at(c_line + i, "the C angles do not ascend");
     made.horizontal = stored_planes(all, symmetry, lines, c_line);
-    if (symmetry == 0 && planes > 1 && !go_round(all)) lines.fail_at(c_line, "no symmetry is stated, but the C angles do not go round");
+    if (symmetry == 0 && planes > 1 && !go_round(all))
+        lines.fail_at(c_line, "no symmetry is stated, but the C angles do not go round");
     const size_t gamma_line = lines.line() + 1;
     made.vertical = values.list(gammas, "a gamma angle");
     const std::string reason = objection_to_size(static_cast<double>(made.horizontal.size()), gammas);

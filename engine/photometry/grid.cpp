@@ -32,11 +32,19 @@ enum class Column : uint8_t { Horizontal, Vertical, C, Gamma, Candela };
 
 /// What a column of a list holds, by its heading; nothing for other names and other units.
 std::optional<Column> column_of(std::string_view heading) {
-    static const std::map<std::string, Column, std::less<>> kNames{
-        {"h", Column::Horizontal}, {"horizontal", Column::Horizontal}, {"v", Column::Vertical}, {"vertical", Column::Vertical}, {"c", Column::C},
-        {"gamma", Column::Gamma},  {"γ", Column::Gamma},               {"cd", Column::Candela}, {"candela", Column::Candela},   {"intensity", Column::Candela},
-        {"i", Column::Candela}};
-    static const std::set<std::string, std::less<>> kBeside{"deg", "degree", "degrees", "angle", "plane", "luminous", "in"};
+    static const std::map<std::string, Column, std::less<>> kNames{{"h", Column::Horizontal},
+                                                                   {"horizontal", Column::Horizontal},
+                                                                   {"v", Column::Vertical},
+                                                                   {"vertical", Column::Vertical},
+                                                                   {"c", Column::C},
+                                                                   {"gamma", Column::Gamma},
+                                                                   {"γ", Column::Gamma},
+                                                                   {"cd", Column::Candela},
+                                                                   {"candela", Column::Candela},
+                                                                   {"intensity", Column::Candela},
+                                                                   {"i", Column::Candela}};
+    static const std::set<std::string, std::less<>> kBeside{"deg",   "degree",   "degrees", "angle",
+                                                            "plane", "luminous", "in"};
     std::optional<Column> column;
     for (const std::string& word : words_of(heading)) {
         if (kBeside.contains(word)) continue;
@@ -52,7 +60,8 @@ bool names_rows_horizontal(std::string_view corner) {
     const size_t at = corner.find_first_of("\\/|");
     if (at == corner.npos) return false;
     const auto rows = column_of(corner.substr(0, at)), columns = column_of(corner.substr(at + 1));
-    return (rows == Column::Horizontal && columns == Column::Vertical) || (rows == Column::C && columns == Column::Gamma);
+    return (rows == Column::Horizontal && columns == Column::Vertical) ||
+           (rows == Column::C && columns == Column::Gamma);
 }
 
 /// Which columns of a list are the horizontal angle, the vertical one and the intensity.
@@ -240,7 +249,9 @@ Distribution parse_grid_csv(std::span<const uint8_t> text, const std::string& na
         for (const std::string& word : words_of(header[0]))
             for (const char* unit : {"lx", "lux", "lm", "klm", "kcd", "mcd"})
                 if (word == unit) lines.fail("the corner cell names " + quoted(unit) + ": intensities are read in cd");
-        if (names_rows_horizontal(header[0])) lines.fail("the corner cell " + quoted(header[0]) + " says that each row has one horizontal angle: rows of V or gamma are expected");
+        if (names_rows_horizontal(header[0]))
+            lines.fail("the corner cell " + quoted(header[0]) +
+                       " says that each row has one horizontal angle: rows of V or gamma are expected");
         made.goniometry = *stated;
         places = read_matrix(made, rows, header, lines);
     }

@@ -26,11 +26,13 @@ void check_header(std::span<const uint8_t> bytes) {
         if (name != "dataWindow") return;
         if (value.size() != 16) throw Error("has no sound data window");
         const auto corner = [&](size_t i) { return static_cast<int32_t>(exr_word(value, 4 * i)); };
-        const std::string reason = objection_to_size(double{1} + corner(2) - corner(0), double{1} + corner(3) - corner(1));
+        const std::string reason =
+            objection_to_size(double{1} + corner(2) - corner(0), double{1} + corner(3) - corner(1));
         if (!reason.empty()) throw Error(reason);
         sized = true;
     });
-    if (const uint32_t word = exr_word(bytes, 4); (word & kExrVersion) != 2 || (word & (kExrTiled | kExrDeep | kExrParts)) != 0)
+    if (const uint32_t word = exr_word(bytes, 4);
+        (word & kExrVersion) != 2 || (word & (kExrTiled | kExrDeep | kExrParts)) != 0)
         throw Error("is tiled, deep, of several parts or of another version: one part of scan lines is read");
     if (!sized) throw Error("states no data window");
 }
@@ -102,7 +104,8 @@ bool is_grid_exr(std::span<const uint8_t> start) {
     try {
         see_exr_attributes(start, [&](std::string_view name, std::span<const uint8_t> value) {
             const std::string_view text(reinterpret_cast<const char*>(value.data()), value.size());
-            grid |= name == "horizontalFirst" || name == "verticalTop" || (name == "channels" && text.starts_with(std::string_view("cd\0", 3)));
+            grid |= name == "horizontalFirst" || name == "verticalTop" ||
+                    (name == "channels" && text.starts_with(std::string_view("cd\0", 3)));
         });
     } catch (const Error&) {  // no OpenEXR file, or its start alone
     }

@@ -103,8 +103,8 @@ std::optional<std::string_view> tilt_of(std::string_view line) {
     return trimmed(line.substr(1));
 }
 
-/// The year of a version line: "IESNA91", "IESNA:LM-63-2002", "IES:LM-63-2019", "IESNA LM63 95"; the last where it names another or none.
-/// Nothing: a label.
+/// The year of a version line: "IESNA91", "IESNA:LM-63-2002", "IES:LM-63-2019", "IESNA LM63 95"; the last where it
+/// names another or none. Nothing: a label.
 std::optional<int> year_of(std::string_view line) {
     std::string text;
     for (const char c : upper(line))
@@ -112,9 +112,11 @@ std::optional<int> year_of(std::string_view line) {
     const size_t standard = text.find("LM63");
     if (!text.starts_with("IES") || (standard == text.npos && !text.starts_with("IESNA"))) return std::nullopt;
     const std::string rest = text.substr(standard == text.npos ? 5 : standard + 4);
-    if (standard == text.npos && (rest.empty() || !std::isdigit(static_cast<unsigned char>(rest.front())))) return std::nullopt;
+    if (standard == text.npos && (rest.empty() || !std::isdigit(static_cast<unsigned char>(rest.front()))))
+        return std::nullopt;
     const std::string year = rest.substr(0, rest.find_first_not_of("0123456789"));
-    constexpr std::pair<const char*, int> kYears[]{{"86", 1986}, {"1986", 1986}, {"91", 1991}, {"1991", 1991}, {"95", 1995}, {"1995", 1995}, {"02", 2002}, {"2002", 2002}};
+    constexpr std::pair<const char*, int> kYears[]{{"86", 1986}, {"1986", 1986}, {"91", 1991}, {"1991", 1991},
+                                                   {"95", 1995}, {"1995", 1995}, {"02", 2002}, {"2002", 2002}};
     for (const auto& [name, number] : kYears)
         if (year == name) return number;
     return 2019;
@@ -161,7 +163,8 @@ IesHeader read_header(LineReader& lines, Distribution& made) {
 /// The factor a table of tilts has for the lamp as it was measured, at tilt 0.
 double read_tilt_table(Numbers& numbers, LineReader& lines) {
     const double geometry = numbers.next("the lamp-to-luminaire geometry");
-    if (geometry != 1 && geometry != 2 && geometry != 3) lines.fail("the lamp-to-luminaire geometry is none of 1, 2 and 3");
+    if (geometry != 1 && geometry != 2 && geometry != 3)
+        lines.fail("the lamp-to-luminaire geometry is none of 1, 2 and 3");
     const double count = numbers.next("the number of tilt angles", 1, kMaxAngles);
     if (count != std::floor(count)) lines.fail("the number of tilt angles is not whole");
     const std::vector<double> angles = numbers.list(count, "a tilt angle");
@@ -193,7 +196,8 @@ double read_tilt_file(const LineReader& lines, const std::string& file, const st
 /// The luminous opening by the signs of LM-63: negative dimensions are diameters of something round.
 LuminousOpening opening_of(double width, double length, double height, int year) {
     // From 2002 on (Table 1): cylinders that lie along or across, and discs that stand, which have no area from below.
-    if (year >= 2002 && height < 0 && (width < 0) != (length < 0)) return {std::abs(length), std::abs(width), std::abs(height), false};
+    if (year >= 2002 && height < 0 && (width < 0) != (length < 0))
+        return {std::abs(length), std::abs(width), std::abs(height), false};
     LuminousOpening opening{std::abs(length), std::abs(width), std::abs(height), width < 0 || length < 0};
     if (opening.round && opening.length == 0) opening.length = opening.width;  // 1995: one diameter will do
     if (opening.round && opening.width == 0) opening.width = opening.length;
@@ -204,15 +208,17 @@ LuminousOpening opening_of(double width, double length, double height, int year)
     return opening;
 }
 
-/// Refuses a file without the line of three numbers between the opening and the angles. As numbers are free-format, it is told by exactly
-/// so many following as angles and intensities need, the first of which ascend as vertical angles do.
+/// Refuses a file without the line of three numbers between the opening and the angles. As numbers are free-format, it
+/// is told by exactly so many following as angles and intensities need, the first of which ascend as vertical angles
+/// do.
 void check_electrical_line(const LineReader& lines, const Numbers& numbers, size_t verticals, size_t horizontals) {
     const size_t wanted = verticals + horizontals + verticals * horizontals;
     const std::vector<double> rest = numbers.rest(wanted + 1);
     const auto end = rest.begin() + static_cast<ptrdiff_t>(std::min(verticals, rest.size()));
     const bool ascends = std::adjacent_find(rest.begin(), end, std::greater_equal<>()) == end;
     if (rest.empty() || (rest.size() == wanted && ascends))
-        lines.fail_at(numbers.line() + 1, "the electrical line is missing (ballast factor, ballast-lamp factor, input watts)");
+        lines.fail_at(numbers.line() + 1,
+                      "the electrical line is missing (ballast factor, ballast-lamp factor, input watts)");
 }
 
 void read_numbers(Distribution& made, LineReader lines, const IesHeader& header, bool decimal_comma,
@@ -231,7 +237,8 @@ void read_numbers(Distribution& made, LineReader lines, const IesHeader& header,
     };
     // Some files of absolute photometry have 0 or -1 lamps, as they have -1 lm.
     const double lamps = numbers.next("the number of lamps");
-    if (!(lamps >= -1 && lamps <= 1e6 && lamps == std::floor(lamps))) lines.fail("the number of lamps must be a whole number from 1");
+    if (!(lamps >= -1 && lamps <= 1e6 && lamps == std::floor(lamps)))
+        lines.fail("the number of lamps must be a whole number from 1");
     const double lumens = numbers.next("the lumens per lamp");
     factor *= positive("the candela multiplier");
     const double verticals = numbers.next("the number of vertical angles");
@@ -244,7 +251,8 @@ void read_numbers(Distribution& made, LineReader lines, const IesHeader& header,
     made.goniometry = type == 1 ? Goniometry::CGamma : type == 2 ? Goniometry::TypeB : Goniometry::TypeA;
     const double metres = units == 1 ? 0.3048 : 1;
     const double width = numbers.next("the width of the opening"), length = numbers.next("the length of the opening");
-    made.opening = opening_of(width * metres, length * metres, numbers.next("the height of the opening") * metres, header.year);
+    made.opening =
+        opening_of(width * metres, length * metres, numbers.next("the height of the opening") * metres, header.year);
     check_electrical_line(lines, numbers, static_cast<size_t>(verticals), static_cast<size_t>(horizontals));
     factor *= positive("the ballast factor");
     const char* after = "the number after the ballast factor";

@@ -26,8 +26,8 @@ LuminancePicture make_luminance_picture(HdrImage image, uint64_t* changed) {
         float* c = &made.rgb[i];
         for (size_t k = 0; k < 3; ++k)
             if (!(std::abs(c[k]) <= kLargestValue))
-                throw Error("pixel (" + std::to_string(i / 3 % image.width) + ", " + std::to_string(i / 3 / image.width) +
-                            ") is not finite, or beyond 1e30");
+                throw Error("pixel (" + std::to_string(i / 3 % image.width) + ", " +
+                            std::to_string(i / 3 / image.width) + ") is not finite, or beyond 1e30");
         if (c[0] >= 0 && c[1] >= 0 && c[2] >= 0) continue;
         const glm::dvec3 moved = inside({c[0], c[1], c[2]});
         for (size_t k = 0; k < 3; ++k) c[k] = static_cast<float>(moved[static_cast<int>(k)]);
@@ -74,7 +74,8 @@ double PictureMeans::over(const std::array<glm::dvec2, 3>& uv) const {
     for (size_t i = 0; i < 3; ++i) p[i] = uv[i] * glm::dvec2(width_, height_);
     const glm::dvec2 low = glm::min(p[0], glm::min(p[1], p[2])), high = glm::max(p[0], glm::max(p[1], p[2]));
     constexpr double kRepetitions = 64, kFarthest = 1e12;  // the latter so that texels can be counted
-    const glm::dvec2 extent = (high - low) / glm::dvec2(width_, height_), farthest = glm::max(glm::abs(low), glm::abs(high));
+    const glm::dvec2 extent = (high - low) / glm::dvec2(width_, height_),
+                     farthest = glm::max(glm::abs(low), glm::abs(high));
     if (!(std::max(extent.x, extent.y) <= kRepetitions && std::max(farthest.x, farthest.y) < kFarthest)) return mean_;
     double sum = 0, length = 0;
     for (auto y = static_cast<int64_t>(std::floor(low.y)); static_cast<double>(y) < high.y; ++y) {

@@ -80,7 +80,8 @@ MergedImage merge_exposures(std::span<const Exposure> exposures, const Response&
                 if (at_x < 0 || at_y < 0 || at_x >= width || at_y >= height) continue;
                 const uint8_t* codes = e.image.rgba.data() + (at_y * width + at_x) * 4;
                 for (size_t c = 0; c < 3; ++c)
-                    channels[c].add(codes[c], precisions[c][codes[c]], response.ln_exposure[c][codes[c]] - ln_exposures[i], e.exposure);
+                    channels[c].add(codes[c], precisions[c][codes[c]],
+                                    response.ln_exposure[c][codes[c]] - ln_exposures[i], e.exposure);
             }
             bool dark = false, bright = false, good = true;
             double colour[3];

@@ -27,7 +27,8 @@ const std::array<glm::dvec3, kWavelengths> kObserver{{
 
 double black_body(double nanometres, double kelvin) {
     const double metres = nanometres * 1e-9;
-    return std::pow(560e-9 / metres, 5) * std::expm1(kSecondRadiation / (560e-9 * kelvin)) / std::expm1(kSecondRadiation / (metres * kelvin));
+    return std::pow(560e-9 / metres, 5) * std::expm1(kSecondRadiation / (560e-9 * kelvin)) /
+           std::expm1(kSecondRadiation / (metres * kelvin));
 }
 
 std::array<glm::dvec3, kWavelengths> white_light() {

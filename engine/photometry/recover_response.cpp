@@ -99,8 +99,9 @@ struct Equations {
         weight += sum;
     }
 
-    /// Penalizes curvature, in relation to the mean weight of data per code, but not that of three shapes that cameras' responses are near,
-    /// nor of any sum of them. Exposures in equal steps leave open what repeats itself from step to step; only this decides that.
+    /// Penalizes curvature, in relation to the mean weight of data per code, but not that of three shapes that cameras'
+    /// responses are near, nor of any sum of them. Exposures in equal steps leave open what repeats itself from step to
+    /// step; only this decides that.
     void smooth(double lambda) {
         Matrix curvature = Matrix::Zero(254, 256), shapes(256, 3);
         const double scale = lambda * std::sqrt(weight / 256);
@@ -108,7 +109,8 @@ struct Equations {
             for (int i = -1; i <= 1; ++i) curvature(z - 1, z + i) = scale * code_weight(z) * (i == 0 ? -2 : 1);
         for (int z = 0; z < 256; ++z) {
             const double v = (z + 0.5) / 256;
-            shapes.row(z) << std::log(v), std::log(v + 0.055), std::log(1.1 - v);  // a power; the toe of sRGB; a shoulder
+            shapes.row(z) << std::log(v), std::log(v + 0.055),
+                std::log(1.1 - v);  // a power; the toe of sRGB; a shoulder
         }
         const Eigen::HouseholderQR<Matrix> factors(curvature * shapes);
         const Matrix free = (factors.householderQ() * Matrix::Identity(254, 3)).transpose() * curvature;

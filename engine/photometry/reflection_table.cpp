@@ -65,11 +65,14 @@ double average_luminance_coefficient(const ReflectionTable& table) {
 }
 
 double diffuse_luminance_coefficient(const ReflectionTable& table) {
-    // The mean of r over beta is linear between rows, as r is; over gamma by midpoints. dOmega = sin(gamma) dgamma dbeta.
-    ReflectionTable mean{.name = {}, .tan_gamma = table.tan_gamma, .beta = {0, 180}, .r = {}, .extended = table.extended};
+    // The mean of r over beta is linear between rows, as r is; over gamma by midpoints. dOmega = sin(gamma) dgamma
+    // dbeta.
+    ReflectionTable mean{
+        .name = {}, .tan_gamma = table.tan_gamma, .beta = {0, 180}, .r = {}, .extended = table.extended};
     for (size_t t = 0; t < table.tan_gamma.size(); ++t) {
         double sum = 0;
-        for (size_t b = 0; b + 1 < table.beta.size(); ++b) sum += (table.beta[b + 1] - table.beta[b]) / 360 * (table.at(t, b) + table.at(t, b + 1));
+        for (size_t b = 0; b + 1 < table.beta.size(); ++b)
+            sum += (table.beta[b + 1] - table.beta[b]) / 360 * (table.at(t, b) + table.at(t, b + 1));
         mean.r.insert(mean.r.end(), 2, sum);
     }
     constexpr int kSteps = 2000;

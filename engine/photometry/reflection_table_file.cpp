@@ -33,7 +33,8 @@ void read_row(ReflectionTable& table, const LineReader& lines, std::string_view 
         for (size_t i = 1; i < fields.size(); ++i) table.beta.push_back(value_of(lines, fields[i]));
         if (table.beta.empty()) lines.fail("is not a row of beta, separated by commas");
         if (!fields[0].empty() && lower(fields[0]) != "t" && !names_tan_gamma(fields[0]))
-            lines.fail("begins with " + quoted(fields[0]) + ": rows of tan gamma, under 'tan_gamma' and a row of beta in degrees, are expected");
+            lines.fail("begins with " + quoted(fields[0]) +
+                       ": rows of tan gamma, under 'tan_gamma' and a row of beta in degrees, are expected");
         return;
     }
     if (fields.size() != table.beta.size() + 1)
@@ -54,8 +55,10 @@ ReflectionTable parse(std::string_view text, const std::string& name) {
             const std::string_view comment = trimmed(line.substr(1));
             const std::string_view stated = comment.substr(std::min<size_t>(2, comment.size()));
             if (lower(comment.substr(0, 2)) == "q0" && !stated.empty() && stated.find_first_of(" \t:=") == 0) {
-                const std::string_view value = stated.substr(std::min(stated.find_first_not_of(" \t:="), stated.size()));
-                if (value.find(' ') == value.npos) table.stated_q0 = value_of(lines, value);  // else a sentence about it
+                const std::string_view value =
+                    stated.substr(std::min(stated.find_first_not_of(" \t:="), stated.size()));
+                if (value.find(' ') == value.npos)
+                    table.stated_q0 = value_of(lines, value);  // else a sentence about it
             }
             if (lower(comment) == "wet") table.wet = true;
         } else if (!line.empty()) {
@@ -63,7 +66,8 @@ ReflectionTable parse(std::string_view text, const std::string& name) {
         }
     }
     check_reflection_table(table, name);
-    if (*std::max_element(table.r.begin(), table.r.end()) < 1e-4) throw Error(name + ": no value reaches 1: r times 10^4, in sr^-1, is expected");
+    if (*std::max_element(table.r.begin(), table.r.end()) < 1e-4)
+        throw Error(name + ": no value reaches 1: r times 10^4, in sr^-1, is expected");
     return table;
 }
 

@@ -53,9 +53,7 @@ Response gamma_response(double gamma) {
     return response_of([gamma](double code) { return std::pow(code, gamma); });
 }
 
-Response srgb_response() {
-    return response_of(srgb_to_linear);
-}
+Response srgb_response() { return response_of(srgb_to_linear); }
 
 std::array<double, 256> code_precisions(const std::array<double, 256>& g) {
     constexpr int kHalf = 4, kEnd = 32;  // codes: the slope is taken over 2 kHalf
@@ -104,7 +102,8 @@ Response read_response(const std::filesystem::path& file) {
     for (size_t z = 0; z < 256; ++z) {
         const auto fields = fields_of(lines.next().value_or(""), ',', 4);
         std::optional<double> value[4];
-        for (size_t i = 0; i < 4 && fields.size() == 4; ++i) value[i] = number_of(fields[i > 0 ? columns[i - 1] : 0], false);
+        for (size_t i = 0; i < 4 && fields.size() == 4; ++i)
+            value[i] = number_of(fields[i > 0 ? columns[i - 1] : 0], false);
         if (!value[0] || !value[1] || !value[2] || !value[3] || *value[0] != static_cast<double>(z))
             lines.fail("expected " + std::to_string(z) + " and three numbers");
         for (size_t c = 0; c < 3; ++c) {

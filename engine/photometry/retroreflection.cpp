@@ -67,7 +67,9 @@ double retroreflection(const Retroreflector& r, double observation, double entra
     const double peak =
         r.coefficient[i] * std::exp(slope * (std::max(observation, r.observation[0]) - r.observation[i]));
     if (entrance <= r.entrance.front()) return peak * r.entrance_factor.front();
-    if (entrance >= r.entrance.back()) return peak * r.entrance_factor.back() * (r.entrance.back() < 90 ? std::max(cos_of(entrance), 0.0) / cos_of(r.entrance.back()) : 1);
+    if (entrance >= r.entrance.back())
+        return peak * r.entrance_factor.back() *
+               (r.entrance.back() < 90 ? std::max(cos_of(entrance), 0.0) / cos_of(r.entrance.back()) : 1);
     size_t k = 0;
     while (entrance > r.entrance[k + 1]) ++k;
     const double from = cos_of(r.entrance[k]), to = cos_of(r.entrance[k + 1]),

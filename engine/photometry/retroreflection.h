@@ -15,12 +15,12 @@ constexpr size_t kMaxRetroNodes = 8;  ///< of either angle
 /// continues its slope beyond the last; the factor for the entrance is linear in its cosine, constant beyond both ends.
 struct Retroreflector {
     std::string name;
-    std::vector<double> observation;     ///< degrees, ascending, at least two
-    std::vector<double> coefficient;     ///< at the first entrance angle and where the base colour is 1, > 0; falls at
-                                         ///< the end
-    std::vector<double> entrance;        ///< degrees, ascending, at least one
-    std::vector<double> entrance_factor; ///< [0, 1]
-    bool marking = false;                ///< R_L rather than R_A
+    std::vector<double> observation;      ///< degrees, ascending, at least two
+    std::vector<double> coefficient;      ///< at the first entrance angle and where the base colour is 1, > 0; falls at
+                                          ///< the end
+    std::vector<double> entrance;         ///< degrees, ascending, at least one
+    std::vector<double> entrance_factor;  ///< [0, 1]
+    bool marking = false;                 ///< R_L rather than R_A
     bool operator==(const Retroreflector&) const = default;
 };
 
@@ -38,6 +38,7 @@ void check_retroreflector(const Retroreflector&);
 double retroreflection(const Retroreflector&, double observation, double entrance);
 /// Luminance, cd/m^2, of a surface lit with `illuminance` (lx, facing the lamp) and seen `view` degrees from its
 /// normal. cos(view) counts as at least 0.05.
-double retroreflected_luminance(const Retroreflector&, double observation, double entrance, double view, double illuminance);
+double retroreflected_luminance(const Retroreflector&, double observation, double entrance, double view,
+                                double illuminance);
 
 }  // namespace vesper

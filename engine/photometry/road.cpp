@@ -10,7 +10,6 @@
 namespace vesper {
 namespace {
 
-
 /// Intensity of a new luminaire towards a point, cd.
 double intensity_towards(const RoadLayout& road, const RoadLuminaire& lamp, glm::dvec3 point) {
     return road.flux_factor * intensity(road.distribution, glm::transpose(lamp.axes) * (point - lamp.position));

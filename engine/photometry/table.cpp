@@ -10,7 +10,7 @@
 namespace vesper {
 namespace {
 
-constexpr double kSame = 1e-6;   // deg: angles closer than this are one
+constexpr double kSame = 1e-6;    // deg: angles closer than this are one
 constexpr double kClosing = 0.1;  // of the largest intensity: what C0 and C360 as measured may differ by
 
 bool same(double a, double b) { return std::abs(a - b) < kSame; }
@@ -44,7 +44,8 @@ void rebuild(Distribution& table, std::vector<double> angles, const std::functio
     table.candela = std::move(candela);
 }
 
-/// Planes of type C as files hold them, brought to 0..360; false when they are none of the known ranges. `largest`: intensity, cd.
+/// Planes of type C as files hold them, brought to 0..360; false when they are none of the known ranges. `largest`:
+/// intensity, cd.
 bool close_planes(Distribution& table, double largest, const TableFault& fault) {
     std::vector<double>& list = table.horizontal;
     const double first = list.front(), last = list.back();
@@ -72,8 +73,9 @@ bool close_planes(Distribution& table, double largest, const TableFault& fault) 
         const size_t count = table.vertical.size(), end = table.candela.size() - count;
         for (size_t v = 0; v < count; ++v) {
             if (std::abs(table.candela[v] - table.candela[end + v]) > kClosing * largest)
-                fault(TablePart::Candela, "C0 and C360 are one plane, but at gamma " + number(table.vertical[v]) + " have " +
-                                              number(table.candela[v]) + " and " + number(table.candela[end + v]) + " cd");
+                fault(TablePart::Candela, "C0 and C360 are one plane, but at gamma " + number(table.vertical[v]) +
+                                              " have " + number(table.candela[v]) + " and " +
+                                              number(table.candela[end + v]) + " cd");
             table.candela[v] = table.candela[end + v] = (table.candela[v] + table.candela[end + v]) / 2;
         }
     } else if (same(first, 0) && last > 180 && go_round(list)) {
@@ -96,14 +98,16 @@ void drop_repeated_ends(Distribution& table, const TableFault& fault) {
     if (table.horizontal.size() > 1 && same(table.horizontal.back(), table.horizontal.end()[-2])) {
         const auto last = table.candela.end() - static_cast<ptrdiff_t>(count);
         if (!std::equal(last, table.candela.end(), last - static_cast<ptrdiff_t>(count)))
-            differ(TablePart::Horizontal, table.goniometry == Goniometry::CGamma ? "C" : "horizontal", table.horizontal.back());
+            differ(TablePart::Horizontal, table.goniometry == Goniometry::CGamma ? "C" : "horizontal",
+                   table.horizontal.back());
         table.horizontal.pop_back();
         table.candela.resize(table.horizontal.size() * count);
     }
     if (count < 2 || !same(table.vertical.back(), table.vertical.end()[-2])) return;
     for (size_t h = 0; h < table.horizontal.size(); ++h)
         if (table.at(h, count - 1) != table.at(h, count - 2))
-            differ(TablePart::Vertical, table.goniometry == Goniometry::CGamma ? "gamma" : "vertical", table.vertical.back());
+            differ(TablePart::Vertical, table.goniometry == Goniometry::CGamma ? "gamma" : "vertical",
+                   table.vertical.back());
     table.vertical.pop_back();
     for (size_t h = 0; h < table.horizontal.size(); ++h)
         for (size_t v = 0; v + 1 < count; ++v) table.candela[h * (count - 1) + v] = table.candela[h * count + v];
@@ -168,9 +172,9 @@ void finish_table(Distribution& table, bool halves, const TableFault& fault) {
     if (copies * table.candela.size() > kMaxCells)
         fault(TablePart::Horizontal, "more than " + std::to_string(kMaxCells) + " intensities, symmetry expanded");
     if (c && !close_planes(table, largest, fault))
-        fault(TablePart::Horizontal, "C planes from " + number(table.horizontal.front()) + " to " +
-                                         number(table.horizontal.back()) +
-                                         " are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round");
+        fault(TablePart::Horizontal,
+              "C planes from " + number(table.horizontal.front()) + " to " + number(table.horizontal.back()) +
+                  " are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round");
     if (c) return;
     if (table.horizontal.size() < 2) fault(TablePart::Horizontal, "one horizontal angle makes no distribution");
     if (halves && same(table.horizontal.front(), 0)) {

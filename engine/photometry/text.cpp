@@ -31,7 +31,9 @@ bool vanishes(std::string_view number) {
     if (exponent.starts_with('+')) exponent.remove_prefix(1);
     double order = 0;
     std::from_chars(exponent.data(), exponent.data() + exponent.size(), order);
-    const auto place = [&](const char* of) { return static_cast<double>(std::min(digits.find_first_of(of), digits.size())); };
+    const auto place = [&](const char* of) {
+        return static_cast<double>(std::min(digits.find_first_of(of), digits.size()));
+    };
     return order + place(".") - place("123456789") < 0;
 }
 
@@ -88,7 +90,8 @@ std::vector<std::string> words_of(std::string_view heading) {
     bool within = false;
     for (const char c : lower(readable(heading))) {
         const auto byte = static_cast<unsigned char>(c);
-        const bool letter = std::isalnum(byte) || (byte >= 0x80 && byte != 0xc2 && byte != 0xb0);  // these two are a degree sign
+        const bool letter =
+            std::isalnum(byte) || (byte >= 0x80 && byte != 0xc2 && byte != 0xb0);  // these two are a degree sign
         if (letter && !within) words.emplace_back();
         if (letter) words.back() += c;
         within = letter;

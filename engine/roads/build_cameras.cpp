@@ -13,7 +13,7 @@ namespace {
 constexpr float kView = 0.6435f;        // rad, 36.87 degrees, as the Rivoli driver's
 constexpr double kFastest = 130 / 3.6;  // m/s, of allowed_speed
 constexpr double kSideways = 2;         // m/s^2 in bends
-constexpr double kDriverBraking = 1.5;        // m/s^2
+constexpr double kDriverBraking = 1.5;  // m/s^2
 constexpr double kKeyEvery = 0.1;       // s
 constexpr double kLongestDrive = 120;   // s
 // Headlamps of a car, from the middle of its front axle on the road, m.
@@ -162,7 +162,8 @@ void build_cameras(RoadBuild& build) {
         look(scene, "roadside", start.position + side * (start.width / 2 + 2) + glm::dvec3(0, 1.7, 0),
              ahead.position + glm::dvec3(0, 0.8, 0));
         const double longest = animation_length(scene);
-        build.notes.push_back("driver: " + std::to_string(points.size()) + " m over " + std::to_string(way.size()) + " lanes in " + std::to_string(std::lround(longest)) + " s");
+        build.notes.push_back("driver: " + std::to_string(points.size()) + " m over " + std::to_string(way.size()) +
+                              " lanes in " + std::to_string(std::lround(longest)) + " s");
     }
     if (bounds.empty()) bounds.add(glm::vec3(0)), bounds.add(glm::vec3(10));
     // From above, looking down at 45 degrees on the middle of all lanes.

@@ -7,10 +7,10 @@
 namespace vesper::roads {
 namespace {
 
-constexpr double kCell = 3;        // m
-constexpr double kHorizon = 6000;  // m
-constexpr double kFlatFace = 0.02;     // m that a larger face may lie off the nodes it covers
-constexpr uint32_t kLargest = 32;  // cells along a face
+constexpr double kCell = 3;         // m
+constexpr double kHorizon = 6000;   // m
+constexpr double kFlatFace = 0.02;  // m that a larger face may lie off the nodes it covers
+constexpr uint32_t kLargest = 32;   // cells along a face
 
 struct GroundBuilder {
     RoadBuild& build;

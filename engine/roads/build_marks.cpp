@@ -7,8 +7,8 @@
 namespace vesper::roads {
 namespace {
 
-constexpr double kInsideLane = 0.25;     // m that paint must lie inside another road's lane to be left out
-constexpr double kLongestPiece = 2;  // m, in junctions, where each piece is asked for
+constexpr double kInsideLane = 0.25;  // m that paint must lie inside another road's lane to be left out
+constexpr double kLongestPiece = 2;   // m, in junctions, where each piece is asked for
 constexpr size_t kMaxDashes = 400'000;
 
 RoadMaterial stuff_of(MarkColour colour) {

@@ -22,8 +22,8 @@ struct ObjectBuilder {
     RoadBuild& build;
     const Road& road;
     RoadMesh& mesh;
-    size_t copies = 0;  ///< objects that were placed
-    size_t pieces = 0;  ///< of everything, for the bound
+    size_t copies = 0;                    ///< objects that were placed
+    size_t pieces = 0;                    ///< of everything, for the bound
     ObjectKind kind = ObjectKind::Other;  ///< of the object under way
 
     BodyFrame frame_of(const RoadObject& object, const Placed& at) const {
@@ -56,8 +56,8 @@ struct ObjectBuilder {
         if (kind == ObjectKind::Tree || kind == ObjectKind::Bush) return tree(frame, at, kind == ObjectKind::Bush);
         const bool pole = kind == ObjectKind::Pole, building = kind == ObjectKind::Building;
         const RoadMaterial stuff = pole || kind == ObjectKind::Railing ? RoadMaterial::PoleSteel
-                            : building                          ? RoadMaterial::Wall
-                                                                : RoadMaterial::Concrete;
+                                   : building                          ? RoadMaterial::Wall
+                                                                       : RoadMaterial::Concrete;
         const double height = at.height > 0 ? at.height : pole ? 3 : building ? 8 : 0;
         if (at.radius > 0) return height > kFlatObject ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
         const double width = at.width > 0 ? at.width
@@ -104,14 +104,16 @@ struct ObjectBuilder {
             places[i] =
                 road_place(object, at, (i == 1 || i == 2 ? 1 : -1) * at.length / 2, (i < 2 ? -1 : 1) * at.width / 2);
         if (kind == ObjectKind::Crosswalk && object.markings.empty()) return zebra({places.begin(), places.end()});
-        if (kind == ObjectKind::ParkingSpace && object.markings.empty()) return boundary({places.begin(), places.end()});
+        if (kind == ObjectKind::ParkingSpace && object.markings.empty())
+            return boundary({places.begin(), places.end()});
         constexpr std::array<const char*, 4> kSides{"right", "front", "left", "rear"};
         for (const ObjectMarking& marking : object.markings)
             for (size_t i = 0; i < 4; ++i)
                 if (marking.side == kSides[i]) painted(places[i], places[(i + 1) % 4], marking);
         if (!object.markings.empty()) return;
         const auto corner = [&](size_t i) { return on_surface(places[i].x, places[i].y, 0); };
-        mesh.quad(kind == ObjectKind::RoadMark ? RoadMaterial::MarkWhite : RoadMaterial::Shoulder, corner(0), corner(1), corner(2), corner(3));
+        mesh.quad(kind == ObjectKind::RoadMark ? RoadMaterial::MarkWhite : RoadMaterial::Shoulder, corner(0), corner(1),
+                  corner(2), corner(3));
     }
 
     glm::dvec2 corner_place(const RoadObject& object, const Placed& at, const ObjectCorner& corner) const {
@@ -139,8 +141,8 @@ struct ObjectBuilder {
                 const glm::dvec3 c = on_surface(first.x, first.y, 0.001), d = on_surface(last.x, last.y, 0.001);
                 const glm::dvec3 side = glm::normalize(glm::cross(up.up, d - c)) * (marking.width / 2);
                 const RoadMaterial stuff = marking.colour == MarkColour::Yellow ? RoadMaterial::MarkYellow
-                                    : marking.colour == MarkColour::Blue ? RoadMaterial::MarkBlue
-                                                                         : RoadMaterial::MarkWhite;
+                                           : marking.colour == MarkColour::Blue ? RoadMaterial::MarkBlue
+                                                                                : RoadMaterial::MarkWhite;
                 mesh.quad(stuff, RoadMesh::Corner{c - side, up.up}, {d - side, up.up}, {d + side, up.up},
                           {c + side, up.up});
             }
@@ -191,9 +193,9 @@ struct ObjectBuilder {
         }
         if (!object.markings.empty()) markings(object, at, outline);
         if (highest > kFlatObject) {
-            const RoadMaterial stuff = kind == ObjectKind::Building                               ? RoadMaterial::Wall
-                                : kind == ObjectKind::Tree || kind == ObjectKind::Bush ? RoadMaterial::Leaves
-                                                                                           : RoadMaterial::Concrete;
+            const RoadMaterial stuff = kind == ObjectKind::Building                           ? RoadMaterial::Wall
+                                       : kind == ObjectKind::Tree || kind == ObjectKind::Bush ? RoadMaterial::Leaves
+                                                                                              : RoadMaterial::Concrete;
             if (outline.closed && bottoms.size() > 2) return add_prism(mesh, stuff, bottoms, tops);
             // Open: walls without thickness, seen from either side.
             for (size_t i = 1; i < bottoms.size() && !outline.closed; ++i)
@@ -237,8 +239,8 @@ struct ObjectBuilder {
     /// A body without end along the road: a rail, a wall, a fence.
     void continuous(const RoadObject& object, const ObjectRepeat& repeat) {
         const RoadMaterial stuff = kind == ObjectKind::Railing || kind == ObjectKind::Barrier ? RoadMaterial::Steel
-                            : kind == ObjectKind::Tree || kind == ObjectKind::Bush     ? RoadMaterial::Leaves
-                                                                                       : RoadMaterial::Concrete;
+                                   : kind == ObjectKind::Tree || kind == ObjectKind::Bush     ? RoadMaterial::Leaves
+                                                                                              : RoadMaterial::Concrete;
         const double end = std::min(repeat.s + repeat.length, road.length);
         if (!(end > repeat.s)) return;
         const auto steps = static_cast<int>(std::clamp(std::ceil((end - repeat.s) / 4), 1.0, 100'000.0));

@@ -53,7 +53,8 @@ struct SignalBuilder {
         const double ground = std::min(build.ground.height(glm::dvec2(frame.origin)), frame.origin.z) - 0.2;
         BodyFrame foot = frame_at(road, s.s, s.t, 0);
         foot.origin = {frame.origin.x - frame.x.x * 0.06, frame.origin.y - frame.x.y * 0.06, ground};
-        add_cylinder(mesh, RoadMaterial::PoleSteel, foot, height > 1.5 ? 0.06 : 0.035, frame.origin.z + height - ground);
+        add_cylinder(mesh, RoadMaterial::PoleSteel, foot, height > 1.5 ? 0.06 : 0.035,
+                     frame.origin.z + height - ground);
     }
 
     void sign(const RoadSignal& s) {
@@ -65,8 +66,8 @@ struct SignalBuilder {
         for (const double side : {-0.35, 0.35}) pole(s, frame.moved(0, side * width, 0), height * 0.9);
     }
 
-    /// A housing with lenses, the lit one or all of them as lamps. Without a scenario, cars wait: red for them, green for
-    /// people on foot.
+    /// A housing with lenses, the lit one or all of them as lamps. Without a scenario, cars wait: red for them, green
+    /// for people on foot.
     void lamp(const RoadSignal& s) {
         const bool on_foot = is_for_pedestrians(s);
         const int lenses = on_foot ? 2 : 3;
@@ -110,7 +111,8 @@ struct SignalBuilder {
             return p.position + p.up * (kMarkHeight + 0.003);
         };
         const double right = std::min(from, to), left = std::max(from, to);
-        mesh.quad(RoadMaterial::MarkWhite, corner(-0.25, right), corner(0.25, right), corner(0.25, left), corner(-0.25, left));
+        mesh.quad(RoadMaterial::MarkWhite, corner(-0.25, right), corner(0.25, right), corner(0.25, left),
+                  corner(-0.25, left));
     }
 };
 

@@ -82,7 +82,8 @@ bool is_below_road(const RoadBuild& build, const std::vector<double>& highest, g
     for (double up = 4; up < height + 4; up += 3) {
         const glm::dvec3 at = build.network.to_world(foot + glm::dvec3(0, 0, up));
         const auto place = build.lanes.nearest(at, 20, [&](const Lane& lane) {
-            return is_driven(lane.type) && highest[static_cast<size_t>(&lane - build.lanes.lanes().data())] > at.y - up + 3;
+            return is_driven(lane.type) &&
+                   highest[static_cast<size_t>(&lane - build.lanes.lanes().data())] > at.y - up + 3;
         });
         if (!place) continue;
         const LanePose pose = build.lanes.pose(place->lane, place->along);
@@ -93,7 +94,8 @@ bool is_below_road(const RoadBuild& build, const std::vector<double>& highest, g
     return false;
 }
 
-void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& options, const std::vector<double>& highest, size_t& count) {
+void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& options,
+                const std::vector<double>& highest, size_t& count) {
     const double middle = road.length / 2;
     const LaneSection& section = road.sections[road.section_at(middle)];
     const double width = edge_of(road, section, 1, middle) - edge_of(road, section, -1, middle);

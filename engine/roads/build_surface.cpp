@@ -9,15 +9,15 @@ namespace vesper::roads {
 namespace {
 
 constexpr double kLongestStation = 20;  // m between stations
-constexpr double kPiece = 60;    // m of road in one mesh, short enough to be culled
+constexpr double kPiece = 60;           // m of road in one mesh, short enough to be culled
 constexpr size_t kMaxEdges = 4'000'000;
-constexpr double kStep = 0.02;       // m; higher edges get a face
-constexpr double kKerbWidth = 0.15;  // m of kerb stone
-constexpr double kLift = 0.003;      // m that driven lanes of junctions lie over what else is there
-constexpr double kGrassDrop = 0.03;  // m
-constexpr double kInsideSurface = 0.1;      // m
-constexpr double kBridge = 2.5;      // m over the ground from which a road is a bridge
-constexpr double kDeck = 1;          // m
+constexpr double kStep = 0.02;          // m; higher edges get a face
+constexpr double kKerbWidth = 0.15;     // m of kerb stone
+constexpr double kLift = 0.003;         // m that driven lanes of junctions lie over what else is there
+constexpr double kGrassDrop = 0.03;     // m
+constexpr double kInsideSurface = 0.1;  // m
+constexpr double kBridge = 2.5;         // m over the ground from which a road is a bridge
+constexpr double kDeck = 1;             // m
 
 /// Borders are hard, but the outermost one, where it is wide, is what files have for the verge.
 RoadMaterial stuff_of(LaneType type, bool verge) {

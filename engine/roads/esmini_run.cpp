@@ -13,7 +13,8 @@
 namespace vesper::roads {
 namespace {
 
-constexpr double kBrakeLampDeceleration = 0.7;  // m/s^2, UN Regulation 13-H: brake lamps of regenerative braking may come on from 0.7
+constexpr double kBrakeLampDeceleration =
+    0.7;  // m/s^2, UN Regulation 13-H: brake lamps of regenerative braking may come on from 0.7
 constexpr double kStanding = 0.05;  // m/s
 constexpr double kSpan = 0.25;      // s over which a change of speed is looked at
 
@@ -104,7 +105,8 @@ void derive_lamps(RunEntity& entity) {
         moved = moved || speed > 1;
         const double span = std::min(pose.time + kSpan, entity.poses.back().time) -
                             std::max(pose.time - kSpan, entity.poses.front().time);
-        return (span > 0 && (before - after) / span > kBrakeLampDeceleration && after < speed + 1e-9) || (moved && speed < kStanding);
+        return (span > 0 && (before - after) / span > kBrakeLampDeceleration && after < speed + 1e-9) ||
+               (moved && speed < kStanding);
     });
 }
 
@@ -118,7 +120,8 @@ EsminiRun read_checked(const std::filesystem::path& table, const std::optional<s
             run.notes.push_back(file.root().place() + ": has no Storyboard: it sets no lamps");
         const auto header = file.root().child("FileHeader");
         if (header && header->text_or("revMajor", "1") == "0")
-            run.notes.push_back(header->place() + ": OpenSCENARIO 0.9 has other elements than 1.0 to 1.3, which are understood");
+            run.notes.push_back(header->place() +
+                                ": OpenSCENARIO 0.9 has other elements than 1.0 to 1.3, which are understood");
         for (const XmlElement& each : file.root().children_of("RoadNetwork", "LogicFile"))
             run.road_file = resolved(each, "filepath", file.parameters()).value_or("");
         describe_entities(file, run);

@@ -71,7 +71,7 @@ struct RunEntity {
     double acceleration = 0, deceleration = 0;  ///< m/s^2, limits; 0: not known
     std::vector<RunPose> poses;  ///< times ascending, at least one; the entity exists from the first to the last
     std::array<std::vector<LampEvent>, static_cast<size_t>(RunLamp::Count)> lamps;  ///< times ascending
-    std::array<bool, static_cast<size_t>(RunLamp::Count)> stated{};  ///< the scenario sets this lamp
+    std::array<bool, static_cast<size_t>(RunLamp::Count)> stated{};                 ///< the scenario sets this lamp
 };
 
 /// Setting of a traffic light; the signal defines the meaning of the state ("green", "on;off;off", ...).

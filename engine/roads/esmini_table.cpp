@@ -17,10 +17,31 @@ constexpr uint64_t kMaxEsminiBytes = 1ull << 30;
 constexpr size_t kMaxRows = 20'000'000, kMaxEntities = 10'000, kMaxColumns = 100'000;
 
 /// What is read, and what dat2csv calls it.
-enum class Field : uint8_t { Time, Id, Name, X, Y, Z, H, P, R, Speed, WheelAngle, WheelRotation, BoxX, BoxY, BoxZ, BoxLength, BoxWidth, BoxHeight, Count };
+enum class Field : uint8_t {
+    Time,
+    Id,
+    Name,
+    X,
+    Y,
+    Z,
+    H,
+    P,
+    R,
+    Speed,
+    WheelAngle,
+    WheelRotation,
+    BoxX,
+    BoxY,
+    BoxZ,
+    BoxLength,
+    BoxWidth,
+    BoxHeight,
+    Count
+};
 constexpr size_t kFields = static_cast<size_t>(Field::Count);
-constexpr std::array<const char*, kFields> kFieldNames{"time", "id", "name", "x", "y", "z", "h", "p", "r", "speed", "wheel_angle", "wheel_rot",
-                                                       "bb_x", "bb_y", "bb_z", "bb_length", "bb_width", "bb_height"};
+constexpr std::array<const char*, kFields> kFieldNames{"time", "id",   "name", "x",         "y",           "z",
+                                                       "h",    "p",    "r",    "speed",     "wheel_angle", "wheel_rot",
+                                                       "bb_x", "bb_y", "bb_z", "bb_length", "bb_width",    "bb_height"};
 
 /// Where the columns of an entity are, by the names dat2csv has for them.
 struct Columns {
@@ -112,10 +133,13 @@ struct TableReader {
     /// One entity of a row, `shift` columns to the right of the first.
     void take(const Columns& columns, const std::vector<std::string_view>& fields, size_t shift) {
         if (++rows > kMaxRows) lines.fail("more than " + std::to_string(kMaxRows) + " rows");
-        const auto text = [&](Field field) { return fields[*columns.of[static_cast<size_t>(field)] + (field == Field::Time ? 0 : shift)]; };
+        const auto text = [&](Field field) {
+            return fields[*columns.of[static_cast<size_t>(field)] + (field == Field::Time ? 0 : shift)];
+        };
         const auto refuse = [&](Field field, const char* reason) {
             const size_t column = *columns.of[static_cast<size_t>(field)] + (field == Field::Time ? 0 : shift) + 1;
-            lines.fail("column " + std::to_string(column) + ": " + kFieldNames[static_cast<size_t>(field)] + " " + vesper::quoted(text(field)) + reason);
+            lines.fail("column " + std::to_string(column) + ": " + kFieldNames[static_cast<size_t>(field)] + " " +
+                       vesper::quoted(text(field)) + reason);
         };
         const auto number = [&](Field field) {
             if (!columns.of[static_cast<size_t>(field)]) return 0.0;
@@ -124,7 +148,9 @@ struct TableReader {
             return *value;
         };
         // Some have no value: an empty cell, or none that a program could tell.
-        const auto number_or_none = [&](Field field) { return columns.of[static_cast<size_t>(field)] && is_none(text(field)) ? 0.0 : number(field); };
+        const auto number_or_none = [&](Field field) {
+            return columns.of[static_cast<size_t>(field)] && is_none(text(field)) ? 0.0 : number(field);
+        };
         if (const double id = number(Field::Id); id != std::floor(id)) refuse(Field::Id, " is no whole number");
         const int id = static_cast<int>(number(Field::Id));
         const auto [found, is_new] = by_id.try_emplace(id, run.entities.size());
@@ -136,7 +162,8 @@ struct TableReader {
             entity.id = id;
             entity.kind = kind_by_name(entity.name);
             const auto size = [&](Field field) { return std::max(0.0, number_or_none(field)); };
-            entity.length = size(Field::BoxLength), entity.width = size(Field::BoxWidth), entity.height = size(Field::BoxHeight);
+            entity.length = size(Field::BoxLength), entity.width = size(Field::BoxWidth),
+            entity.height = size(Field::BoxHeight);
             entity.centre = {number_or_none(Field::BoxX), number_or_none(Field::BoxY), number_or_none(Field::BoxZ)};
             run.entities.push_back(std::move(entity));
         }
@@ -201,7 +228,8 @@ void read_table(const std::filesystem::path& file, EsminiRun& run) {
         const auto fields = fields_of(*line, ',', kMaxColumns);
         if (fields.size() < columns->count && columns->stride == 0)
             lines.fail(std::to_string(fields.size()) + " fields, " + std::to_string(columns->count) + " columns");
-        // Entities that are gone leave a row of the CSV logger shorter, ones that came later make it longer than its header.
+        // Entities that are gone leave a row of the CSV logger shorter, ones that came later make it longer than its
+        // header.
         for (size_t shift = 0; fields.size() >= columns->count + shift; shift += columns->stride) {
             if (columns->stride > 0 && fields[*columns->of[static_cast<size_t>(Field::Name)] + shift].empty()) break;
             reader.take(*columns, fields, shift);
@@ -210,8 +238,10 @@ void read_table(const std::filesystem::path& file, EsminiRun& run) {
     }
     if (!columns)
         throw Error(one_line(file.string()) +
-                    ": is no table of esmini: no line has the columns time, id, name, x, y, z, h of dat2csv, nor those of its CSV logger");
-    if (run.entities.empty()) throw Error(one_line(file.string()) + ": no row of the table has all columns of an entity");
+                    ": is no table of esmini: no line has the columns time, id, name, x, y, z, h of dat2csv, nor those "
+                    "of its CSV logger");
+    if (run.entities.empty())
+        throw Error(one_line(file.string()) + ": no row of the table has all columns of an entity");
     if (!columns->index.contains("speed"))
         for (RunEntity& entity : run.entities) find_speeds(entity);
 }

@@ -11,13 +11,13 @@
 namespace vesper::roads {
 namespace {
 
-constexpr double kChord = 0.005;    // m
-constexpr double kLongestPose = 5;      // m
-constexpr double kNarrowest = 0.1;  // m; a lane that never is wider is none
-constexpr double kLinkGap = 3;        // m; links further than this lead nowhere
-constexpr double kMeet = 0.3;       // m, and within 20 degrees
-constexpr double kSameStation = 0.05;  // m
-constexpr size_t kMostFollowers = 64;    // of one lane; crossings have five
+constexpr double kChord = 0.005;              // m
+constexpr double kLongestPose = 5;            // m
+constexpr double kNarrowest = 0.1;            // m; a lane that never is wider is none
+constexpr double kLinkGap = 3;                // m; links further than this lead nowhere
+constexpr double kMeet = 0.3;                 // m, and within 20 degrees
+constexpr double kSameStation = 0.05;         // m
+constexpr size_t kMostFollowers = 64;         // of one lane; crossings have five
 constexpr size_t kMaxLinkTests = 50'000'000;  // at lanes that may follow though nothing says so
 constexpr size_t kMaxPoses = 20'000'000;
 
@@ -60,7 +60,7 @@ std::vector<double> with_limits(const std::vector<double>& stations, const std::
     std::vector<double> changes, all = stations;
     for (const auto* limits : {&of_lane, &of_road})
         for (auto each = std::upper_bound(limits->begin(), limits->end(), stations.front(),
-                                          [](double at, const SpeedLimit& limit) { return at < limit.s; });
+                                          [](double at, const SpeedLimit&limit) { return at < limit.s; });
              each != limits->end() && each->s < stations.back(); ++each)
             changes.push_back(each->s);
     std::sort(changes.begin(), changes.end());
@@ -266,7 +266,8 @@ void link_where_they_meet(std::vector<Lane>& lanes) {
     // Of one road the next section follows, or where it is a ring the one at its other end.
     const auto adjoin = [&](const Lane& a, const Lane& b) {
         const uint32_t next = a.forwards ? a.section + 1 : a.section - 1, end = last_section[a.road];
-        return a.forwards == b.forwards && (b.section == next || (a.section == (a.forwards ? end : 0) && b.section == (a.forwards ? 0 : end)));
+        return a.forwards == b.forwards &&
+               (b.section == next || (a.section == (a.forwards ? end : 0) && b.section == (a.forwards ? 0 : end)));
     };
     for (const Lane& lane : lanes) {
         const glm::dvec3 at = lane.poses.front().position;

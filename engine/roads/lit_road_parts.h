@@ -8,8 +8,7 @@
 
 namespace vesper::roads {
 
-constexpr double kMarkHeight =
-    0.006;  ///< m of paint above the road; reversed depth resolves this at any distance
+constexpr double kMarkHeight = 0.006;  ///< m of paint above the road; reversed depth resolves this at any distance
 
 /// State of the construction of a scene.
 struct RoadBuild {

@@ -24,8 +24,8 @@ struct StreetLampOptions {
 
 struct LitRoadOptions {
     std::optional<StreetLampOptions> lamps;  ///< empty: the defaults, unless the file has street lamps
-    double chord = 0.01;  ///< m, largest distance of surfaces from the file's reference lines and borders
-    double margin = 120;  ///< m of ground around the roads; beyond it is flat up to the horizon
+    double chord = 0.01;      ///< m, largest distance of surfaces from the file's reference lines and borders
+    double margin = 120;      ///< m of ground around the roads; beyond it is flat up to the horizon
     double ambient = 0.1;     ///< lx on every surface
     double sky = 0.02;        ///< cd/m^2, as the default of vesper convert
     bool headlamps = true;    ///< the driver's car has low beams

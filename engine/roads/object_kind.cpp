@@ -15,43 +15,44 @@ namespace {
 constexpr size_t kLongestName = 200;  // letters that are looked at
 
 // The first that is found counts: "rail-pole" is a pole.
-constexpr std::pair<std::string_view, ObjectKind> kWords[] = {
-    {"streetlamp", ObjectKind::StreetLamp},
-    {"street lamp", ObjectKind::StreetLamp},
-    {"streetlight", ObjectKind::StreetLamp},
-    {"street light", ObjectKind::StreetLamp},
-    {"lamppost", ObjectKind::StreetLamp},
-    {"lamp post", ObjectKind::StreetLamp},
-    {"lamppole", ObjectKind::StreetLamp},
-    {"lamp pole", ObjectKind::StreetLamp},
-    {"lightpole", ObjectKind::StreetLamp},
-    {"light pole", ObjectKind::StreetLamp},
-    {"guidepost", ObjectKind::GuidePost},
-    {"guide post", ObjectKind::GuidePost},
-    {"bush", ObjectKind::Bush},
-    {"tree", ObjectKind::Tree},
-    {"vegetation", ObjectKind::Tree},
-    {"pole", ObjectKind::Pole},
-    {"rail", ObjectKind::Railing},
-    {"railing", ObjectKind::Railing},
-    {"guardrail", ObjectKind::Railing},
-    {"handrail", ObjectKind::Railing},
-    {"barrier", ObjectKind::Barrier},
-    {"fence", ObjectKind::Barrier},
-    {"building", ObjectKind::Building},
-    {"crosswalk", ObjectKind::Crosswalk},
-    {"cross walk", ObjectKind::Crosswalk},
-    {"parkingspace", ObjectKind::ParkingSpace},
-    {"parking space", ObjectKind::ParkingSpace},
-    {"roadmark", ObjectKind::RoadMark},
-    {"mark", ObjectKind::RoadMark},
-    {"marking", ObjectKind::RoadMark},
-    {"stopline", ObjectKind::RoadMark},
-    {"stop line", ObjectKind::RoadMark},
-    {"patch", ObjectKind::Patch},
-    {"island", ObjectKind::Island}};
+constexpr std::pair<std::string_view, ObjectKind> kWords[] = {{"streetlamp", ObjectKind::StreetLamp},
+                                                              {"street lamp", ObjectKind::StreetLamp},
+                                                              {"streetlight", ObjectKind::StreetLamp},
+                                                              {"street light", ObjectKind::StreetLamp},
+                                                              {"lamppost", ObjectKind::StreetLamp},
+                                                              {"lamp post", ObjectKind::StreetLamp},
+                                                              {"lamppole", ObjectKind::StreetLamp},
+                                                              {"lamp pole", ObjectKind::StreetLamp},
+                                                              {"lightpole", ObjectKind::StreetLamp},
+                                                              {"light pole", ObjectKind::StreetLamp},
+                                                              {"guidepost", ObjectKind::GuidePost},
+                                                              {"guide post", ObjectKind::GuidePost},
+                                                              {"bush", ObjectKind::Bush},
+                                                              {"tree", ObjectKind::Tree},
+                                                              {"vegetation", ObjectKind::Tree},
+                                                              {"pole", ObjectKind::Pole},
+                                                              {"rail", ObjectKind::Railing},
+                                                              {"railing", ObjectKind::Railing},
+                                                              {"guardrail", ObjectKind::Railing},
+                                                              {"handrail", ObjectKind::Railing},
+                                                              {"barrier", ObjectKind::Barrier},
+                                                              {"fence", ObjectKind::Barrier},
+                                                              {"building", ObjectKind::Building},
+                                                              {"crosswalk", ObjectKind::Crosswalk},
+                                                              {"cross walk", ObjectKind::Crosswalk},
+                                                              {"parkingspace", ObjectKind::ParkingSpace},
+                                                              {"parking space", ObjectKind::ParkingSpace},
+                                                              {"roadmark", ObjectKind::RoadMark},
+                                                              {"mark", ObjectKind::RoadMark},
+                                                              {"marking", ObjectKind::RoadMark},
+                                                              {"stopline", ObjectKind::RoadMark},
+                                                              {"stop line", ObjectKind::RoadMark},
+                                                              {"patch", ObjectKind::Patch},
+                                                              {"island", ObjectKind::Island}};
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80; }
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
 bool is_capital(char c) { return c >= 'A' && c <= 'Z'; }
 
 /// "LEDStreetLamp_03" as "led street lamp ".
@@ -61,7 +62,8 @@ std::string words_of(std::string_view text) {
         if (!words.empty() && words.back() != ' ') words += ' ';
     };
     for (size_t i = 0; i < text.size(); ++i) {
-        const bool after_capital = i > 0 && is_capital(text[i - 1]), before_small = i + 1 < text.size() && text[i + 1] >= 'a' && text[i + 1] <= 'z';
+        const bool after_capital = i > 0 && is_capital(text[i - 1]),
+                   before_small = i + 1 < text.size() && text[i + 1] >= 'a' && text[i + 1] <= 'z';
         if (!is_letter(text[i]) || (is_capital(text[i]) && (!after_capital || before_small))) end_word();
         if (is_letter(text[i])) words += text[i];
     }
@@ -101,8 +103,9 @@ ObjectKind kind_of(const RoadObject& object) {
     ObjectKind found = ObjectKind::Other;
     for (const std::string* text : {&object.type, &object.subtype, &object.name}) {
         const ObjectKind said = kind_of(*text);
-        const bool closer = (found == ObjectKind::Pole && (said == ObjectKind::StreetLamp || said == ObjectKind::GuidePost)) ||
-                            (found == ObjectKind::Tree && said == ObjectKind::Bush);
+        const bool closer =
+            (found == ObjectKind::Pole && (said == ObjectKind::StreetLamp || said == ObjectKind::GuidePost)) ||
+            (found == ObjectKind::Tree && said == ObjectKind::Bush);
         if (found == ObjectKind::Other || closer) found = said;
     }
     return found;

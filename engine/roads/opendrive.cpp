@@ -52,7 +52,8 @@ void read_road(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     road.length = element.number_or("length", 0, 0, reader.limits.road_length);
     const std::string rule = element.text_or("rule", "RHT");
     road.right_hand = rule != "LHT";
-    if (road.right_hand && rule != "RHT") reader.note(element, "the rule '" + rule + "' is neither RHT nor LHT: taken for RHT");
+    if (road.right_hand && rule != "RHT")
+        reader.note(element, "the rule '" + rule + "' is neither RHT nor LHT: taken for RHT");
     const std::string junction = element.text_or("junction", "-1");
     if (junction != "-1") {
         const auto found = reader.junctions.find(junction);
@@ -88,7 +89,8 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
     const auto roads = root.children("road"), junctions = root.children("junction");
     if (const auto included = root.child("include"))
         reader.note(*included, "'" + included->text_or("file", "") + "' is not read: give files without includes");
-    if (roads.empty()) root.fail(root.child("include") ? "has no road of its own, and includes are not read" : "has no road");
+    if (roads.empty())
+        root.fail(root.child("include") ? "has no road of its own, and includes are not read" : "has no road");
     if (roads.size() > limits.roads || junctions.size() > limits.roads)
         root.fail("has more than " + std::to_string(limits.roads) + " roads or junctions");
     for (const XmlElement& each : junctions) {
@@ -113,7 +115,8 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
     for (size_t i = 0; i < roads.size(); ++i) read_links(reader, roads[i], network.roads[i]);
     for (size_t i = 0; i < junctions.size(); ++i) read_junction(reader, junctions[i], network.junctions[i]);
     check_network(reader, file);
-    if (std::none_of(network.roads.begin(), network.roads.end(), [](const Road& road) { return road.length > 0 && !road.sections.empty(); }))
+    if (std::none_of(network.roads.begin(), network.roads.end(),
+                     [](const Road& road) { return road.length > 0 && !road.sections.empty(); }))
         root.fail("none of its roads has lanes");
     network.origin = origin_of(network);
     return network;

@@ -14,11 +14,11 @@ struct RoadLimits {
     uint64_t file_bytes = scaled_limit(256ull << 20);
     size_t roads = scaled_limit(200'000);
     size_t elements = scaled_limit(8'000'000);  ///< geometries, lanes, widths, marks, objects and signals together
-    double road_length = 1e6;     ///< m, of one
+    double road_length = 1e6;                   ///< m, of one
     double total_length = static_cast<double>(scaled_limit(5'000'000));  ///< m, of all
-    double lane_width = 1000;     ///< m, of one lane, and of all of one side
-    double height = 1e5;          ///< m, above or below 0
-    double turns = 1e4;           ///< rad, that one geometry may turn
+    double lane_width = 1000;                                            ///< m, of one lane, and of all of one side
+    double height = 1e5;                                                 ///< m, above or below 0
+    double turns = 1e4;                                                  ///< rad, that one geometry may turn
 };
 
 /// Reads a road network. Throws Error naming file, line and reason if there is no usable geometry. A violated rule

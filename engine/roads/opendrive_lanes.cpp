@@ -7,8 +7,8 @@
 namespace vesper::roads {
 namespace {
 
-constexpr int kMaxLaneId = 128;    // either side; motorways have ten
-constexpr double kMaxWidth = 1e4;  // m
+constexpr int kMaxLaneId = 128;             // either side; motorways have ten
+constexpr double kMaxWidth = 1e4;           // m
 constexpr double kShortestSection = 0.001;  // m, of a lane section
 
 // What a broken line is painted like where the file does not say: 3 m and 6 m of gap, as on country roads.
@@ -69,8 +69,8 @@ void read_patterns(const XmlElement& element, RoadMark& mark, const MarkLine& li
         }
 }
 
-/// The lines that the type's name means: "solid broken" from the inside outwards, of the centre lane from the left to the
-/// right.
+/// The lines that the type's name means: "solid broken" from the inside outwards, of the centre lane from the left to
+/// the right.
 void add_named_lines(RoadMark& mark, const MarkLine& like, int lane) {
     std::vector<bool> broken;
     for (size_t at = 0; at < mark.type.size();) {
@@ -88,7 +88,8 @@ void add_named_lines(RoadMark& mark, const MarkLine& like, int lane) {
     for (size_t i = 0; i < broken.size() && i < 2; ++i) {
         MarkLine line = like;
         if (broken[i]) line.length = kDash, line.space = kGap;
-        if (broken.size() > 1) line.t_offset = ((i == 0) != (lane > 0) ? 1 : -1) * like.width;  // a gap of one width between them
+        if (broken.size() > 1)
+            line.t_offset = ((i == 0) != (lane > 0) ? 1 : -1) * like.width;  // a gap of one width between them
         mark.lines.push_back(line);
     }
 }
@@ -143,7 +144,8 @@ RoadLane lane_of(OpenDriveReader& reader, const XmlElement& element, double from
     if (!lane.width.parts.empty()) lane.border.parts.clear();  // width counts where both are given
     read_heights(reader, element, lane, from);
     read_lane_links(element, lane);
-    for (const XmlElement& each : element.children("roadMark")) lane.marks.push_back(mark_of(reader, each, from, lane.id));
+    for (const XmlElement& each : element.children("roadMark"))
+        lane.marks.push_back(mark_of(reader, each, from, lane.id));
     std::stable_sort(lane.marks.begin(), lane.marks.end(),
                      [](const RoadMark& a, const RoadMark& b) { return a.s < b.s; });
     for (const XmlElement& each : element.children("speed")) {
@@ -163,7 +165,8 @@ void check_side(const XmlElement& element, const char* side, const RoadLane& lan
     if (!fits) element.fail("lane " + std::to_string(lane.id) + " cannot be under " + side);
 }
 
-/// Ids that are left out, as 2 is in 3, 1, 0: lanes without width are put there, so that every lane lies beside the next.
+/// Ids that are left out, as 2 is in 3, 1, 0: lanes without width are put there, so that every lane lies beside the
+/// next.
 void fill_gaps(OpenDriveReader& reader, const XmlElement& element, LaneSection& section) {
     for (size_t i = 1; i < section.lanes.size(); ++i) {
         const int gap = section.lanes[i - 1].id - 1;
@@ -211,7 +214,7 @@ void keep_other_side(const XmlElement& element, const LaneSection& before, LaneS
 }
 
 /// Links that led to a lane section that is taken away lead on to where its own do.
-void link_past(std::vector<RoadLane>& lanes, const LaneSection& gone, std::vector<int> RoadLane::* links) {
+void link_past(std::vector<RoadLane>& lanes, const LaneSection& gone, std::vector<int> RoadLane::*links) {
     for (RoadLane& lane : lanes) {
         std::set<int> past;
         for (const int id : lane.*links)
@@ -253,7 +256,8 @@ SpeedLimit limit_of(OpenDriveReader& reader, const XmlElement& element, double s
     if (value == "no limit") return {s, INFINITY};
     const std::string units = element.text_or("unit", "m/s");
     const double factor = units == "km/h" ? 1 / 3.6 : units == "mph" ? 0.44704 : units == "m/s" ? 1 : 0;
-    if (factor == 0) reader.note(element, "the unit '" + units + "' is none of m/s, km/h and mph: the limit is left out");
+    if (factor == 0)
+        reader.note(element, "the unit '" + units + "' is none of m/s, km/h and mph: the limit is left out");
     return {s, factor * std::max(0.0, element.number("max", -1000, 1000))};  // some write -1 for none
 }
 
@@ -265,7 +269,9 @@ void read_lanes(OpenDriveReader& reader, const XmlElement& element, Road& road) 
     }
     road.lane_offset = profile_of(reader, *holder, "laneOffset", "s", 0);
     std::vector<XmlElement> elements = holder->children("laneSection");
-    const auto before = [](const XmlElement& a, const XmlElement& b) { return a.number_or("s", 0, 0) < b.number_or("s", 0, 0); };
+    const auto before = [](const XmlElement& a, const XmlElement& b) {
+        return a.number_or("s", 0, 0) < b.number_or("s", 0, 0);
+    };
     if (!std::is_sorted(elements.begin(), elements.end(), before)) {
         reader.note(*holder, "lane sections are not in ascending order of s: sorted");
         std::stable_sort(elements.begin(), elements.end(), before);

@@ -58,7 +58,8 @@ void over_parts(const Profile& profile, double from, double to, const Visit& vis
     for (size_t i = 0; i < profile.parts.size(); ++i) {
         const double begin = std::max(profile.parts[i].s, from),
                      end = i + 1 < profile.parts.size() ? std::min(profile.parts[i + 1].s, to) : to;
-        for (int k = 0; k <= kSteps && begin < end; ++k) visit(std::min(begin + (end - begin) * k / kSteps, end - 1e-9));
+        for (int k = 0; k <= kSteps && begin < end; ++k)
+            visit(std::min(begin + (end - begin) * k / kSteps, end - 1e-9));
     }
 }
 
@@ -95,7 +96,8 @@ void check_extent(OpenDriveReader& reader, const XmlElement& element, const Road
     }
     over_parts(road.lane_offset, 0, road.length, [&](double s) {
         if (const double t = road.lane_offset.at(s); !(std::abs(t) <= reader.limits.lane_width))
-            element.fail("road '" + road.id + "' has a lane offset of " + std::to_string(t) + " m at s = " + std::to_string(s));
+            element.fail("road '" + road.id + "' has a lane offset of " + std::to_string(t) +
+                         " m at s = " + std::to_string(s));
     });
 }
 

@@ -96,7 +96,8 @@ void check_on_road(OpenDriveReader& reader, const XmlElement& element, const Roa
 }
 
 /// Where a signal stands, if that is not where it counts: the road, and what gives the signal's place along it.
-std::pair<Road*, XmlElement> place_of(OpenDriveReader& reader, const XmlElement& element, Road& road, RoadSignal& signal) {
+std::pair<Road*, XmlElement> place_of(OpenDriveReader& reader, const XmlElement& element, Road& road,
+                                      RoadSignal& signal) {
     if (const auto each = element.child("positionInertial"))
         reader.note(*each, "is not read: the signal is put at its s and t");
     const auto each = element.child("positionRoad");

@@ -8,9 +8,9 @@
 namespace vesper::roads {
 namespace {
 
-constexpr double kPlanGap = 0.01;  // m; files are written with more digits than this
-constexpr double kKink = 0.02;  // rad, as much as is not seen
-constexpr double kTorn = 1000;   // m; no road
+constexpr double kPlanGap = 0.01;        // m; files are written with more digits than this
+constexpr double kKink = 0.02;           // rad, as much as is not seen
+constexpr double kTorn = 1000;           // m; no road
 constexpr double kShortestRoad = 0.001;  // m: roads that join others in one point are as long as this
 
 std::array<double, 4> coefficients(const XmlElement& element, const char* of) {
@@ -28,7 +28,9 @@ PlanGeometry geometry_of(OpenDriveReader& reader, const XmlElement& element) {
     g.length = element.number("length", 0, reader.limits.road_length);
     size_t shapes = 0;
     for (const char* shape : {"arc", "spiral", "poly3", "paramPoly3", "line"}) shapes += element.children(shape).size();
-    if (shapes > 1) reader.note(element, "has " + std::to_string(shapes) + " shapes: one is read, of arc, spiral, poly3, paramPoly3 and line the first");
+    if (shapes > 1)
+        reader.note(element, "has " + std::to_string(shapes) +
+                                 " shapes: one is read, of arc, spiral, poly3, paramPoly3 and line the first");
     if (const auto arc = element.child("arc")) {
         g.kind = PlanGeometry::Kind::Arc;
         g.curvature = g.curvature_end = arc->number("curvature", -1e4, 1e4);
@@ -76,23 +78,26 @@ void check_joints(OpenDriveReader& reader, const XmlElement& element, Road& road
         if (gap > kPlanGap)
             reader.note(element, "road '" + road.id + "': the reference line jumps by " + std::to_string(gap) +
                                      " m at s = " + std::to_string(g.s));
-        if (const double turn = std::remainder(begin.heading - end.heading, 2 * std::numbers::pi); std::abs(turn) > kKink)
+        if (const double turn = std::remainder(begin.heading - end.heading, 2 * std::numbers::pi);
+            std::abs(turn) > kKink)
             reader.note(element, "road '" + road.id + "': the reference line has a kink of " +
-                                     std::to_string(turn * 180 / std::numbers::pi) + " degrees at s = " + std::to_string(g.s));
+                                     std::to_string(turn * 180 / std::numbers::pi) +
+                                     " degrees at s = " + std::to_string(g.s));
         const double end_s = before.s + before.length;
         if (std::abs(g.s - end_s) > kPlanGap)
-            reader.note(element, "road '" + road.id + "': a geometry ends at s = " + std::to_string(end_s) + ", the next begins at " +
-                                     std::to_string(g.s));
+            reader.note(element, "road '" + road.id + "': a geometry ends at s = " + std::to_string(end_s) +
+                                     ", the next begins at " + std::to_string(g.s));
     }
     const double end = road.plan.back().s + road.plan.back().length;
     if (std::abs(end - road.length) > kPlanGap)
         reader.note(element, "road '" + road.id + "': its geometry is " + std::to_string(end) + " m long, not " +
                                  std::to_string(road.length));
-    if (end < road.length - kPlanGap || road.length < kShortestRoad) road.length = end;  // what has no geometry is no road
+    if (end < road.length - kPlanGap || road.length < kShortestRoad)
+        road.length = end;  // what has no geometry is no road
 }
 
-/// Exporters write connecting roads without length where roads meet in a point. As a road of next to none, it still says which
-/// lane leads to which.
+/// Exporters write connecting roads without length where roads meet in a point. As a road of next to none, it still
+/// says which lane leads to which.
 void read_point(OpenDriveReader& reader, const XmlElement& element, Road& road) {
     reader.count(element);
     reader.note(element, "road '" + road.id + "' has no length: taken for a millimetre");
@@ -158,7 +163,8 @@ void check_heights(const OpenDriveReader& reader, const XmlElement& element, con
     for (size_t i = 0; i < parts.size(); ++i) {
         const double end = i + 1 < parts.size() ? std::min(parts[i + 1].s, road.length) : road.length;
         for (int k = 0; k <= 8; ++k)
-            if (const double z = parts[i].at(parts[i].s + std::max(0.0, end - parts[i].s) * k / 8); !(std::abs(z) <= reader.limits.height))
+            if (const double z = parts[i].at(parts[i].s + std::max(0.0, end - parts[i].s) * k / 8);
+                !(std::abs(z) <= reader.limits.height))
                 element.fail("road '" + road.id + "' is " + std::to_string(z) + " m high");
     }
 }

@@ -76,7 +76,8 @@ PlanPoint polynomial_point(const PlanGeometry& g, double distance) {
     const double scale = g.kind == PlanGeometry::Kind::ParamPoly3 && g.length > 0 ? g.lengths.back() / g.length : 1;
     const double p = parameter_at(g, distance * scale);
     const double du = slope(g.u, p), dv = slope(g.v, p), v = std::hypot(du, dv);
-    const double curvature = v > 1e-9 ? (du * second_derivative(g.v, p) - dv * second_derivative(g.u, p)) / (v * v * v) : 0;
+    const double curvature =
+        v > 1e-9 ? (du * second_derivative(g.v, p) - dv * second_derivative(g.u, p)) / (v * v * v) : 0;
     return placed(g, cubic(g.u, p), cubic(g.v, p), std::atan2(dv, du), curvature);
 }
 

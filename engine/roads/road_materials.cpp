@@ -98,8 +98,10 @@ void make_retroreflective(Scene& scene, Material& material, RoadMaterial stuff) 
     };
     // Coefficients are multiplied by the base colour; of prints by that over white.
     const double own = luminance(glm::dvec3(material.base_colour));
-    if (stuff == RoadMaterial::MarkWhite || stuff == RoadMaterial::MarkYellow) use(retroreflective_marking((stuff == RoadMaterial::MarkWhite ? 150 : 80) / own));
-    if (stuff >= RoadMaterial::SignWhite && stuff <= RoadMaterial::SignGreen) use(rescaled(retroreflective_class("RA2"), 1 / double(kSignWhite)));
+    if (stuff == RoadMaterial::MarkWhite || stuff == RoadMaterial::MarkYellow)
+        use(retroreflective_marking((stuff == RoadMaterial::MarkWhite ? 150 : 80) / own));
+    if (stuff >= RoadMaterial::SignWhite && stuff <= RoadMaterial::SignGreen)
+        use(rescaled(retroreflective_class("RA2"), 1 / double(kSignWhite)));
     if (stuff == RoadMaterial::PostReflector) use(rescaled(retroreflective_class("RA2"), 1 / own));
 }
 

@@ -128,7 +128,8 @@ void add_box(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& f, double leng
     add_prism(mesh, stuff, bottoms, tops);
 }
 
-void add_cylinder(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& f, double radius, double height, double top_radius) {
+void add_cylinder(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& f, double radius, double height,
+                  double top_radius) {
     const int sides = radius < 0.3 ? 8 : 16;
     const double upper = top_radius < 0 ? radius : top_radius;
     const auto around = [&](int i, double r, double z) {
@@ -159,7 +160,8 @@ void add_ball(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& f, double rad
             mesh.quad(stuff, around(ring, i), around(ring, i + 1), around(ring + 1, i + 1), around(ring + 1, i));
 }
 
-void add_prism(RoadMesh& mesh, RoadMaterial stuff, std::span<const glm::dvec3> bottoms, std::span<const glm::dvec3> tops) {
+void add_prism(RoadMesh& mesh, RoadMaterial stuff, std::span<const glm::dvec3> bottoms,
+               std::span<const glm::dvec3> tops) {
     glm::dvec3 area(0);
     for (size_t i = 1; i + 1 < tops.size(); ++i) area += glm::cross(tops[i] - tops[0], tops[i + 1] - tops[0]);
     const bool clockwise = area.z < 0;

@@ -104,6 +104,7 @@ void add_cylinder(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& frame, do
 /// A ball around the origin, squeezed along z.
 void add_ball(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& frame, double radius, double half_height);
 /// Walls over a closed outline and a roof on it; bottoms and tops counter-clockwise, corner by corner.
-void add_prism(RoadMesh& mesh, RoadMaterial stuff, std::span<const glm::dvec3> bottoms, std::span<const glm::dvec3> tops);
+void add_prism(RoadMesh& mesh, RoadMaterial stuff, std::span<const glm::dvec3> bottoms,
+               std::span<const glm::dvec3> tops);
 
 }  // namespace vesper::roads

@@ -100,7 +100,7 @@ struct RoadLane {
     std::vector<RoadMark> marks;
     std::vector<SpeedLimit> speeds;
     std::vector<int> predecessors, successors;  ///< lane ids
-    bool missing = false;  ///< its id is missing in the file: it has no width
+    bool missing = false;                       ///< its id is missing in the file: it has no width
 };
 
 struct LaneSection {

@@ -92,7 +92,8 @@ void ScenarioFile::look_for_catalogs() {
             for (const XmlElement& each : catalog.children()) {
                 const std::string_view entry = each.attribute("name").value_or("");
                 for (const std::string_view of : {name, std::string_view()})
-                    for (const std::string_view called : {entry, std::string_view()}) entries_.try_emplace({of, called}, each);
+                    for (const std::string_view called : {entry, std::string_view()})
+                        entries_.try_emplace({of, called}, each);
             }
         }
     }
@@ -100,7 +101,8 @@ void ScenarioFile::look_for_catalogs() {
 
 std::optional<ScenarioFile::Entry> ScenarioFile::find(const XmlElement& reference, const Parameters& scope) {
     if (!looked_) look_for_catalogs();
-    const std::string catalog = resolved(reference, "catalogName", scope).value_or(""), entry = resolved(reference, "entryName", scope).value_or("");
+    const std::string catalog = resolved(reference, "catalogName", scope).value_or(""),
+                      entry = resolved(reference, "entryName", scope).value_or("");
     const auto found = entries_.find({catalog, entry});
     if (found == entries_.end()) return std::nullopt;
     Parameters parameters = declared(found->second, parameters_);

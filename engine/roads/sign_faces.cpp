@@ -127,7 +127,8 @@ struct Panel {
 };
 
 Face speed_limit(double value) {
-    return {Shape::Round, RoadMaterial::SignRed, RoadMaterial::SignWhite, std::clamp(static_cast<int>(std::lround(value)), 0, 999)};
+    return {Shape::Round, RoadMaterial::SignRed, RoadMaterial::SignWhite,
+            std::clamp(static_cast<int>(std::lround(value)), 0, 999)};
 }
 
 /// "60" of "60-1"; 0 without digits.
@@ -151,7 +152,10 @@ Face german(int number, const RoadSignal& s) {
         case 278:
         case 280:
         case 282:
-            return {.shape = Shape::Round, .rim = RoadMaterial::SignBlack, .field = RoadMaterial::SignWhite, .crossed_out = true};
+            return {.shape = Shape::Round,
+                    .rim = RoadMaterial::SignBlack,
+                    .field = RoadMaterial::SignWhite,
+                    .crossed_out = true};
         case 306:
             return {Shape::Diamond, RoadMaterial::SignWhite, RoadMaterial::SignYellow};
         case 605:
@@ -199,10 +203,10 @@ void add_sign(RoadMesh& mesh, const BodyFrame& frame, const RoadSignal& signal, 
     const auto outline = panel.outline(face.shape, 1);
     panel.back(outline);
     panel.print(face.rim, outline, 0);
-    const double rim = face.rim == face.field                                           ? 1
+    const double rim = face.rim == face.field                                                  ? 1
                        : face.shape == Shape::Rectangle || face.rim == RoadMaterial::SignWhite ? 0.93
-                       : face.shape == Shape::Round                                     ? 0.8
-                                                                                        : 0.68;
+                       : face.shape == Shape::Round                                            ? 0.8
+                                                                                               : 0.68;
     if (rim < 1) panel.print(face.field, panel.outline(face.shape, rim), 1);
     if (face.number >= 0) panel.number(face.number);
     if (face.bar) panel.bar(RoadMaterial::SignWhite, {-0.7, 0}, {0.7, 0}, 0.1, 2);

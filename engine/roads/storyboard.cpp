@@ -60,10 +60,12 @@ struct Player {
     ScenarioFile& scenario;
     StoryTime story;
     std::vector<ActPart> acts{};
-    std::map<size_t, size_t> open{};  ///< acts not complete, by story
+    std::map<size_t, size_t> open{};                                             ///< acts not complete, by story
     std::map<std::pair<RunEntity*, uint32_t>, std::shared_ptr<bool>> current{};  ///< action of an actor, by its domain
 
-    static std::string name_in(const XmlElement& element, const Parameters& scope) { return resolved(element, "name", scope).value_or(""); }
+    static std::string name_in(const XmlElement& element, const Parameters& scope) {
+        return resolved(element, "name", scope).value_or("");
+    }
     size_t add(ElementKind kind, const XmlElement& element, const Parameters& scope, size_t above) {
         return story.elements.add(kind, element, name_in(element, scope), above);
     }
@@ -72,13 +74,17 @@ struct Player {
 
     EventPart event_of(const XmlElement& element, const Parameters& scope, const GroupPart& group, size_t above) {
         using Priority = EventPart::Priority;
-        static const std::map<std::string, Priority> kPriorities{
-            {"override", Priority::Override}, {"overwrite", Priority::Override}, {"skip", Priority::Skip}, {"parallel", Priority::Parallel}};
+        static const std::map<std::string, Priority> kPriorities{{"override", Priority::Override},
+                                                                 {"overwrite", Priority::Override},
+                                                                 {"skip", Priority::Skip},
+                                                                 {"parallel", Priority::Parallel}};
         EventPart event{add(ElementKind::Event, element, scope, above), Priority::None, {}};
         const std::string priority = resolved(element, "priority", scope).value_or("override");
         const auto known = kPriorities.find(priority);
-        if (known != kPriorities.end()) event.priority = known->second;
-        else story.note(element.place() + ": priority '" + priority + "' is none of OpenSCENARIO's: it never begins");
+        if (known != kPriorities.end())
+            event.priority = known->second;
+        else
+            story.note(element.place() + ": priority '" + priority + "' is none of OpenSCENARIO's: it never begins");
         const size_t before = story.questions;
         event.trigger = trigger_of(element.child("StartTrigger"), scope, story);
         event.trigger.select = group.select;
@@ -98,7 +104,8 @@ struct Player {
 
     void maneuver_in(GroupPart& group, const XmlElement& element, const Parameters& scope) {
         ManeuverPart maneuver{add(ElementKind::Maneuver, element, scope, group.index)};
-        for (const XmlElement& each : element.children("Event")) maneuver.events.push_back(event_of(each, scope, group, maneuver.index));
+        for (const XmlElement& each : element.children("Event"))
+            maneuver.events.push_back(event_of(each, scope, group, maneuver.index));
         group.maneuvers.push_back(std::move(maneuver));
     }
 
@@ -107,10 +114,12 @@ struct Player {
         if (const auto actors = element.child("Actors")) {
             group.select = flag_in(*actors, "selectTriggeringEntities", scope);
             for (const XmlElement& each : actors->children("EntityRef"))
-                for (RunEntity* entity : story.all_of(each, "entityRef", scope)) group.actors.push_back(entity), story.ask(1);
+                for (RunEntity* entity : story.all_of(each, "entityRef", scope))
+                    group.actors.push_back(entity), story.ask(1);
         }
         each_once(group.actors);
-        if (number_in(element, "maximumExecutionCount", scope, 1) > 1) story.note(element.place() + ": is gone through once");
+        if (number_in(element, "maximumExecutionCount", scope, 1) > 1)
+            story.note(element.place() + ": is gone through once");
         for (const XmlElement& each : element.children("Maneuver")) maneuver_in(group, each, declared(each, scope));
         for (const XmlElement& each : element.children("CatalogReference")) {
             const auto entry = scenario.find(each, scope);
@@ -133,7 +142,8 @@ struct Player {
             }
         };
         begin(actions_of(actions, scope, story), {});
-        for (const XmlElement& each : actions.children("Private")) begin(actions_of(each, scope, story), story.all_of(each, "entityRef", scope));
+        for (const XmlElement& each : actions.children("Private"))
+            begin(actions_of(each, scope, story), story.all_of(each, "entityRef", scope));
     }
 
     void read() {
@@ -151,9 +161,11 @@ struct Player {
             const Parameters inner = declared(element, scope);
             for (const XmlElement& each : element.children("Act")) {
                 const auto stop = each.child("StopTrigger");
-                ActPart act{add(ElementKind::Act, each, inner, index), index, trigger_of(each.child("StartTrigger"), inner, story),
-                            trigger_of(stop, inner, story, false), stop.has_value()};
-                for (const XmlElement& group : each.children("ManeuverGroup")) act.groups.push_back(group_of(group, inner, act.index));
+                ActPart act{add(ElementKind::Act, each, inner, index), index,
+                            trigger_of(each.child("StartTrigger"), inner, story), trigger_of(stop, inner, story, false),
+                            stop.has_value()};
+                for (const XmlElement& group : each.children("ManeuverGroup"))
+                    act.groups.push_back(group_of(group, inner, act.index));
                 acts.push_back(std::move(act));
                 ++open[index];
             }
@@ -210,7 +222,8 @@ struct Player {
 
     void step_event(EventPart& event, ManeuverPart& maneuver, const GroupPart& group, int step) {
         using Priority = EventPart::Priority;
-        if (!event.running && event.executions < event.most && event.trigger.holds(step, story) && event.priority != Priority::None) {
+        if (!event.running && event.executions < event.most && event.trigger.holds(step, story) &&
+            event.priority != Priority::None) {
             if (event.priority == Priority::Skip && !maneuver.running.empty()) {
                 story.elements[event.index].skipped = step;
                 return;
@@ -271,7 +284,8 @@ struct Player {
             for (ManeuverPart& maneuver : group.maneuvers) {
                 if (maneuver.complete) continue;
                 for (EventPart& event : maneuver.events) step_event(event, maneuver, group, step);
-                maneuver.complete = std::all_of(maneuver.events.begin(), maneuver.events.end(), [](const EventPart& e) { return e.done(); });
+                maneuver.complete = std::all_of(maneuver.events.begin(), maneuver.events.end(),
+                                                [](const EventPart& e) { return e.done(); });
                 if (maneuver.complete) story.elements.end(maneuver.index, step);
                 group_done = group_done && maneuver.complete;
             }
@@ -308,7 +322,8 @@ void play_storyboard(ScenarioFile& scenario, const RoadNetwork* roads, EsminiRun
     const auto storyboard = scenario.root().child("Storyboard");
     if (!storyboard) return;
     Player player{scenario, StoryTime{run, roads, scenario, *storyboard, steps_of(run)}};
-    if (player.story.times.size() > kMaxSteps) storyboard->fail("the run has more than " + std::to_string(kMaxSteps) + " steps");
+    if (player.story.times.size() > kMaxSteps)
+        storyboard->fail("the run has more than " + std::to_string(kMaxSteps) + " steps");
     player.read();
     player.play();
     run.notes.insert(run.notes.end(), player.story.notes.begin(), player.story.notes.end());

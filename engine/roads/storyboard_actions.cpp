@@ -12,9 +12,20 @@ namespace {
 
 /// Actions that neither lamps, lights nor motion follow from, done at once.
 bool is_without_effect(std::string_view name) {
-    constexpr std::array kNames{"VisibilityAction",       "ControllerAction",         "ActivateControllerAction", "AssignControllerAction", "OverrideControllerValueAction",
-                                "AssignRouteAction",      "AcquirePositionAction",    "RandomRouteAction",        "TrailerAction",          "AnimationAction",
-                                "EntityAction",           "TrafficAction",            "SetMonitorAction",         "CustomCommandAction"};
+    constexpr std::array kNames{"VisibilityAction",
+                                "ControllerAction",
+                                "ActivateControllerAction",
+                                "AssignControllerAction",
+                                "OverrideControllerValueAction",
+                                "AssignRouteAction",
+                                "AcquirePositionAction",
+                                "RandomRouteAction",
+                                "TrailerAction",
+                                "AnimationAction",
+                                "EntityAction",
+                                "TrafficAction",
+                                "SetMonitorAction",
+                                "CustomCommandAction"};
     return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
@@ -23,7 +34,9 @@ struct ActionReader {
     StoryTime& story;
     std::vector<StoryAction> made{};
 
-    void leave_out(const XmlElement& element, const std::string& why) { story.note(element.place() + ": " + why + ": left out"); }
+    void leave_out(const XmlElement& element, const std::string& why) {
+        story.note(element.place() + ": " + why + ": left out");
+    }
 
     void lamp(const XmlElement& element) {
         const auto type = element.child("LightType"), state = element.child("LightState");
@@ -121,12 +134,16 @@ struct ActionReader {
         if (name.starts_with('$')) name.erase(0, 1);
         const auto around = scope.find(name);
         if (variable ? !story.variables.contains(name) : around == scope.end())
-            return leave_out(action, "there is no " + std::string(variable ? "variable" : "parameter") + " '" + name + "'");
+            return leave_out(action,
+                             "there is no " + std::string(variable ? "variable" : "parameter") + " '" + name + "'");
         Parameters& values = variable ? story.variables : story.parameters;
         if (const auto set = action.child("SetAction"))
-            return once([&values, name, value = resolved(*set, "value", scope).value_or("")](int) { values.insert_or_assign(name, value); });
+            return once([&values, name, value = resolved(*set, "value", scope).value_or("")](int) {
+                values.insert_or_assign(name, value);
+            });
         const auto modify = action.child("ModifyAction"), rule = modify ? modify->child("Rule") : std::nullopt;
-        const auto add = rule ? rule->child("AddValue") : std::nullopt, times = rule ? rule->child("MultiplyByValue") : std::nullopt;
+        const auto add = rule ? rule->child("AddValue") : std::nullopt,
+                   times = rule ? rule->child("MultiplyByValue") : std::nullopt;
         if (!add && !times) return leave_out(action, "it sets nothing");
         const double by = number_in(add ? *add : *times, "value", scope, 0);
         once([&values, name, by, adds = add.has_value(), before = variable ? "0" : around->second](int) {
@@ -152,12 +169,15 @@ struct ActionReader {
     void private_part(const XmlElement& holder) {
         for (const XmlElement& each : holder.children()) {
             const auto name = each.name();
-            if (name == "AppearanceAction" || name == "RoutingAction" || name == "LongitudinalAction" || name == "LateralAction")
+            if (name == "AppearanceAction" || name == "RoutingAction" || name == "LongitudinalAction" ||
+                name == "LateralAction")
                 private_part(each);
             else if (name == "LightStateAction")
                 lamp(each);
             else if (name == "TeleportAction")
-                made.push_back({{}, [](RunEntity&, int) { return Progress{}; }, StoryAction::kLongitudinal | StoryAction::kLateral});
+                made.push_back({{},
+                                [](RunEntity&, int) { return Progress{}; },
+                                StoryAction::kLongitudinal | StoryAction::kLateral});
             else if (!is_without_effect(name))
                 made.push_back(motion_of(each, scope, story));
         }

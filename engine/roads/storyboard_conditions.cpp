@@ -46,7 +46,9 @@ bool is_so(Rule rule, const std::string& a, const std::string& b) {
 
 /// "lessThan 4" and its like.
 std::function<bool(double)> compare_with(const XmlElement& element, const Parameters& scope) {
-    return [value = number_in(element, "value", scope, 0), rule = rule_of(element, scope)](double x) { return is_so(rule, x, value); };
+    return [value = number_in(element, "value", scope, 0), rule = rule_of(element, scope)](double x) {
+        return is_so(rule, x, value);
+    };
 }
 
 using Test = std::function<bool(int step)>;
@@ -75,18 +77,23 @@ struct ConditionReader {
         if (name.starts_with('$')) name.erase(0, 1);
         const auto found = scope.find(name);
         if (variable ? !s.variables.contains(name) : found == scope.end()) return std::nullopt;
-        const std::string around = variable ? "" : found->second, value = resolved(element, "value", scope).value_or("");
-        return [&now = variable ? s.variables : s.parameters, name, around, value, rule = rule_of(element, scope)](int) {
-            const auto set = now.find(name);
-            return is_so(rule, set == now.end() ? around : set->second, value);
-        };
+        const std::string around = variable ? "" : found->second,
+                          value = resolved(element, "value", scope).value_or("");
+        return
+            [&now = variable ? s.variables : s.parameters, name, around, value, rule = rule_of(element, scope)](int) {
+                const auto set = now.find(name);
+                return is_so(rule, set == now.end() ? around : set->second, value);
+            };
     }
 
     std::optional<Test> element_state(const XmlElement& element) {
         using State = ElementState;
-        static const std::map<std::string, ElementKind> kKinds{
-            {"story", ElementKind::Story},       {"act", ElementKind::Act},     {"maneuvergroup", ElementKind::ManeuverGroup},
-            {"maneuver", ElementKind::Maneuver}, {"event", ElementKind::Event}, {"action", ElementKind::Action}};
+        static const std::map<std::string, ElementKind> kKinds{{"story", ElementKind::Story},
+                                                               {"act", ElementKind::Act},
+                                                               {"maneuvergroup", ElementKind::ManeuverGroup},
+                                                               {"maneuver", ElementKind::Maneuver},
+                                                               {"event", ElementKind::Event},
+                                                               {"action", ElementKind::Action}};
         static const std::map<std::string, bool (*)(const State&, int)> kStates{
             {"startTransition", [](const State& now, int step) { return now.started >= 0 && now.started >= step - 1; }},
             {"endTransition", [](const State& now, int step) { return now.ended >= 0 && now.ended >= step - 1; }},
@@ -98,7 +105,8 @@ struct ConditionReader {
         const auto kind = kKinds.find(lower(resolved(element, "storyboardElementType", scope).value_or("event")));
         const auto state = kStates.find(resolved(element, "state", scope).value_or("completeState"));
         std::string name = resolved(element, "storyboardElementRef", scope).value_or("");
-        if (kind == kKinds.end() || state == kStates.end() || name.size() > StoryElements::kMaxPath) return std::nullopt;
+        if (kind == kKinds.end() || state == kStates.end() || name.size() > StoryElements::kMaxPath)
+            return std::nullopt;
         const auto index = std::make_shared<size_t>(StoryElements::kNone);
         story.references.push_back({kind->second, std::move(name), element.place(), index});
         return [&elements = story.elements, index, is = state->second](int step) {
@@ -149,7 +157,8 @@ struct ConditionReader {
         if (name == "ReachPositionCondition") {
             const auto place = position_of(element, scope, story);
             if (!place) return std::nullopt;
-            return [measure = Measure{}, tolerance = number_in(element, "tolerance", scope, 1), to = StoryBox::of(*place), &s](const RunEntity& e, int step) {
+            return [measure = Measure{}, tolerance = number_in(element, "tolerance", scope, 1),
+                    to = StoryBox::of(*place), &s](const RunEntity& e, int step) {
                 return std::abs(measure.distance(StoryBox::of(e, s.at(step)), to)) <= tolerance;
             };
         }
@@ -165,7 +174,9 @@ struct ConditionReader {
         if (named.attribute("entityRef")) {
             const RunEntity* other = story.one_of(named, "entityRef", scope);
             if (!other) return std::nullopt;
-            return [other](double time) { return is_there(*other, time) ? std::optional(StoryBox::of(*other, time)) : std::nullopt; };
+            return [other](double time) {
+                return is_there(*other, time) ? std::optional(StoryBox::of(*other, time)) : std::nullopt;
+            };
         }
         const auto place = position_of(inside ? *inside : element, scope, story);
         if (!place) return std::nullopt;
@@ -175,7 +186,8 @@ struct ConditionReader {
     /// Conditions on a distance or a relative speed.
     std::optional<EntityTest> towards(const XmlElement& element) {
         const auto name = element.name();
-        const bool to_entity = name == "RelativeDistanceCondition" || name == "TimeHeadwayCondition" || name == "RelativeSpeedCondition";
+        const bool to_entity =
+            name == "RelativeDistanceCondition" || name == "TimeHeadwayCondition" || name == "RelativeSpeedCondition";
         if (!to_entity && name != "DistanceCondition" && name != "TimeToCollisionCondition") return std::nullopt;
         const auto target = target_of(element);
         if (!target) return std::nullopt;
@@ -195,12 +207,16 @@ struct ConditionReader {
                 // As esmini: how much faster it is along the other's way.
                 const double along = e.speed * glm::dot(e.ahead, other.ahead) * (other.speed < 0 ? -1 : 1);
                 const double closing = std::abs(other.speed) < kNone ? e.speed
-                                                                     : (e.speed < 0 ? -1 : 1) * (along < 0 ? -1 : 1) * (along - std::abs(other.speed));
+                                                                     : (e.speed < 0 ? -1 : 1) * (along < 0 ? -1 : 1) *
+                                                                           (along - std::abs(other.speed));
                 const double distance = measure.distance(e, other);
-                return std::abs(distance) >= kNone && std::abs(closing) >= kNone && distance / closing >= 0 && compare(distance / closing);
+                return std::abs(distance) >= kNone && std::abs(closing) >= kNone && distance / closing >= 0 &&
+                       compare(distance / closing);
             };
         else
-            test = [=](const StoryBox& e, const StoryBox& other) { return compare(std::abs(measure.distance(e, other))); };
+            test = [=](const StoryBox& e, const StoryBox& other) {
+                return compare(std::abs(measure.distance(e, other)));
+            };
         return [test, to = *target, &s = story](const RunEntity& e, int step) {
             const auto other = to(s.at(step));
             return other && test(StoryBox::of(e, s.at(step)), *other);
@@ -239,7 +255,8 @@ struct ConditionReader {
         std::string what;
         if (const auto value = element.child("ByValueCondition"); value && !value->children().empty()) {
             what = value->children()[0].name();
-            if (const auto made = by_value(value->children()[0])) return [test = *made](int step, std::vector<RunEntity*>*) { return test(step); };
+            if (const auto made = by_value(value->children()[0]))
+                return [test = *made](int step, std::vector<RunEntity*>*) { return test(step); };
         } else if (const auto entities = element.child("ByEntityCondition")) {
             const auto inner = entities->child("EntityCondition");
             what = inner && !inner->children().empty() ? inner->children()[0].name() : "ByEntityCondition";
@@ -252,13 +269,18 @@ struct ConditionReader {
 
     TimedCondition timed(const XmlElement& element) {
         using Edge = TimedCondition::Edge;
-        static const std::map<std::string, Edge> kEdges{{"none", Edge::None}, {"rising", Edge::Rising}, {"falling", Edge::Falling}, {"risingOrFalling", Edge::Both}};
+        static const std::map<std::string, Edge> kEdges{{"none", Edge::None},
+                                                        {"rising", Edge::Rising},
+                                                        {"falling", Edge::Falling},
+                                                        {"risingOrFalling", Edge::Both}};
         story.ask(1);
         TimedCondition made{plain(element), number_in(element, "delay", scope, 0)};
         if (made.delay < 0) story.note(element.place() + ": a delay below 0 counts as none"), made.delay = 0;
         const std::string name = resolved(element, "conditionEdge", scope).value_or("none");
         const auto edge = kEdges.find(name);
-        if (edge == kEdges.end()) story.note(element.place() + ": conditionEdge '" + name + "' is none of OpenSCENARIO's: it counts as 'none'");
+        if (edge == kEdges.end())
+            story.note(element.place() + ": conditionEdge '" + name +
+                       "' is none of OpenSCENARIO's: it counts as 'none'");
         if (edge != kEdges.end()) made.edge = edge->second;
         return made;
     }

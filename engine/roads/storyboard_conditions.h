@@ -55,12 +55,12 @@ struct TimedCondition {
     std::function<bool(int step, std::vector<RunEntity*>* triggering)> test;
     double delay = 0;  ///< s
     Edge edge = Edge::None;
-    bool asked = false, before = false;            ///< since the beginning; the answer before
-    std::optional<bool> said{};                    ///< last, the edge considered
-    bool settled = false;                          ///< `delay` ago
-    std::vector<int> changes{};                    ///< steps at which it changed what it says
-    size_t next = 0;                               ///< of these, not `delay` old
-    std::vector<RunEntity*> triggering{};          ///< of which it held last
+    bool asked = false, before = false;    ///< since the beginning; the answer before
+    std::optional<bool> said{};            ///< last, the edge considered
+    bool settled = false;                  ///< `delay` ago
+    std::vector<int> changes{};            ///< steps at which it changed what it says
+    size_t next = 0;                       ///< of these, not `delay` old
+    std::vector<RunEntity*> triggering{};  ///< of which it held last
 
     bool holds(int step, const StoryTime& story, bool select);
 };
@@ -79,6 +79,7 @@ struct Trigger {
 };
 
 /// A missing trigger always holds.
-Trigger trigger_of(const std::optional<XmlElement>& trigger, const Parameters& scope, StoryTime& story, bool without = true);
+Trigger trigger_of(const std::optional<XmlElement>& trigger, const Parameters& scope, StoryTime& story,
+                   bool without = true);
 
 }  // namespace vesper::roads

@@ -14,7 +14,8 @@ size_t StoryElements::add(ElementKind kind, const XmlElement& element, const std
     if (entries_.size() >= kMaxElements)
         element.fail("the storyboard has more than " + std::to_string(kMaxElements) + " elements");
     std::string path = above == kNone ? name : entries_[above].path + "::" + name;
-    if (path.size() > StoryElements::kMaxPath) element.fail("its name and those around it are longer than " + std::to_string(StoryElements::kMaxPath));
+    if (path.size() > StoryElements::kMaxPath)
+        element.fail("its name and those around it are longer than " + std::to_string(StoryElements::kMaxPath));
     entries_.push_back({kind, std::move(path)});
     return entries_.size() - 1;
 }

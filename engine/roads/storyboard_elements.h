@@ -24,7 +24,10 @@ public:
     ElementState& operator[](size_t index) { return entries_[index].state; }
     size_t size() const { return entries_.size(); }
 
-    void start(size_t index, int step) { entries_[index].state = {ElementState::Is::Running, step, entries_[index].state.ended, entries_[index].state.skipped}; }
+    void start(size_t index, int step) {
+        entries_[index].state = {ElementState::Is::Running, step, entries_[index].state.ended,
+                                 entries_[index].state.skipped};
+    }
     void end(size_t index, int step, bool once_more = false) {
         entries_[index].state.is = once_more ? ElementState::Is::Standby : ElementState::Is::Complete;
         entries_[index].state.ended = step;

@@ -12,7 +12,8 @@ namespace {
 /// m between two boxes along a direction, 0 where they overlap; negative where `to` lies against it.
 double gap_along(glm::dvec2 direction, const StoryBox& from, const StoryBox& to) {
     const auto reach = [&](const StoryBox& box) {
-        return box.half.x * std::abs(glm::dot(box.ahead, direction)) + box.half.y * std::abs(glm::dot(box.left(), direction));
+        return box.half.x * std::abs(glm::dot(box.ahead, direction)) +
+               box.half.y * std::abs(glm::dot(box.left(), direction));
     };
     const double apart = glm::dot(to.centre - from.centre, direction);
     return std::copysign(std::max(0.0, std::abs(apart) - reach(from) - reach(to)), apart);
@@ -23,7 +24,8 @@ double from_corners(const StoryBox& corners, const StoryBox& box) {
     double least = HUGE_VAL;
     for (const double x : {-1.0, 1.0})
         for (const double y : {-1.0, 1.0}) {
-            const glm::dvec2 corner = corners.centre + corners.ahead * (x * corners.half.x) + corners.left() * (y * corners.half.y);
+            const glm::dvec2 corner =
+                corners.centre + corners.ahead * (x * corners.half.x) + corners.left() * (y * corners.half.y);
             const glm::dvec2 from = corner - box.centre;
             least = std::min(least, std::hypot(std::max(0.0, std::abs(glm::dot(from, box.ahead)) - box.half.x),
                                                std::max(0.0, std::abs(glm::dot(from, box.left())) - box.half.y)));
@@ -66,7 +68,8 @@ double Measure::distance(const StoryBox& from, const StoryBox& to) const {
     return std::copysign(free_space ? free_distance(from, to) : glm::distance(from.reference, to.reference), ahead);
 }
 
-Measure measure_of(const XmlElement& element, const Parameters& scope, StoryTime& story, std::optional<Measure::Along> fixed) {
+Measure measure_of(const XmlElement& element, const Parameters& scope, StoryTime& story,
+                   std::optional<Measure::Along> fixed) {
     Measure measure{.free_space = flag_in(element, "freespace", scope)};
     const std::string type = resolved(element, "relativeDistanceType", scope).value_or("euclidianDistance"),
                       frame = resolved(element, "coordinateSystem", scope).value_or("entity");

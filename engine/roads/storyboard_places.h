@@ -28,7 +28,8 @@ struct Measure {
 };
 
 /// The measure of relativeDistanceType (unless `fixed`), coordinateSystem and freespace. Unsupported ones give a note.
-Measure measure_of(const XmlElement& element, const Parameters& scope, StoryTime& story, std::optional<Measure::Along> fixed = std::nullopt);
+Measure measure_of(const XmlElement& element, const Parameters& scope, StoryTime& story,
+                   std::optional<Measure::Along> fixed = std::nullopt);
 
 /// A world, lane or road position in the file's frame, of the child Position or the element itself.
 std::optional<glm::dvec3> position_of(const XmlElement& holder, const Parameters& scope, const StoryTime& story);

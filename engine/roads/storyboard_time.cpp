@@ -33,7 +33,8 @@ void StoryTime::find_places() {
     for (const XmlElement& each : scenario.root().children_of("Entities", "EntitySelection")) {
         std::vector<RunEntity*> selected;
         const auto take = [&](const std::vector<RunEntity*>& more) {
-            if ((members += more.size()) > kMaxMembers) each.fail("selections have more than " + std::to_string(kMaxMembers) + " members");
+            if ((members += more.size()) > kMaxMembers)
+                each.fail("selections have more than " + std::to_string(kMaxMembers) + " members");
             selected.insert(selected.end(), more.begin(), more.end());
         };
         for (const XmlElement& held : each.children("Members")) {
@@ -68,22 +69,27 @@ void StoryTime::find_references() {
         const auto [first, count] = elements.find(each.kind, each.name);
         *each.index = first;
         if (count == 0) note(each.place + ": there is no element '" + each.name + "': it never holds");
-        if (count > 1) note(each.place + ": " + std::to_string(count) + " elements are called '" + each.name + "': the first counts");
+        if (count > 1)
+            note(each.place + ": " + std::to_string(count) + " elements are called '" + each.name +
+                 "': the first counts");
     }
 }
 
 void StoryTime::ask(size_t more) {
     questions += more;
     const double asked = static_cast<double>(elements.size() + questions) * static_cast<double>(times.size());
-    if (asked > kMaxWork || questions > kMaxQuestions) storyboard.fail("too many elements and conditions for so long a run");
+    if (asked > kMaxWork || questions > kMaxQuestions)
+        storyboard.fail("too many elements and conditions for so long a run");
 }
 
 void StoryTime::keep() {
-    if (++kept > kMaxChanges) storyboard.fail("changes lamps and signals more than " + std::to_string(kMaxChanges) + " times");
+    if (++kept > kMaxChanges)
+        storyboard.fail("changes lamps and signals more than " + std::to_string(kMaxChanges) + " times");
 }
 
 void StoryTime::note(const std::string& what) {
-    if (notes.size() < kMaxStoryNotes && std::find(notes.begin(), notes.end(), what) == notes.end()) notes.push_back(what);
+    if (notes.size() < kMaxStoryNotes && std::find(notes.begin(), notes.end(), what) == notes.end())
+        notes.push_back(what);
 }
 
 void each_once(std::vector<RunEntity*>& entities) {
@@ -130,7 +136,8 @@ bool Trigger::holds(int step, const StoryTime& story) {
 
 void Trigger::forget() {
     for (std::vector<TimedCondition>& group : groups)
-        for (TimedCondition& each : group) each.changes.clear(), each.next = 0, each.said.reset(), each.settled = false, each.asked = false;
+        for (TimedCondition& each : group)
+            each.changes.clear(), each.next = 0, each.said.reset(), each.settled = false, each.asked = false;
 }
 
 }  // namespace vesper::roads

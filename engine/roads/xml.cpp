@@ -21,7 +21,7 @@ std::string_view local_part(std::string_view name) {
 struct Encoding {
     bool low_first, high_first;
     explicit Encoding(std::string_view text) {
-        const auto begins = [&](const char (&with)[3]) { return text.starts_with(std::string_view(with, 2)); };
+        const auto begins = [&](const char(&with)[3]) { return text.starts_with(std::string_view(with, 2)); };
         low_first = begins("\xFF\xFE") || begins("<\0"), high_first = begins("\xFE\xFF") || begins("\0<");
     }
     bool is_utf8() const { return !low_first && !high_first; }
@@ -57,27 +57,33 @@ pugi::xml_node next_in(pugi::xml_node root, pugi::xml_node node) {
 
 XmlFile::XmlFile(std::string_view text, const std::string& name) : name_(one_line(name)) {
     line_starts_ = line_starts_of(text);
-    const auto refuse = [&](ptrdiff_t offset, const std::string& reason) { throw Error(name_ + ":" + std::to_string(line_of(offset)) + ": is no XML: " + reason); };
-    const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
+    const auto refuse = [&](ptrdiff_t offset, const std::string& reason) {
+        throw Error(name_ + ":" + std::to_string(line_of(offset)) + ": is no XML: " + reason);
+    };
+    const pugi::xml_parse_result result =
+        document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
     if (!result) {
         std::string reason = result.description();
         if (!reason.empty()) reason = lower(reason.substr(0, 1)) + reason.substr(1);
         refuse(result.offset, reason);
     }
     // What the parser lets pass (XML 1.0, 2.1, 2.2 and 3.1). Of a fragment it keeps text beside the root.
-    if (const size_t nul = text.find('\0'); Encoding(text).is_utf8() && nul != text.npos) refuse(static_cast<ptrdiff_t>(nul), "a NUL");
+    if (const size_t nul = text.find('\0'); Encoding(text).is_utf8() && nul != text.npos)
+        refuse(static_cast<ptrdiff_t>(nul), "a NUL");
     const pugi::xml_node root = document_.document_element();
     if (!root) refuse(0, "no document element found");
     for (const pugi::xml_node node : document_.children()) {
         if (node.type() == pugi::node_element && node != root) refuse(node.offset_debug(), "a second root");
-        if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) refuse(node.offset_debug(), "text beside the root");
+        if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata)
+            refuse(node.offset_debug(), "text beside the root");
     }
     std::vector<std::string_view> names;
     for (pugi::xml_node node = root; node; node = next_in(root, node)) {
         names.clear();
         for (const pugi::xml_attribute attribute : node.attributes()) names.emplace_back(attribute.name());
         std::sort(names.begin(), names.end());
-        if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end()) refuse(node.offset_debug(), "the attribute " + vesper::quoted(std::string(*twice)) + " is there twice");
+        if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end())
+            refuse(node.offset_debug(), "the attribute " + vesper::quoted(std::string(*twice)) + " is there twice");
     }
 }
 

@@ -30,7 +30,8 @@ json block_of(const Conversion& conversion, const std::filesystem::path& input,
     json block = {{"version", 1}};
     block["transfer"] = {{"kind", p.transfer.kind == Transfer::Kind::Gamma ? "gamma" : "srgb"}};
     // 2.2f as a double has a long tail.
-    if (p.transfer.kind == Transfer::Kind::Gamma) block["transfer"]["gamma"] = std::round(double(p.transfer.gamma) * 1e4) / 1e4;
+    if (p.transfer.kind == Transfer::Kind::Gamma)
+        block["transfer"]["gamma"] = std::round(double(p.transfer.gamma) * 1e4) / 1e4;
     if (p.ambient) block["ambient"] = quantity_of("illuminance_lx", *p.ambient);
     if (p.sky) block["sky"] = quantity_of("luminance_cd_m2", *p.sky);
     if (!conversion.environment.is_null()) block["environment"] = conversion.environment;
@@ -106,10 +107,12 @@ namespace {
 void check_count(const Conversion& conversion, const std::filesystem::path& photometry) {
     size_t placed = conversion.photometry.directional.size();
     for (const auto& nodes : conversion.lamp_nodes)
-        placed += static_cast<size_t>(std::count_if(nodes.begin(), nodes.end(), [&](uint32_t node) { return conversion.original.node_of[node] != kNone; }));
+        placed += static_cast<size_t>(std::count_if(
+            nodes.begin(), nodes.end(), [&](uint32_t node) { return conversion.original.node_of[node] != kNone; }));
     const size_t most = conversion.original.limits.lamps;
     if (placed > most)
-        throw Error(one_line(photometry.string()) + ": /lamps: " + std::to_string(placed) + " lamps, more than the limit of " + std::to_string(most));
+        throw Error(one_line(photometry.string()) + ": /lamps: " + std::to_string(placed) +
+                    " lamps, more than the limit of " + std::to_string(most));
 }
 
 ConversionReport convert_checked(const std::filesystem::path& input, const std::filesystem::path& photometry,

@@ -11,7 +11,7 @@
 namespace vesper {
 namespace {
 
-constexpr double kHighestReflectance = 0.9;                  // fresh snow; plaster has 0.8
+constexpr double kHighestReflectance = 0.9;  // fresh snow; plaster has 0.8
 
 }  // namespace
 

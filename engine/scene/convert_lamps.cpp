@@ -185,7 +185,8 @@ void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& ref
 std::string seen(Lamp lamp, const Distribution& distribution) {
     if (!(lamp.opening.area() > 0)) return "";
     lamp.distribution = 0;
-    return ", " + decimal(axis_luminance(lamp, {&distribution, 1})) + " cd/m^2 over " + decimal(lamp.opening.area()) + " m^2";
+    return ", " + decimal(axis_luminance(lamp, {&distribution, 1})) + " cd/m^2 over " + decimal(lamp.opening.area()) +
+           " m^2";
 }
 
 std::string describe(const Conversion& conversion, const LampRule& rule, size_t nodes) {
@@ -193,9 +194,11 @@ std::string describe(const Conversion& conversion, const LampRule& rule, size_t 
     if (lamp.kind == Lamp::Kind::Measured) {
         const MeasuredLamp& measured = conversion.photometry.measured[lamp.distribution];
         return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + in_quotes(measured.file) +
-               (measured.mirror ? " mirrored, " : ", ") + decimal(lamp.intensity * largest_intensity(measured.distribution)) +
-               " cd at most, " + (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
-               decimal(lamp.intensity * luminous_flux(measured.distribution)) + " lm each" + seen(lamp, measured.distribution);
+               (measured.mirror ? " mirrored, " : ", ") +
+               decimal(lamp.intensity * largest_intensity(measured.distribution)) + " cd at most, " +
+               (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
+               decimal(lamp.intensity * luminous_flux(measured.distribution)) + " lm each" +
+               seen(lamp, measured.distribution);
     }
     const double degrees = 180 / std::numbers::pi;
     std::string lobe = "point";
@@ -219,12 +222,14 @@ void warn_of_instances(Conversion& conversion, const JsonValue& node, const Lamp
 bool is_symmetric(const Distribution& d) {
     const Distribution other = mirrored(d);
     const double limit = 1e-3 * largest_intensity(d);
-    return other.horizontal == d.horizontal && std::equal(d.candela.begin(), d.candela.end(), other.candela.begin(), other.candela.end(),
-                                                          [&](double a, double b) { return std::abs(a - b) <= limit; });
+    return other.horizontal == d.horizontal &&
+           std::equal(d.candela.begin(), d.candela.end(), other.candela.begin(), other.candela.end(),
+                      [&](double a, double b) { return std::abs(a - b) <= limit; });
 }
 
 /// A scale of negative determinant turns a beam for right-hand traffic into one for left-hand, which no lamp does.
-void warn_of_mirrors(Conversion& conversion, const LampRule& rule, const std::vector<uint32_t>& nodes, const std::vector<glm::dmat4>& world) {
+void warn_of_mirrors(Conversion& conversion, const LampRule& rule, const std::vector<uint32_t>& nodes,
+                     const std::vector<glm::dmat4>& world) {
     if (rule.lamp.kind != Lamp::Kind::Measured) return;
     const MeasuredLamp& lamp = conversion.photometry.measured[rule.lamp.distribution];
     if (lamp.mirror || is_symmetric(lamp.distribution)) return;
@@ -236,8 +241,12 @@ void warn_of_mirrors(Conversion& conversion, const LampRule& rule, const std::ve
         if (mirrored_nodes++ == 0) first = conversion.original.scene.nodes[placed].name;
     }
     if (mirrored_nodes > 0)
-        conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": node " + in_quotes(first) + (mirrored_nodes > 1 ? " and " + number_of(mirrored_nodes - 1, "other") : "") +
-                                             (mirrored_nodes > 1 ? " are" : " is") + " mirrored by a scale, and so is the distribution there: a rule of its own with \"mirror\": true undoes it");
+        conversion.report.warnings.push_back(
+            "lamp " + in_quotes(rule.name) + ": node " + in_quotes(first) +
+            (mirrored_nodes > 1 ? " and " + number_of(mirrored_nodes - 1, "other") : "") +
+            (mirrored_nodes > 1 ? " are" : " is") +
+            " mirrored by a scale, and so is the distribution there: a rule of its own with \"mirror\": true undoes "
+            "it");
 }
 
 }  // namespace

@@ -149,8 +149,10 @@ void note_marking(Conversion& conversion, const SurfaceRule& rule, const Materia
     const double reflectance = luminance(glm::min(glm::dvec3(original.base_colour) * rule.reflectance_scale, 1.0));
     const bool textured = original.base_colour_texture.image != kNone;
     if (!textured && reflectance > 0.995) return;
-    conversion.report.warnings.push_back("surface " + in_quotes(rule.name) + ": material " + in_quotes(original.name) + ": R_L is " + (textured ? "at most " : "") +
-                                         decimal(1000 * rule.retroreflector->coefficient.front() * reflectance) + " mcd/(m^2 lx): what is stated, times the base colour of " +
+    conversion.report.warnings.push_back("surface " + in_quotes(rule.name) + ": material " + in_quotes(original.name) +
+                                         ": R_L is " + (textured ? "at most " : "") +
+                                         decimal(1000 * rule.retroreflector->coefficient.front() * reflectance) +
+                                         " mcd/(m^2 lx): what is stated, times the base colour of " +
                                          decimal(reflectance) + (textured ? " and its texture" : ""));
 }
 
@@ -199,12 +201,14 @@ void convert_materials(Conversion& conversion) {
                 leave_to_lamp(conversion, material);
         }
         if (!emitting[r].empty() && !rule.lamps.empty())
-            conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " + count_of(emitting[r].size()) +
-                                                ", seen as the opening of lamp " + in_quotes(rule.lamps.front()) +
+            conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " +
+                                                count_of(emitting[r].size()) + ", seen as the opening of lamp " +
+                                                in_quotes(rule.lamps.front()) +
                                                 (rule.lamps.size() > 1 ? " and others" : ""));
         else if (!emitting[r].empty() && rule.picture != kNone)
-            conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " + count_of(emitting[r].size()) +
-                                                ", " + described_picture(conversion, rule));
+            conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " +
+                                                count_of(emitting[r].size()) + ", " +
+                                                described_picture(conversion, rule));
         else if (!emitting[r].empty())
             conversion.report.changes.push_back("emitter " + in_quotes(rule.name) + ": " +
                                                 count_of(emitting[r].size()) + ", " + decimal(rule.luminance) +
@@ -218,11 +222,14 @@ void convert_materials(Conversion& conversion) {
             set_roughness(conversion, rule, material, conversion.original.scene.materials[m]);
             if (rule.reflection_table)
                 conversion.roads.push_back(
-                    {{"material", m}, {"table", index_in(conversion.reflection_tables, json_of(*rule.reflection_table))}});
-            if (rule.retroreflector && rule.retroreflector->marking) note_marking(conversion, rule, conversion.original.scene.materials[m]);
+                    {{"material", m},
+                     {"table", index_in(conversion.reflection_tables, json_of(*rule.reflection_table))}});
+            if (rule.retroreflector && rule.retroreflector->marking)
+                note_marking(conversion, rule, conversion.original.scene.materials[m]);
             if (rule.retroreflector)
                 conversion.retroreflective.push_back(
-                    {{"material", m}, {"retroreflector", index_in(conversion.retroreflectors, json_of(*rule.retroreflector))}});
+                    {{"material", m},
+                     {"retroreflector", index_in(conversion.retroreflectors, json_of(*rule.retroreflector))}});
         }
         if (!surfaces[r].empty())
             conversion.report.changes.push_back(

@@ -18,10 +18,10 @@ constexpr double kReach = 1;        // m: a surface farther from a lamp than thi
 /// A lamp of a rule at a node of the scene.
 struct Placed {
     uint32_t node;
-    dvec3 position, axis;             // world; m, unit length
+    dvec3 position, axis;  // world; m, unit length
     struct Side {
         double area = 0, lamp = 0;  // emitting area, m^2, and its integral of luminance, cd
-    } front, back;                   // towards the axis and away from it
+    } front, back;                  // towards the axis and away from it
 };
 
 double axis_intensity(const Conversion& conversion, const LampRule& rule) {
@@ -32,7 +32,8 @@ double axis_intensity(const Conversion& conversion, const LampRule& rule) {
     return luminous_intensity(lamp, {&distribution, 1}, {0, 0, -1});
 }
 
-std::vector<Placed> reported_lamps(const Conversion& conversion, const std::vector<glm::dmat4>& world, size_t rule_index) {
+std::vector<Placed> reported_lamps(const Conversion& conversion, const std::vector<glm::dmat4>& world,
+                                   size_t rule_index) {
     const LampRule& rule = conversion.photometry.lamps[rule_index];
     const dvec3 aim = rule.turn ? *rule.turn * dvec3(0, 0, -1) : rule.aim.value_or(dvec3(0, 0, -1));
     std::vector<Placed> lamps;
@@ -99,10 +100,11 @@ void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_s
     }
 }
 
-std::string disagreement(const EmitterRule& emitter, const LampRule& lamp, double luminance, double intensity, double area) {
+std::string disagreement(const EmitterRule& emitter, const LampRule& lamp, double luminance, double intensity,
+                         double area) {
     return "emitter " + in_quotes(emitter.name) + ": " + decimal(luminance) + " cd/m^2 " +
-           (emitter.picture == kNone ? "given, " : "in the mean of its picture, ") +
-           decimal(intensity) + " cd of lamp " + in_quotes(lamp.name) + " over " + decimal(area) + " m^2 is " + decimal(intensity / area) +
+           (emitter.picture == kNone ? "given, " : "in the mean of its picture, ") + decimal(intensity) +
+           " cd of lamp " + in_quotes(lamp.name) + " over " + decimal(area) + " m^2 is " + decimal(intensity / area) +
            " cd/m^2 (" + deviation(intensity / area / luminance) + ")";
 }
 
@@ -133,18 +135,21 @@ std::vector<Bounds> pieces_of(const Primitive& primitive, const glm::dmat4& worl
     for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
         for (const size_t c : {i + 1, i + 2}) first[root(primitive.indices[c])] = root(primitive.indices[i]);
     std::map<uint32_t, Bounds> boxes;
-    for (const uint32_t v : primitive.indices) boxes[root(v)].add(glm::vec3(world * glm::dvec4(primitive.vertices[v].position, 1)));
+    for (const uint32_t v : primitive.indices)
+        boxes[root(v)].add(glm::vec3(world * glm::dvec4(primitive.vertices[v].position, 1)));
     std::vector<Bounds> pieces;
     for (const auto& [_, box] : boxes) pieces.push_back(box);
     return pieces;
 }
 
 /// Glass whose lamps are to show in it, but where none is: it is dark.
-void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining, const std::vector<glm::dmat4>& world) {
+void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining,
+               const std::vector<glm::dmat4>& world) {
     const Scene& scene = conversion.original.scene;
     std::vector<dvec3> lamps;
     for (size_t r = 0; r < conversion.photometry.lamps.size(); ++r)
-        if (std::find(emitter.lamps.begin(), emitter.lamps.end(), conversion.photometry.lamps[r].name) != emitter.lamps.end())
+        if (std::find(emitter.lamps.begin(), emitter.lamps.end(), conversion.photometry.lamps[r].name) !=
+            emitter.lamps.end())
             for (const Placed& lamp : reported_lamps(conversion, world, r)) lamps.push_back(lamp.position);
     size_t surfaces = 0, dark = 0;
     std::string first;
@@ -155,15 +160,19 @@ void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::ve
             for (const Bounds& box : pieces_of(p, world[node])) {
                 const dvec3 low(box.low), high(box.high);
                 ++surfaces;
-                if (std::any_of(lamps.begin(), lamps.end(), [&](dvec3 lamp) { return glm::distance(lamp, glm::clamp(lamp, low, high)) <= kReach; })) continue;
+                if (std::any_of(lamps.begin(), lamps.end(),
+                                [&](dvec3 lamp) { return glm::distance(lamp, glm::clamp(lamp, low, high)) <= kReach; }))
+                    continue;
                 if (dark++ == 0) first = scene.nodes[node].name;
             }
         }
     }
     if (dark > 0)
-        conversion.report.warnings.push_back("emitter " + in_quotes(emitter.name) + ": " + std::to_string(dark) + " of " + std::to_string(surfaces) +
-                                             (dark == 1 ? " surfaces has" : " surfaces have") + " no lamp " + in_quotes(emitter.lamps.front()) + " within " + decimal(kReach) + " m and " +
-                                             (dark == 1 ? "is" : "are") + " dark (node " + in_quotes(first) + ")");
+        conversion.report.warnings.push_back(
+            "emitter " + in_quotes(emitter.name) + ": " + std::to_string(dark) + " of " + std::to_string(surfaces) +
+            (dark == 1 ? " surfaces has" : " surfaces have") + " no lamp " + in_quotes(emitter.lamps.front()) +
+            " within " + decimal(kReach) + " m and " + (dark == 1 ? "is" : "are") + " dark (node " + in_quotes(first) +
+            ")");
 }
 
 /// One emitter against one lamp rule, by the meshes beside its lamps; one line for all nodes.
@@ -186,8 +195,8 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
         if (beside.empty()) continue;
         for (const Primitive& p : primitives)
             if (shines(p))
-                add_area(p, world[node], scene.materials[p.material].double_sided, emitter,
-                         means ? &*means : nullptr, beside);
+                add_area(p, world[node], scene.materials[p.material].double_sided, emitter, means ? &*means : nullptr,
+                         beside);
     }
     const double intensity = axis_intensity(conversion, rule);
     size_t glazed = 0, wrong = 0;
@@ -201,9 +210,9 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
         if (off > worst) worst = off, its_area = area, its_luminance = candela / area;
     }
     if (glazed > 0 && rule.lamp.opening.area() > 0)
-        conversion.report.warnings.push_back("emitter " + in_quotes(emitter.name) + ": lies where lamp " +
-                                             in_quotes(rule.name) + " shows its opening and would be seen twice: give it \"lamp\": \"" +
-                                             one_line(rule.name) + "\"");
+        conversion.report.warnings.push_back(
+            "emitter " + in_quotes(emitter.name) + ": lies where lamp " + in_quotes(rule.name) +
+            " shows its opening and would be seen twice: give it \"lamp\": \"" + one_line(rule.name) + "\"");
     if (wrong > 0)
         conversion.report.warnings.push_back(disagreement(emitter, rule, its_luminance, intensity, its_area) +
                                              (wrong > 1 ? ", the most of " + std::to_string(wrong) + " nodes" : ""));

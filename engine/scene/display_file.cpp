@@ -35,7 +35,8 @@ Primaries read_primaries(const JsonValue& value) {
         value.fail("is none of rec709, p3 and rec2020");
     }
     value.allow_only({"red", "green", "blue", "white"});
-    read = {read_xy(value.at("red")), read_xy(value.at("green")), read_xy(value.at("blue")), read_xy(value.at("white"))};
+    read = {read_xy(value.at("red")), read_xy(value.at("green")), read_xy(value.at("blue")),
+            read_xy(value.at("white"))};
     try {
         to_rec709(read);
     } catch (const Error& error) {
@@ -51,14 +52,17 @@ void read_table(Display& display, const JsonValue& value) {
     if (rows.size() < 2 || rows.size() > 4096) value.fail("must have 2 to 4096 measurements");
     for (size_t i = 0; i < rows.size(); ++i) {
         const auto pair = rows[i].elements(2);
-        if (const double code = pair[0].number(0, largest); code != std::floor(code)) pair[0].fail("must be a whole number, as codes are");
+        if (const double code = pair[0].number(0, largest); code != std::floor(code))
+            pair[0].fail("must be a whole number, as codes are");
         const DisplaySample sample{pair[0].number(0, largest) / largest, pair[1].number(0, 1e5)};
         if (i == 0 && sample.code != 0) pair[0].fail("must be 0, the first code");
         if (i > 0 && !(sample.code > display.table.back().code)) pair[0].fail("must be more than the code before");
-        if (i > 0 && !(sample.luminance > display.table.back().luminance)) pair[1].fail("must be more than the luminance before");
+        if (i > 0 && !(sample.luminance > display.table.back().luminance))
+            pair[1].fail("must be more than the luminance before");
         display.table.push_back(sample);
     }
-    if (display.table.back().code != 1) rows.back().fail("must be of the largest code, " + std::to_string(display.largest_code()));
+    if (display.table.back().code != 1)
+        rows.back().fail("must be of the largest code, " + std::to_string(display.largest_code()));
     double& black = display.table.front().luminance;
     if (black < kLeastBlack && display.table[1].luminance > kLeastBlack) black = kLeastBlack;
     display.black = float(black);
@@ -70,7 +74,8 @@ void read_table(Display& display, const JsonValue& value) {
 Display read_display(const std::filesystem::path& file) {
     const JsonFile json = parse_json(read_file(file, kMaxProfileBytes), file.string());
     const JsonValue root(json);
-    root.allow_only({"$schema", "version", "name", "peak_cd_m2", "black_cd_m2", "eotf", "gamma", "table", "bits", "primaries", "ambient_lx", "reflection"});
+    root.allow_only({"$schema", "version", "name", "peak_cd_m2", "black_cd_m2", "eotf", "gamma", "table", "bits",
+                     "primaries", "ambient_lx", "reflection"});
     const JsonValue version = root.at("version");
     if (version.integer() != 1) version.fail("must be 1: this program knows no other");
     Display display;
@@ -107,7 +112,8 @@ Display find_display(const std::string& name_or_file) {
     for (const NamedDisplay& known : known_displays())
         if (name_or_file == known.name) return known.display;
     if (name_or_file.ends_with(".json")) return read_display(name_or_file);
-    throw Error("display '" + one_line(name_or_file, 100) + "': is none of " + known_display_names() + ", nor a .json file");
+    throw Error("display '" + one_line(name_or_file, 100) + "': is none of " + known_display_names() +
+                ", nor a .json file");
 }
 
 std::string display_json(const Display& display, const std::string& name) {

@@ -32,7 +32,8 @@ void check_unused(GltfReader& reader) {
         if (document.has_bytes(document.list("bufferViews")[i].at("buffer").index(buffers, "buffers")))
             document.view(i);
     for (uint32_t i = 0; i < document.list("meshes").size(); ++i)
-        if (const auto read = reader.meshes.lower_bound({i, 0, {}}); read == reader.meshes.end() || std::get<0>(read->first) != i)
+        if (const auto read = reader.meshes.lower_bound({i, 0, {}});
+            read == reader.meshes.end() || std::get<0>(read->first) != i)
             check_mesh(reader, i);
 }
 

@@ -59,7 +59,8 @@ void read_channel(GltfReader& reader, const GltfPart<tinygltf::Animation>& anima
     if (!path) return;
     const auto index = static_cast<uint32_t>(source.target_node), moved = reader.node_of[index];
     if (moved == kNone) return;  // not in this scene
-    if (reader.skinned.contains(index) && reader.scene.nodes[moved].mesh != kNone) return;  // its joints say where it is
+    if (reader.skinned.contains(index) && reader.scene.nodes[moved].mesh != kNone)
+        return;  // its joints say where it is
     if (reader.scene.nodes[moved].matrix) {
         reader.notes.add("the animation of a node that has a matrix is left out");
         return;

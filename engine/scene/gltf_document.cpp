@@ -160,7 +160,8 @@ std::span<const uint8_t> GltfDocument::buffer(uint32_t index) {
         if (!has_bytes(index)) {
             const auto extensions = buffer.find("extensions");
             for (const char* compression : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-                if (extensions && extensions->find(compression)) buffer.fail("has no bytes but those of " + std::string(compression) + ", which is not read");
+                if (extensions && extensions->find(compression))
+                    buffer.fail("has no bytes but those of " + std::string(compression) + ", which is not read");
             buffer.fail("has neither a uri nor a binary chunk to lie in");
         }
         bytes = binary_chunk_;
@@ -183,7 +184,8 @@ std::span<const uint8_t> GltfDocument::view(uint32_t index) {
 void GltfDocument::take_unwritten(const JsonValue& accessor, uint64_t count) {
     const uint64_t limit = limits_.vertices / 50;  // a file of a few bytes should not take gigabytes
     if (count > limit - unwritten_)
-        accessor.fail("has no buffer view: its " + std::to_string(count) + " elements take those that the file does not hold over the limit of " + std::to_string(limit));
+        accessor.fail("has no buffer view: its " + std::to_string(count) +
+                      " elements take those that the file does not hold over the limit of " + std::to_string(limit));
     unwritten_ += count;
 }
 

@@ -55,7 +55,9 @@ Lamp read_light(GltfReader& reader, const JsonValue& source) {
     if (const auto spot = source.find("spot"); spot && lamp.kind == Lamp::Kind::Spot) {
         read_cones(lamp, *spot);
         constexpr double kNarrow = 0.5 * std::numbers::pi / 180;
-        if (lamp.outer_cone < kNarrow) reader.notes.add("a spot light of less than 0.5 degrees to either side gives more light than it says, and wider");
+        if (lamp.outer_cone < kNarrow)
+            reader.notes.add(
+                "a spot light of less than 0.5 degrees to either side gives more light than it says, and wider");
     }
     if (source.find("range")) reader.notes.add("the range of a light is ignored: light follows the square law");
     return lamp;
@@ -120,8 +122,8 @@ void read_photometry_block(GltfReader& reader) {
     if (version.integer() != 1)
         version.fail("vesper extras of version " + std::to_string(version.integer()) +
                      ": this program reads version 1");
-    block->allow_only({"version", "transfer", "ambient", "sky", "environment", "lobes", "openings", "reflection_tables", "roads",
-                       "retroreflectors", "retroreflective", "luminance_pictures", "luminous", "provenance"});
+    block->allow_only({"version", "transfer", "ambient", "sky", "environment", "lobes", "openings", "reflection_tables",
+                       "roads", "retroreflectors", "retroreflective", "luminance_pictures", "luminous", "provenance"});
     if (const auto transfer = block->find("transfer")) {
         transfer->allow_only({"kind", "gamma"});
         const std::string& kind = transfer->at("kind").text();

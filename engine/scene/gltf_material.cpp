@@ -125,7 +125,8 @@ void read_metallic_roughness(GltfReader& reader, Properties& p) {
         p.made.metallic_roughness_texture = read_texture(reader, *texture, p.roughness_uv);
 }
 
-/// KHR_materials_pbrSpecularGlossiness: the diffuse part is what we keep, less what is reflected before it: c_diff = diffuse (1 - max(specular)).
+/// KHR_materials_pbrSpecularGlossiness: the diffuse part is what we keep, less what is reflected before it: c_diff =
+/// diffuse (1 - max(specular)).
 void read_specular_glossiness(GltfReader& reader, const JsonValue& model, Properties& p) {
     p.made.base_colour = glm::vec4(1);
     p.made.base_colour_texture = p.made.metallic_roughness_texture = {};
@@ -178,7 +179,8 @@ void read_alpha(GltfReader& reader, Properties& p) {
     const std::string mode = p.material->alphaMode;
     p.made.double_sided = p.material->doubleSided;
     if (mode == "OPAQUE") return;
-    if (mode != "MASK" && mode != "BLEND") return reader.notes.add("an alpha mode that glTF does not have is read as OPAQUE");
+    if (mode != "MASK" && mode != "BLEND")
+        return reader.notes.add("an alpha mode that glTF does not have is read as OPAQUE");
     if (mode == "BLEND" && p.made.emission != glm::vec3(0)) {
         // The glass of a lamp must not vanish while it shines.
         reader.notes.add("a material of alpha mode BLEND that emits is drawn opaque");

@@ -149,7 +149,8 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const GltfPart<tinyg
     if (source->material >= 0)
         made.material = static_cast<uint32_t>(source->material);
     else
-        made.material = default_material(reader), reader.notes.add("a primitive without material is shown matt grey, of reflectance 0.5");
+        made.material = default_material(reader),
+        reader.notes.add("a primitive without material is shown matt grey, of reflectance 0.5");
     made.vertices = read_positions(reader, source, position->second, pose.weights);
     const size_t count = made.vertices.size();
     made.indices = triangles(reader, read_corners(reader, source, count), mode);

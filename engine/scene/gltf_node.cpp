@@ -168,7 +168,10 @@ void read_node(GltfReader& reader, uint32_t index, uint32_t parent, const std::v
     const auto mesh = static_cast<uint32_t>(source->mesh);  // of a node without one kNone, as it is -1
     const bool has_skin = mesh != kNone && source->skin >= 0,
                skinned = has_skin && !instancing && hangs_on_joints(reader, mesh);
-    if (has_skin) reader.notes.add(skinned ? "a node with a skin is shown at rest" : "a node with a skin, but instances or a mesh without joints, is shown as it is modelled");
+    if (has_skin)
+        reader.notes.add(
+            skinned ? "a node with a skin is shown at rest"
+                    : "a node with a skin, but instances or a mesh without joints, is shown as it is modelled");
     if (skinned)
         reader.skinned.insert(index);
     else if (mesh != kNone)
@@ -182,7 +185,9 @@ void read_node(GltfReader& reader, uint32_t index, uint32_t parent, const std::v
     Node second;  // a node has one light: a measured one beside another becomes a child's
     if (extensions) {
         if (const auto lamp = extensions->find("KHR_lights_punctual"))
-            if (const uint32_t used = lamp->at("light").index(reader.punctual_lights, "lights"); !reader.unknown_lights.contains(used)) node.lamp = used;
+            if (const uint32_t used = lamp->at("light").index(reader.punctual_lights, "lights");
+                !reader.unknown_lights.contains(used))
+                node.lamp = used;
         if (const auto lamp = extensions->find("EXT_lights_ies"))
             (node.lamp == kNone ? node : second).lamp = read_measured_light(reader, *lamp);
     }
@@ -204,12 +209,15 @@ void read_node(GltfReader& reader, uint32_t index, uint32_t parent, const std::v
 void check_drawn(const GltfReader& reader) {
     std::vector<uint64_t> triangles(reader.scene.meshes.size());
     for (size_t i = 0; i < triangles.size(); ++i)
-        for (const Primitive& primitive : reader.scene.meshes[i].primitives) triangles[i] += primitive.indices.size() / 3;
+        for (const Primitive& primitive : reader.scene.meshes[i].primitives)
+            triangles[i] += primitive.indices.size() / 3;
     uint64_t drawn = 0;
     for (const Node& node : reader.scene.nodes)
         if (node.mesh != kNone) drawn += triangles[node.mesh];
     const uint64_t limit = reader.limits.indices / 3 * 10;  // triangles, those of meshes ten times
-    if (drawn > limit) reader.document.root().at("nodes").fail("show " + std::to_string(drawn) + " triangles together, more than the limit of " + std::to_string(limit));
+    if (drawn > limit)
+        reader.document.root().at("nodes").fail("show " + std::to_string(drawn) +
+                                                " triangles together, more than the limit of " + std::to_string(limit));
 }
 
 }  // namespace

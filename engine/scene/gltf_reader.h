@@ -63,11 +63,11 @@ struct GltfReader {
     std::map<std::tuple<uint32_t, uint32_t, std::vector<float>>, uint32_t> meshes{};
     std::map<uint32_t, bool> jointed{};  ///< see hangs_on_joints
     std::set<uint32_t> skinned{};        ///< nodes of the file whose mesh a skin puts in place
-    bool photometric = false;  ///< there is an extras block
+    bool photometric = false;            ///< there is an extras block
     uint32_t default_material = kNone;
     std::map<uint32_t, glm::dvec4> specular_means{};  ///< of pictures that specularGlossinessTextures name
-    std::set<uint32_t> unknown_lights{};  ///< of a type that glTF does not have: no node shows them
-    uint32_t punctual_lights = 0;  ///< those of KHR_lights_punctual, the first of the scene's
+    std::set<uint32_t> unknown_lights{};              ///< of a type that glTF does not have: no node shows them
+    uint32_t punctual_lights = 0;                     ///< those of KHR_lights_punctual, the first of the scene's
     /// Scene light of a distribution, with its multiplier and colour.
     std::map<std::tuple<uint32_t, float, float, float, float>, uint32_t> measured_lights{};
     std::vector<LuminousOpening> profile_openings{};  ///< of distributions, from the extras block; may be shorter
@@ -120,7 +120,8 @@ void read_retroreflectors(GltfReader& reader, const JsonValue& block);
 void read_luminance_pictures(GltfReader& reader, const JsonValue& block);
 /// Throws for a primitive without texture coordinates whose material shows such a picture. Other textures are then read
 /// at (0, 0); a luminance would be arbitrary.
-void check_needs_no_uv(const GltfReader& reader, uint32_t material, const JsonValue& attributes, const std::string& set);
+void check_needs_no_uv(const GltfReader& reader, uint32_t material, const JsonValue& attributes,
+                       const std::string& set);
 /// "environment".
 void read_environment(GltfReader& reader, const JsonValue& source);
 

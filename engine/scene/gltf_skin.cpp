@@ -15,7 +15,8 @@ constexpr uint32_t kMostSets = 4;  // of four joints each: exporters write one o
 /// The node tree of the file, as skins go up and down in it.
 class JointTree {
 public:
-    JointTree(GltfReader& reader, const std::vector<uint32_t>& parents) : reader_(reader), parents_(parents), depth_(parents.size(), kNone) {}
+    JointTree(GltfReader& reader, const std::vector<uint32_t>& parents)
+        : reader_(reader), parents_(parents), depth_(parents.size(), kNone) {}
 
     uint32_t parent(uint32_t node) const { return parents_[node]; }
 
@@ -51,7 +52,8 @@ private:
     }
     /// Any number of joints may stand as deep as there are nodes.
     void step(const JsonValue& skin) {
-        if (++steps_ / 100 > reader_.limits.nodes) skin.fail("the joints of the skins together stand too deep in the node tree");
+        if (++steps_ / 100 > reader_.limits.nodes)
+            skin.fail("the joints of the skins together stand too deep in the node tree");
     }
 
     GltfReader& reader_;
@@ -75,19 +77,22 @@ std::vector<glm::dmat4> inverse_bind(GltfReader& reader, const GltfPart<tinygltf
         for (size_t k = 0; k < 16; ++k) {
             const double value = matrices[i][k];
             if (!std::isfinite(value)) reference.fail("matrix " + std::to_string(i) + " is not finite");
-            if (k % 4 != 3) made[i][static_cast<int>(k / 4)][static_cast<int>(k % 4)] = value;  // the last row is 0 0 0 1
+            if (k % 4 != 3)
+                made[i][static_cast<int>(k / 4)][static_cast<int>(k % 4)] = value;  // the last row is 0 0 0 1
         }
     return made;
 }
 
-/// The frame is that of the deepest node above all joints: what moves it, by name or by keys, moves the mesh; what moves joints does not.
+/// The frame is that of the deepest node above all joints: what moves it, by name or by keys, moves the mesh; what
+/// moves joints does not.
 Skin read_skin(GltfReader& reader, const GltfPart<tinygltf::Skin>& source, JointTree& tree) {
     const std::vector<uint32_t> joints(source->joints.begin(), source->joints.end());
     if (joints.empty()) source.json.fail("has no joints for the mesh that it is to put in place");
     Skin skin{.frame = joints.front(), .joints = inverse_bind(reader, source)};
     for (const uint32_t joint : joints) skin.frame = tree.common(source.json, skin.frame, joint);
     const std::set<uint32_t> all(joints.begin(), joints.end());
-    while (skin.frame != kNone && (all.contains(skin.frame) || reader.node_of[skin.frame] == kNone)) skin.frame = tree.parent(skin.frame);
+    while (skin.frame != kNone && (all.contains(skin.frame) || reader.node_of[skin.frame] == kNone))
+        skin.frame = tree.parent(skin.frame);
     std::map<uint32_t, glm::dmat4> known;
     for (size_t i = 0; i < joints.size(); ++i)
         skin.joints[i] = tree.relative(source.json, joints[i], skin.frame, known) * skin.joints[i];
@@ -167,7 +172,8 @@ void bend(GltfReader& reader, const GltfPart<tinygltf::Primitive>& source, const
         const auto joint = [&](const Weighed& set, size_t c) -> const glm::dmat4& {
             const float index = set.joints[i][c];
             if (!(index >= 0 && index < static_cast<float>(skin.joints.size())))
-                attributes.fail("vertex " + std::to_string(i) + " hangs on a joint that is none of the skin's " + std::to_string(skin.joints.size()));
+                attributes.fail("vertex " + std::to_string(i) + " hangs on a joint that is none of the skin's " +
+                                std::to_string(skin.joints.size()));
             return skin.joints[static_cast<size_t>(index)];
         };
         glm::dmat4 sum(0);
@@ -182,7 +188,8 @@ void bend(GltfReader& reader, const GltfPart<tinygltf::Primitive>& source, const
         Vertex& vertex = primitive.vertices[i];
         vertex.position = glm::vec3(m * glm::dvec4(glm::dvec3(vertex.position), 1));
         for (int c = 0; c < 3; ++c)
-            if (!std::isfinite(vertex.position[c])) attributes.fail("vertex " + std::to_string(i) + " is put at no finite place by its joints");
+            if (!std::isfinite(vertex.position[c]))
+                attributes.fail("vertex " + std::to_string(i) + " is put at no finite place by its joints");
         // Normals go by the cofactors, as in gbuffer.vert: outward stays outward also where joints mirror.
         const glm::dvec3 x(m[0]), y(m[1]), z(m[2]), n(vertex.normal);
         const glm::dvec3 turned = n.x * glm::cross(y, z) + n.y * glm::cross(z, x) + n.z * glm::cross(x, y);
@@ -191,7 +198,8 @@ void bend(GltfReader& reader, const GltfPart<tinygltf::Primitive>& source, const
         if (length > 0 && std::isfinite(length)) vertex.normal = glm::vec3((mirrored[i] ? -turned : turned) / length);
     }
     for (size_t i = 0; i < primitive.indices.size(); i += 3)
-        if (mirrored[primitive.indices[i]] + mirrored[primitive.indices[i + 1]] + mirrored[primitive.indices[i + 2]] > 1)
+        if (mirrored[primitive.indices[i]] + mirrored[primitive.indices[i + 1]] + mirrored[primitive.indices[i + 2]] >
+            1)
             std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
 }
 

@@ -15,7 +15,7 @@ using nlohmann::json;
 /// What lies outside the document, or in data URIs, in memory.
 struct Parts {
     std::vector<std::optional<std::span<const uint8_t>>> buffers;  ///< nothing: a placeholder, which stays one
-    std::vector<std::vector<uint8_t>> images;                      ///< empty where the picture lies in a buffer view, or nowhere
+    std::vector<std::vector<uint8_t>> images;  ///< empty where the picture lies in a buffer view, or nowhere
 };
 
 Parts collect(GltfDocument& document, std::vector<std::string>& warnings) {
@@ -30,19 +30,23 @@ Parts collect(GltfDocument& document, std::vector<std::string>& warnings) {
             } catch (const OutOfHostMemory&) {
                 throw;
             } catch (const Error& error) {  // nothing that is read shows it: the document was read before
-                warnings.push_back(std::string(error.what()) + "; nothing shown needs it, and the output names it as before");
+                warnings.push_back(std::string(error.what()) +
+                                   "; nothing shown needs it, and the output names it as before");
             }
     return parts;
 }
 
-/// What views and buffers say of compressed bytes beside them would be wrong where buffers are put together; nobody needs it, since the
-/// document could be read.
+/// What views and buffers say of compressed bytes beside them would be wrong where buffers are put together; nobody
+/// needs it, since the document could be read.
 void drop_compression(json& root) {
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         for (const char* list : {"bufferViews", "buffers"}) {
             if (!root.contains(list)) continue;
             for (json& one : root[list])
-                if (const auto extensions = one.find("extensions"); extensions != one.end() && extensions->is_object() && extensions->erase(name) > 0 && extensions->empty()) one.erase("extensions");
+                if (const auto extensions = one.find("extensions"); extensions != one.end() &&
+                                                                    extensions->is_object() &&
+                                                                    extensions->erase(name) > 0 && extensions->empty())
+                    one.erase("extensions");
         }
         if (const auto used = root.find("extensionsUsed"); used != root.end()) {
             used->erase(std::remove(used->begin(), used->end(), json(name)), used->end());

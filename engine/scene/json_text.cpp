@@ -25,7 +25,8 @@ public:
         Level& object = levels_.back();
         object.key = name;
         if (!object.keys.insert(std::move(name)).second) fail("is there twice");
-        if (object.keys.size() > kMostKeys) fail("is beyond the " + std::to_string(kMostKeys) + " keys that an object may have");
+        if (object.keys.size() > kMostKeys)
+            fail("is beyond the " + std::to_string(kMostKeys) + " keys that an object may have");
         return true;
     }
     bool start_object(size_t) { return start(false); }
@@ -52,7 +53,8 @@ private:
 
     bool start(bool array) {
         count();
-        if (levels_.size() == kMostDepth) throw Error(file_ + ": JSON nested deeper than " + std::to_string(kMostDepth));
+        if (levels_.size() == kMostDepth)
+            throw Error(file_ + ": JSON nested deeper than " + std::to_string(kMostDepth));
         levels_.push_back({array, 0, {}, {}});
         return true;
     }
@@ -65,7 +67,8 @@ private:
         return step();
     }
     void count() {
-        if (++values_ > most_values_) throw Error(file_ + ": JSON of more than " + std::to_string(most_values_) + " values");
+        if (++values_ > most_values_)
+            throw Error(file_ + ": JSON of more than " + std::to_string(most_values_) + " values");
     }
     bool step() {
         if (!levels_.empty()) ++levels_.back().index;
@@ -74,7 +77,8 @@ private:
 
     [[noreturn]] void fail(const std::string& reason) const {
         std::string pointer;
-        for (const Level& level : levels_) pointer += "/" + (level.array ? std::to_string(level.index) : json_pointer_token(level.key));
+        for (const Level& level : levels_)
+            pointer += "/" + (level.array ? std::to_string(level.index) : json_pointer_token(level.key));
         throw Error(file_ + ": " + one_line(pointer) + ": " + reason);
     }
 
@@ -102,7 +106,8 @@ std::string json_pointer_key(std::string_view token) {
 }
 
 void check_json_text(std::span<const uint8_t> text, const std::string& file, uint64_t most_values) {
-    if (text.size() > 1 && ((text[0] == 0xff && text[1] == 0xfe) || (text[0] == 0xfe && text[1] == 0xff) || (text[0] == 0) != (text[1] == 0)))
+    if (text.size() > 1 && ((text[0] == 0xff && text[1] == 0xfe) || (text[0] == 0xfe && text[1] == 0xff) ||
+                            (text[0] == 0) != (text[1] == 0)))
         throw Error(file + ": is not valid JSON: it is no UTF-8, as it has to be, but looks like UTF-16");
     const auto nul = std::find(text.begin(), text.end(), uint8_t{0});
     if (std::any_of(nul, text.end(), [](uint8_t byte) { return byte != 0; }))

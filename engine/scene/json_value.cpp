@@ -30,7 +30,8 @@ std::optional<std::string> pointer_to(const nlohmann::json& here, const nlohmann
     return std::nullopt;
 }
 
-// nlohmann::json takes memory to go, and ends the program where there is none: so it goes empty. Depth is bounded by parse_json.
+// nlohmann::json takes memory to go, and ends the program where there is none: so it goes empty. Depth is bounded by
+// parse_json.
 void empty(nlohmann::json& value) noexcept {
     if (!value.is_structured()) return;
     for (nlohmann::json& member : value) empty(member);
@@ -48,7 +49,8 @@ JsonFile parse_json(std::span<const uint8_t> text, const std::string& name) {
         return JsonFile(file, nlohmann::json::parse(text.begin(), text.end()));
     } catch (const nlohmann::json::parse_error& error) {
         const bool encoding = std::string_view(error.what()).find("ill-formed UTF-8") != std::string_view::npos;
-        throw Error(file + ": byte " + std::to_string(error.byte) + ": not valid JSON" + (encoding ? ": is no UTF-8" : ""));
+        throw Error(file + ": byte " + std::to_string(error.byte) + ": not valid JSON" +
+                    (encoding ? ": is no UTF-8" : ""));
     } catch (const nlohmann::json::exception& error) {  // a number beyond double
         throw Error(file + ": not valid JSON: " + one_line(error.what()));
     }

@@ -58,8 +58,8 @@ namespace {
 void read_lobe(Lamp& lamp, const JsonValue& rule) {
     const JsonValue type = rule.at("type");
     if (type.text() == "point") {
-        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
-                         "opening"});
+        rule.allow_only(
+            {"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m", "opening"});
         lamp.kind = Lamp::Kind::Point;
     } else if (type.text() == "spot") {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
@@ -147,9 +147,11 @@ SurfaceRule read_surface(const JsonValue& source, const std::filesystem::path& f
         q0->fail("has a meaning only beside a reflection_table");
     if (rule.reflection_table)
         for (const char* key : {"reflectance_scale", "roughness", "metallic"})
-            if (const auto beside = source.find(key)) beside->fail("has no meaning beside reflection_table, which is the whole of a surface (q0 scales it)");
+            if (const auto beside = source.find(key))
+                beside->fail("has no meaning beside reflection_table, which is the whole of a surface (q0 scales it)");
     if (const auto retroreflection = source.find("retroreflection")) {
-        if (const auto metallic = source.find("metallic"); metallic && rule.metallic > 0.0) metallic->fail("has no meaning beside retroreflection: such a surface is no metal");
+        if (const auto metallic = source.find("metallic"); metallic && rule.metallic > 0.0)
+            metallic->fail("has no meaning beside retroreflection: such a surface is no metal");
         if (rule.reflection_table) retroreflection->fail("is given beside reflection_table: one of them is wanted");
         rule.retroreflector = read_retroreflection(*retroreflection);
     }
@@ -203,7 +205,8 @@ bool matches(const char* pattern, const char* text, char barrier) {
 Photometry read_photometry(const std::filesystem::path& file) {
     const JsonFile json = parse_json(read_file(file, kMaxPhotometryBytes), file.string());
     const JsonValue root(json);
-    root.allow_only({"$schema", "version", "textures", "ambient", "sky", "directional", "lights", "lamps", "emitters", "surfaces"});
+    root.allow_only(
+        {"$schema", "version", "textures", "ambient", "sky", "directional", "lights", "lamps", "emitters", "surfaces"});
     const JsonValue version = root.at("version");
     if (version.integer() != 1) version.fail("must be 1: this program knows no other");
     Photometry made;
@@ -224,7 +227,8 @@ Photometry read_photometry(const std::filesystem::path& file) {
         made.lamps.push_back(read_lamp(rule, file.parent_path(), made));
     for (const JsonValue& rule : root.elements_of("emitters"))
         made.emitters.push_back(read_emitter(rule, file.parent_path(), made));
-    for (const JsonValue& rule : root.elements_of("surfaces")) made.surfaces.push_back(read_surface(rule, file.parent_path()));
+    for (const JsonValue& rule : root.elements_of("surfaces"))
+        made.surfaces.push_back(read_surface(rule, file.parent_path()));
     return made;
 }
 

@@ -15,7 +15,7 @@ namespace vesper {
 struct LampRule {
     std::string name;
     std::vector<std::string> nodes;  ///< patterns
-    Lamp lamp;                     ///< intensity, lobe, colour, opening; Measured: the factor, an index into measured
+    Lamp lamp;                       ///< intensity, lobe, colour, opening; Measured: the factor, an index into measured
     double kelvin = 0;               ///< colour temperature, K; 0 where a colour was given
     std::optional<glm::dvec3> aim;   ///< axis of the lobe in the node's frame, unit length; -Z where missing
     std::optional<glm::dquat> turn;  ///< Measured: from the luminaire's frame to the node's, where they differ
@@ -32,10 +32,10 @@ struct MeasuredLamp {
 
 /// A picture of a light source used by rules.
 struct EmitterPicture {
-    std::vector<uint8_t> bytes;   ///< of the file
-    LuminancePicture picture{};   ///< its name is that of the rule
-    double white_luminance = 0;   ///< cd/m^2 of the value 1 by the file; 0 if not stated
-    uint64_t changed = 0;         ///< pixels with a negative component, see make_luminance_picture
+    std::vector<uint8_t> bytes;  ///< of the file
+    LuminancePicture picture{};  ///< its name is that of the rule
+    double white_luminance = 0;  ///< cd/m^2 of the value 1 by the file; 0 if not stated
+    uint64_t changed = 0;        ///< pixels with a negative component, see make_luminance_picture
 };
 
 /// A rule that makes materials emit.
@@ -45,10 +45,10 @@ struct EmitterRule {
     double luminance = 0;                ///< cd/m^2; with lamps only compared; 0 if not given
     std::vector<std::string> lamps;      ///< names of lamp rules whose glass this is: their openings are drawn
     glm::dvec3 colour{1};                ///< linear, luminance 1
-    bool modulate = false;  ///< the material's texture times the above; its brightest texel has `luminance`
-    uint32_t picture = kNone;  ///< index into Photometry::pictures: the material shows it; its brightest texel has
-                               ///< `luminance`
-    double scale = 1;          ///< cd/m^2 of the value 1 of the picture
+    bool modulate = false;      ///< the material's texture times the above; its brightest texel has `luminance`
+    uint32_t picture = kNone;   ///< index into Photometry::pictures: the material shows it; its brightest texel has
+                                ///< `luminance`
+    double scale = 1;           ///< cd/m^2 of the value 1 of the picture
     bool unit_unknown = false;  ///< neither rule nor picture states a unit: the value 1 is 1 cd/m^2
 };
 
@@ -91,7 +91,7 @@ struct Photometry {
     std::vector<DirectionalRule> directional;
     bool keep_lights = false;
     std::vector<LampRule> lamps;
-    std::vector<MeasuredLamp> measured;  ///< each once
+    std::vector<MeasuredLamp> measured;    ///< each once
     std::vector<EmitterPicture> pictures;  ///< each once
     std::vector<EmitterRule> emitters;
     std::vector<SurfaceRule> surfaces;

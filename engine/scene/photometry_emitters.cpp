@@ -67,7 +67,8 @@ std::vector<std::string> read_lamp_names(const JsonValue& source, const Photomet
         if (const auto other = source.find(key)) other->fail("follows from the lamp: leave it out");
     const std::vector<std::string> names = read_patterns(source, "lamp");
     for (const std::string& name : names) {
-        const auto found = std::find_if(made.lamps.begin(), made.lamps.end(), [&](const LampRule& r) { return r.name == name; });
+        const auto found =
+            std::find_if(made.lamps.begin(), made.lamps.end(), [&](const LampRule& r) { return r.name == name; });
         if (found == made.lamps.end()) source.at("lamp").fail("there is no lamp rule of the name '" + name + "'");
         if (!(found->lamp.opening.area() > 0)) source.at("lamp").fail("the lamp rule '" + name + "' has no opening");
     }

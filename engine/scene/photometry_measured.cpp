@@ -12,7 +12,6 @@
 namespace vesper {
 namespace {
 
-
 /// The index of the distribution a rule wants, read when it is the first to want it.
 uint32_t measured_lamp(const JsonValue& source, const std::filesystem::path& folder, Photometry& made) {
     const JsonValue file = source.at("file");
@@ -26,7 +25,8 @@ uint32_t measured_lamp(const JsonValue& source, const std::filesystem::path& fol
     }
     try {
         const std::filesystem::path path = folder / wanted.file;
-        if (wanted.lamp_set > 0 && lower(path.extension().string()) != ".ldt") throw Error("lamp_set is for EULUMDAT (.ldt)");
+        if (wanted.lamp_set > 0 && lower(path.extension().string()) != ".ldt")
+            throw Error("lamp_set is for EULUMDAT (.ldt)");
         wanted.distribution = wanted.lamp_set > 0 ? read_eulumdat(path, wanted.lamp_set) : read_distribution(path);
     } catch (const Error& error) {
         file.fail(error.what());
@@ -99,9 +99,26 @@ glm::dquat turn_to(glm::dvec3 axis) {
 }
 
 void read_measured(const JsonValue& source, const std::filesystem::path& folder, Photometry& made, LampRule& rule) {
-    source.allow_only({"name", "nodes", "type", "file", "lamp_set", "mirror", "flux_lm", "flux_scale",
-                       "maintenance_factor", "dimming", "colour_temperature_K", "colour_rgb", "offset_m", "aim", "up",
-                       "c0", "rotation_deg", "pitch_deg", "yaw_deg", "opening"});
+    source.allow_only({"name",
+                       "nodes",
+                       "type",
+                       "file",
+                       "lamp_set",
+                       "mirror",
+                       "flux_lm",
+                       "flux_scale",
+                       "maintenance_factor",
+                       "dimming",
+                       "colour_temperature_K",
+                       "colour_rgb",
+                       "offset_m",
+                       "aim",
+                       "up",
+                       "c0",
+                       "rotation_deg",
+                       "pitch_deg",
+                       "yaw_deg",
+                       "opening"});
     rule.lamp.kind = Lamp::Kind::Measured;
     rule.lamp.distribution = measured_lamp(source, folder, made);
     const Distribution& distribution = made.measured[rule.lamp.distribution].distribution;

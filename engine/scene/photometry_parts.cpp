@@ -10,7 +10,6 @@
 namespace vesper {
 namespace {
 
-
 std::vector<double> numbers_of(const JsonValue& list) {
     std::vector<double> numbers;
     for (const JsonValue& element : list.elements()) numbers.push_back(element.number());

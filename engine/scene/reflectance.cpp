@@ -13,7 +13,8 @@ std::array<double, 256> linear_codes(const Transfer& transfer) {
     std::array<double, 256> linear{};
     for (size_t code = 0; code < 256; ++code) {
         const double c = static_cast<double>(code) / 255;
-        linear[code] = transfer.kind == Transfer::Kind::Gamma ? std::pow(c, static_cast<double>(transfer.gamma)) : srgb_to_linear(c);
+        linear[code] = transfer.kind == Transfer::Kind::Gamma ? std::pow(c, static_cast<double>(transfer.gamma))
+                                                              : srgb_to_linear(c);
     }
     return linear;
 }
@@ -28,11 +29,13 @@ struct Stretch {
 
 Stretch covered(double low, double high, uint32_t size, Wrap wrap) {
     if (wrap == Wrap::Clamp && low <= high) {  // the outermost texels go on for ever
-        const double from = std::clamp(low, -1e6, 1e6) * size, to = std::clamp(high, -1e6, 1e6) * size, last = size - 1.0;
+        const double from = std::clamp(low, -1e6, 1e6) * size, to = std::clamp(high, -1e6, 1e6) * size,
+                     last = size - 1.0;
         Stretch stretch{0, std::vector<double>(size, 0.0)};
         if (from == to) stretch.shares[static_cast<size_t>(std::clamp(std::floor(from), 0.0, last))] = 1;
         for (size_t i = 0; i < size && from < to; ++i) {
-            const double left = i == 0 ? -HUGE_VAL : static_cast<double>(i), right = i + 1 == size ? HUGE_VAL : static_cast<double>(i) + 1;
+            const double left = i == 0 ? -HUGE_VAL : static_cast<double>(i),
+                         right = i + 1 == size ? HUGE_VAL : static_cast<double>(i) + 1;
             stretch.shares[i] = std::max(0.0, std::min(right, to) - std::max(left, from));
         }
         return stretch;
@@ -44,7 +47,8 @@ Stretch covered(double low, double high, uint32_t size, Wrap wrap) {
         const double at = static_cast<double>(i);
         stretch.shares.push_back(to > from ? std::min(at + 1, to) - std::max(at, from) : 1);
     }
-    stretch.first += static_cast<int64_t>(std::fmod(start, 2)) * size;  // mirrored textures tell even tiles from odd ones
+    stretch.first +=
+        static_cast<int64_t>(std::fmod(start, 2)) * size;  // mirrored textures tell even tiles from odd ones
     return stretch;
 }
 
@@ -75,17 +79,21 @@ MaterialUse use_of(const Primitive& primitive) {
 
 glm::dvec4 mean_texel(const Image& image, const Transfer& transfer, const TextureUse& use, const UvBox& box) {
     const std::array<double, 256> linear = linear_codes(transfer);
-    const Stretch columns = covered(box.low.x, box.high.x, image.width, use.wrap_u), rows = covered(box.low.y, box.high.y, image.height, use.wrap_v);
+    const Stretch columns = covered(box.low.x, box.high.x, image.width, use.wrap_u),
+                  rows = covered(box.low.y, box.high.y, image.height, use.wrap_v);
     std::vector<std::pair<size_t, double>> across;
     for (size_t x = 0; x < columns.shares.size(); ++x)
-        across.emplace_back(4 * wrapped(columns.first + static_cast<int64_t>(x), image.width, use.wrap_u), columns.shares[x]);
+        across.emplace_back(4 * wrapped(columns.first + static_cast<int64_t>(x), image.width, use.wrap_u),
+                            columns.shares[x]);
     glm::dvec4 sum(0);
     double weight = 0;
     for (size_t y = 0; y < rows.shares.size(); ++y) {
-        const uint8_t* row = image.rgba.data() + 4 * image.width * wrapped(rows.first + static_cast<int64_t>(y), image.height, use.wrap_v);
+        const uint8_t* row = image.rgba.data() +
+                             4 * image.width * wrapped(rows.first + static_cast<int64_t>(y), image.height, use.wrap_v);
         glm::dvec4 row_sum(0);
         for (const auto& [at, share] : across) {
-            row_sum += share * glm::dvec4(linear[row[at]], linear[row[at + 1]], linear[row[at + 2]], row[at + 3] / 255.0);
+            row_sum +=
+                share * glm::dvec4(linear[row[at]], linear[row[at + 1]], linear[row[at + 2]], row[at + 3] / 255.0);
             weight += share * rows.shares[y];
         }
         sum += rows.shares[y] * row_sum;

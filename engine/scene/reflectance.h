@@ -25,8 +25,8 @@ glm::dvec4 mean_texel(const Image& image, const Transfer& transfer, const Textur
 
 /// Shown area, colour and texture coordinates of a material.
 struct MaterialUse {
-    double area = 0;          ///< m^2 of all nodes; uneven scales count by their mean square
-    glm::dvec3 colour{1};     ///< mean of the vertex colours over that area
+    double area = 0;       ///< m^2 of all nodes; uneven scales count by their mean square
+    glm::dvec3 colour{1};  ///< mean of the vertex colours over that area
     UvBox uv;
 };
 

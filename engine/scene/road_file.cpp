@@ -87,7 +87,8 @@ void read_luminaires(RoadLayout& road, const JsonValue& source, const std::files
     const std::string file = source.at("file").text();
     const auto luminaire = overrides.luminaire.empty() ? folder / file : std::filesystem::path(overrides.luminaire);
     road.distribution = read_distribution(luminaire);
-    if (!(largest_intensity(road.distribution) > 0)) throw Error(one_line(luminaire.string()) + ": the luminaire gives no light");
+    if (!(largest_intensity(road.distribution) > 0))
+        throw Error(one_line(luminaire.string()) + ": the luminaire gives no light");
 }
 
 ReflectionTable read_surface(const JsonValue& source, const std::filesystem::path& folder,

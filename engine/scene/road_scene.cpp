@@ -29,7 +29,8 @@ Primitive carriageway(const RoadLayout& road, double first, double last) {
     return plane;
 }
 
-void add_luminaires(Scene& scene, const RoadLayout& road, const std::vector<RoadLuminaire>& lamps, double factor, const LuminousOpening& opening) {
+void add_luminaires(Scene& scene, const RoadLayout& road, const std::vector<RoadLuminaire>& lamps, double factor,
+                    const LuminousOpening& opening) {
     scene.distributions.push_back(road.distribution);
     Lamp lamp{.name = road.distribution.name, .kind = Lamp::Kind::Measured};
     lamp.intensity = static_cast<float>(road.flux_factor * factor);
@@ -63,7 +64,8 @@ Scene bare_road(const RoadLayout& road, double last) {
     Scene scene{.name = road.name};
     scene.reflection_tables.push_back(road.surface);
     Material material{.name = "road " + road.surface.name};
-    const auto reflectance = static_cast<float>(std::min(std::numbers::pi * diffuse_luminance_coefficient(extended(road.surface)), 1.0));
+    const auto reflectance =
+        static_cast<float>(std::min(std::numbers::pi * diffuse_luminance_coefficient(extended(road.surface)), 1.0));
     material.base_colour = {reflectance, reflectance, reflectance, 1};
     material.reflection_table = 0;
     scene.materials.push_back(material);

@@ -17,8 +17,9 @@ glm::dvec3 road_to_world(glm::dvec3 point);
 /// along the road and 1 degree down. Black sky, no ambient light.
 Scene road_scene(const RoadLayout& road);
 
-/// What dazzles, for TI: luminaires of initial intensity from x = `from`, where the eye is, to kGlareRange beyond, m, each with an opening of
-/// 2 cm x 2 cm to be seen by, over a black road. What dazzles is I / d^2, whatever the opening; a small one is on one side of the car's roof.
+/// What dazzles, for TI: luminaires of initial intensity from x = `from`, where the eye is, to kGlareRange beyond, m,
+/// each with an opening of 2 cm x 2 cm to be seen by, over a black road. What dazzles is I / d^2, whatever the opening;
+/// a small one is on one side of the car's roof.
 Scene road_glare_scene(const RoadLayout& road, double from);
 
 /// The luminaires that road_scene holds.

@@ -71,13 +71,16 @@ glm::dmat4 local_transform(const Node& node) {
     if (node.matrix) return *node.matrix;
     const glm::dmat3 rotation = glm::mat3_cast(glm::dquat(node.rotation));
     const glm::dvec3 scale(node.scale);
-    return {glm::dvec4(rotation[0] * scale.x, 0), glm::dvec4(rotation[1] * scale.y, 0), glm::dvec4(rotation[2] * scale.z, 0),
-            glm::dvec4(node.translation, 1)};
+    return {glm::dvec4(rotation[0] * scale.x, 0), glm::dvec4(rotation[1] * scale.y, 0),
+            glm::dvec4(rotation[2] * scale.z, 0), glm::dvec4(node.translation, 1)};
 }
 
-std::vector<glm::dmat4> world_transforms(const Scene& scene, double seconds) { return placed_transforms(scene, seconds, {}); }
+std::vector<glm::dmat4> world_transforms(const Scene& scene, double seconds) {
+    return placed_transforms(scene, seconds, {});
+}
 
-std::vector<glm::dmat4> placed_transforms(const Scene& scene, double seconds, const std::map<uint32_t, glm::mat4>& places) {
+std::vector<glm::dmat4> placed_transforms(const Scene& scene, double seconds,
+                                          const std::map<uint32_t, glm::mat4>& places) {
     std::vector<glm::dmat4> world(scene.nodes.size());
     for (size_t i = 0; i < scene.nodes.size(); ++i) world[i] = local_transform(scene.nodes[i]);
 

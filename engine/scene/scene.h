@@ -112,9 +112,9 @@ struct Lamp {
     float outer_cone = 0.785f;  ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
     float exponent = 1;         ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
     uint32_t distribution = kNone;  ///< Measured: index into Scene::distributions
-    LuminousOpening opening;    ///< seen directly: at the lamp, facing its axis (Point: facing the eye); m, independent
-                                ///< of the node's scale. Length along its X, width along its Y. Not drawn if the area
-                                ///< is 0
+    LuminousOpening opening;  ///< seen directly: at the lamp, facing its axis (Point: facing the eye); m, independent
+                              ///< of the node's scale. Length along its X, width along its Y. Not drawn if the area
+                              ///< is 0
 };
 
 struct Camera {
@@ -125,7 +125,7 @@ struct Camera {
 
 struct Node {
     std::string name;
-    uint32_t parent = kNone;  ///< always smaller than the node's own index
+    uint32_t parent = kNone;    ///< always smaller than the node's own index
     glm::dvec3 translation{0};  ///< m; double: databases lie far from their origin, and parent nodes compensate
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1};
@@ -159,13 +159,13 @@ struct Scene {
                                                      ///< compare with a calculation
     std::vector<Retroreflector> retroreflectors;     ///< at most kMaxRetroreflectors
     std::vector<Camera> cameras;
-    std::vector<Node> nodes;        ///< parents before children
-    std::vector<Channel> channels;  ///< of all animations, played together
-    Transfer transfer;              ///< of base colour textures
-    float ambient_illuminance = 0;  ///< E on any surface, lx: adds E * reflectance / pi
-    glm::vec3 ambient_colour{1};    ///< linear, luminance 1
-    float sky_luminance = 0;        ///< of the background, cd/m^2
-    glm::vec3 sky_colour{1};        ///< linear, luminance 1
+    std::vector<Node> nodes;                 ///< parents before children
+    std::vector<Channel> channels;           ///< of all animations, played together
+    Transfer transfer;                       ///< of base colour textures
+    float ambient_illuminance = 0;           ///< E on any surface, lx: adds E * reflectance / pi
+    glm::vec3 ambient_colour{1};             ///< linear, luminance 1
+    float sky_luminance = 0;                 ///< of the background, cd/m^2
+    glm::vec3 sky_colour{1};                 ///< linear, luminance 1
     std::optional<Environment> environment;  ///< a picture of the sky, instead of the two above
 };
 

@@ -25,7 +25,6 @@ struct ReportedLamp {
     double lowest = HUGE_VAL, highest = -HUGE_VAL;  // surfaces in the lamp's vertical, m
 };
 
-
 /// A name without the number at its end, which tells lamps of one kind apart.
 std::string stem_of(std::string name) {
     size_t end = name.size();
@@ -36,8 +35,8 @@ std::string stem_of(std::string name) {
 
 /// What lamps that are reported together share.
 auto group_of(const Lamp& l) {
-    return std::tuple(stem_of(l.name), l.kind, l.intensity, l.colour.r, l.colour.g, l.colour.b, l.inner_cone, l.outer_cone,
-                      l.exponent, l.distribution);
+    return std::tuple(stem_of(l.name), l.kind, l.intensity, l.colour.r, l.colour.g, l.colour.b, l.inner_cone,
+                      l.outer_cone, l.exponent, l.distribution);
 }
 
 /// The greatest luminance of a colour times a picture of sRGB codes, of the colour's unit.
@@ -46,11 +45,14 @@ double largest_luminance(glm::vec3 colour, const Image& image) {
     for (size_t code = 0; code < linear.size(); ++code) linear[code] = srgb_to_linear(double(code) / 255);
     double largest = 0;
     for (size_t i = 0; i < image.rgba.size(); i += 4)
-        largest = std::max(largest, luminance(glm::dvec3(colour) * glm::dvec3(linear[image.rgba[i]], linear[image.rgba[i + 1]], linear[image.rgba[i + 2]])));
+        largest = std::max(largest,
+                           luminance(glm::dvec3(colour) * glm::dvec3(linear[image.rgba[i]], linear[image.rgba[i + 1]],
+                                                                     linear[image.rgba[i + 2]])));
     return largest;
 }
 
-std::vector<ReportedLamp> reported_lamps(const Scene& scene, const std::vector<glm::dmat4>& world, SceneReport& report) {
+std::vector<ReportedLamp> reported_lamps(const Scene& scene, const std::vector<glm::dmat4>& world,
+                                         SceneReport& report) {
     std::vector<ReportedLamp> lamps;
     std::map<decltype(group_of({})), size_t> place;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -117,7 +119,8 @@ std::optional<double> area_factor(const glm::dmat4& m) {
     const glm::dvec3 x(m[0]), y(m[1]), z(m[2]);
     const double scale = glm::dot(x, x), near = 1e-6 * scale;
     const bool same = std::abs(glm::dot(y, y) - scale) <= near && std::abs(glm::dot(z, z) - scale) <= near;
-    const bool square = std::abs(glm::dot(x, y)) <= near && std::abs(glm::dot(y, z)) <= near && std::abs(glm::dot(z, x)) <= near;
+    const bool square =
+        std::abs(glm::dot(x, y)) <= near && std::abs(glm::dot(y, z)) <= near && std::abs(glm::dot(z, x)) <= near;
     return same && square ? std::optional(scale) : std::nullopt;
 }
 
@@ -127,7 +130,8 @@ public:
         std::sort(lamps_.begin(), lamps_.end(),
                   [](const ReportedLamp& a, const ReportedLamp& b) { return a.position.x < b.position.x; });
     }
-    /// Triangles are gone through only where the figures of the whole do not tell: a mesh may be shown by a million nodes.
+    /// Triangles are gone through only where the figures of the whole do not tell: a mesh may be shown by a million
+    /// nodes.
     void add(const Primitive& primitive, const glm::dmat4& world) {
         const auto [entry, added] = sizes_.try_emplace(&primitive);
         PrimitiveSize& size = entry->second;
@@ -147,7 +151,8 @@ private:
         if (!(size.low.x <= size.high.x)) return false;
         glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
         for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 corner(i & 1 ? size.high.x : size.low.x, i & 2 ? size.high.y : size.low.y, i & 4 ? size.high.z : size.low.z);
+            const glm::dvec3 corner(i & 1 ? size.high.x : size.low.x, i & 2 ? size.high.y : size.low.y,
+                                    i & 4 ? size.high.z : size.low.z);
             const glm::dvec3 placed(world * glm::dvec4(corner, 1));
             low = glm::min(low, placed), high = glm::max(high, placed);
         }
@@ -159,7 +164,8 @@ private:
         return false;
     }
     std::vector<ReportedLamp>::iterator first_lamp(double x) const {
-        return std::lower_bound(lamps_.begin(), lamps_.end(), x, [](const ReportedLamp& a, double from) { return a.position.x < from; });
+        return std::lower_bound(lamps_.begin(), lamps_.end(), x,
+                                [](const ReportedLamp& a, double from) { return a.position.x < from; });
     }
     void look_at_triangles(const Primitive& primitive, const glm::dmat4& world, bool add_area) {
         const glm::dvec3 none(HUGE_VAL);
@@ -171,7 +177,8 @@ private:
                 corner[k] = glm::dvec3(world * glm::dvec4(glm::dvec3(vertex.position), 1));
                 low = glm::min(low, corner[k]), high = glm::max(high, corner[k]);
             }
-            if (add_area) area_[primitive.material] += glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])) / 2;
+            if (add_area)
+                area_[primitive.material] += glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])) / 2;
             low_ = glm::min(low_, low), high_ = glm::max(high_, high);
             for (auto lamp = first_lamp(low.x); lamp != lamps_.end() && lamp->position.x <= high.x; ++lamp)
                 if (lamp->position.z >= low.z && lamp->position.z <= high.z) look_for(*lamp, corner);

@@ -13,10 +13,10 @@ namespace vesper {
 struct LampReport {
     std::string name;
     Lamp::Kind kind = Lamp::Kind::Point;
-    size_t number = 0;                ///< of nodes that hold it
-    double candela = 0;               ///< greatest; Directional: lx
-    double lumens = 0;                ///< of one; Directional: 0
-    glm::vec3 colour{1};              ///< linear, luminance 1
+    size_t number = 0;    ///< of nodes that hold it
+    double candela = 0;   ///< greatest; Directional: lx
+    double lumens = 0;    ///< of one; Directional: 0
+    glm::vec3 colour{1};  ///< linear, luminance 1
     /// Above the lowest surface under each, m; nothing where there is none under any of them.
     std::optional<double> lowest, highest;
     size_t over_nothing = 0, under_ground = 0;  ///< lamps with no surface below; of these, such with one above
@@ -24,26 +24,26 @@ struct LampReport {
 
 struct MaterialReport {
     std::string name;
-    double reflectance = 0;           ///< mean of base colour, times vertex colours
+    double reflectance = 0;              ///< mean of base colour, times vertex colours
     double roughness = 1, metallic = 0;  ///< factors; a texture multiplies them
     bool textured = false;
-    double emission = 0;              ///< greatest luminance, cd/m^2
-    std::string picture;              ///< name of the picture it shines with
-    double mean_emission = 0;         ///< mean luminance over that picture, cd/m^2
-    std::string road_table;           ///< name of its reflection table
-    double area = 0;                  ///< m^2, of all its triangles
+    double emission = 0;       ///< greatest luminance, cd/m^2
+    std::string picture;       ///< name of the picture it shines with
+    double mean_emission = 0;  ///< mean luminance over that picture, cd/m^2
+    std::string road_table;    ///< name of its reflection table
+    double area = 0;           ///< m^2, of all its triangles
 };
 
 struct SceneReport {
-    glm::dvec3 extent{0};             ///< m, along world axes
-    uint64_t triangles = 0;           ///< of all placements
-    double area = 0;                  ///< m^2
-    double mean_reflectance = 0;      ///< diffuse, by area
-    double lumens = 0;                ///< of all lamps
+    glm::dvec3 extent{0};         ///< m, along world axes
+    uint64_t triangles = 0;       ///< of all placements
+    double area = 0;              ///< m^2
+    double mean_reflectance = 0;  ///< diffuse, by area
+    double lumens = 0;            ///< of all lamps
     std::vector<LampReport> lamps;
     std::vector<MaterialReport> materials;  ///< those that are seen
     std::vector<std::string> cameras;
-    std::vector<std::string> warnings;      ///< what is implausible, one line each
+    std::vector<std::string> warnings;  ///< what is implausible, one line each
 };
 
 /// At the poses of t = 0.

@@ -50,7 +50,8 @@ public:
         }
         if (lamp.lowest && *lamp.lowest < kLowLamp)
             add(name + "stands " + decimal(*lamp.lowest) + " m above what lies under it: are lengths in metres?");
-        if (lamp.under_ground) add(name + std::to_string(lamp.under_ground) + " of " + std::to_string(lamp.number) + " below the ground");
+        if (lamp.under_ground)
+            add(name + std::to_string(lamp.under_ground) + " of " + std::to_string(lamp.number) + " below the ground");
         if (lamp.over_nothing > lamp.under_ground)
             add(name + std::to_string(lamp.over_nothing - lamp.under_ground) + " of " + std::to_string(lamp.number) +
                 " with no surface under it");
@@ -63,18 +64,23 @@ public:
         if (m.metallic > 0.99 && m.area > 0.2 * report_.area)
             add(name + "a fifth of the scene is metal, which scatters no light: metallic left at glTF's default of 1?");
         if (shines && m.emission <= kFaintEmission)
-            add(name + "emits " + decimal(m.emission) + " cd/m^2 or less: a factor without KHR_materials_emissive_strength? A lit window has 10 to 100");
-        if (m.emission > kBrightEmission) add(name + "emits " + decimal(m.emission) + " cd/m^2, more than the arc of a lamp (1e8)");
+            add(name + "emits " + decimal(m.emission) +
+                " cd/m^2 or less: a factor without KHR_materials_emissive_strength? A lit window has 10 to 100");
+        if (m.emission > kBrightEmission)
+            add(name + "emits " + decimal(m.emission) + " cd/m^2, more than the arc of a lamp (1e8)");
     }
     void whole() {
         if (report_.area > 0 && report_.mean_reflectance > kWhiteScene)
-            add("surfaces reflect " + decimal(report_.mean_reflectance) + " on average: the scene is white (a street: 0.1 to 0.4)");
+            add("surfaces reflect " + decimal(report_.mean_reflectance) +
+                " on average: the scene is white (a street: 0.1 to 0.4)");
         if (report_.area > 0 && report_.mean_reflectance < kBlackScene)
             add("surfaces reflect " + decimal(report_.mean_reflectance) + " on average: the scene is black");
-        const double ambient = static_cast<double>(scene_.ambient_illuminance), sky = static_cast<double>(scene_.sky_luminance);
+        const double ambient = static_cast<double>(scene_.ambient_illuminance),
+                     sky = static_cast<double>(scene_.sky_luminance);
         if (ambient > kNightLight) add("an ambient illuminance of " + decimal(ambient) + " lx is no night");
         if (sky > kNightSky) add("a sky of " + decimal(sky) + " cd/m^2 is no night");
-        const bool lit = std::any_of(report_.lamps.begin(), report_.lamps.end(), [](const LampReport& l) { return l.candela > 0; });
+        const bool lit =
+            std::any_of(report_.lamps.begin(), report_.lamps.end(), [](const LampReport& l) { return l.candela > 0; });
         if (!lit)
             add(ambient > 0 || sky > 0 ? "there are no lamps: vesper convert adds them"
                                        : "there are no lamps and no ambient light: vesper convert adds them");

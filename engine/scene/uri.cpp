@@ -45,7 +45,9 @@ std::vector<uint8_t> base64_decoded(std::string_view text) {
     while (!text.empty() && text.back() == '=') text.remove_suffix(1);
     for (const char c : text)
         if (value[static_cast<uint8_t>(c)] < 0)
-            throw Error("base64 data contains " + std::string(c == '\n' || c == '\r' ? "a line break" : c == ' ' ? "a space" : "a character that is none of its digits"));
+            throw Error("base64 data contains " + std::string(c == '\n' || c == '\r' ? "a line break"
+                                                              : c == ' '             ? "a space"
+                                                                         : "a character that is none of its digits"));
     if (text.size() % 4 == 1) throw Error("base64 data is cut off");
     std::vector<uint8_t> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
@@ -72,15 +74,14 @@ bool has_scheme(const std::string& uri) {
 
 }  // namespace
 
-bool is_data_uri(std::string_view uri) {
-    return lower(uri.substr(0, 5)) == "data:";
-}
+bool is_data_uri(std::string_view uri) { return lower(uri.substr(0, 5)) == "data:"; }
 
 std::vector<uint8_t> decode_data_uri(std::string_view uri) {
     const size_t comma = uri.find(',');
     if (comma == std::string_view::npos) throw Error("data URI without a comma");
     const std::string_view head = uri.substr(0, comma), body = uri.substr(comma + 1);
-    if (constexpr std::string_view kMark = ";base64"; head.size() >= kMark.size() && lower(head.substr(head.size() - kMark.size())) == kMark)
+    if (constexpr std::string_view kMark = ";base64";
+        head.size() >= kMark.size() && lower(head.substr(head.size() - kMark.size())) == kMark)
         return body.find('%') == std::string_view::npos ? base64_decoded(body) : base64_decoded(percent_decoded(body));
     const std::string bytes = percent_decoded(body);
     return {bytes.begin(), bytes.end()};

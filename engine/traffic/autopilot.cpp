@@ -5,7 +5,8 @@
 
 namespace vesper::traffic {
 
-VehicleControls steer_along(const Course& lane, const VehicleState& s, const VehicleParameters& p, const AutopilotSettings& a, double gap, double closing) {
+VehicleControls steer_along(const Course& lane, const VehicleState& s, const VehicleParameters& p,
+                            const AutopilotSettings& a, double gap, double closing) {
     const glm::dvec2 rear = s.position - p.rear_axle * s.forward();
     const Course::Beside here = lane.beside(rear);
     const double ahead = std::max(a.least_preview, a.preview * std::abs(s.speed));
@@ -17,7 +18,8 @@ VehicleControls steer_along(const Course& lane, const VehicleState& s, const Veh
     c.angle = std::atan2(2 * p.wheelbase() * sideways, distance);
     const double wanted = follow_lane(lane, a.following, here.s, 1, s.speed, gap, closing);
     const double drag = p.rolling * p.mass * 9.81 + 0.5 * p.air_density * p.drag_area * s.speed * s.speed;
-    const double force = p.mass * wanted + drag, most = std::min(p.drive_force, p.power / std::max(std::abs(s.speed), 1.0));
+    const double force = p.mass * wanted + drag,
+                 most = std::min(p.drive_force, p.power / std::max(std::abs(s.speed), 1.0));
     if (force > 0)
         c.throttle = std::min(1.0, force / most);
     else

@@ -20,7 +20,8 @@ bool meet(dvec2 a, dvec2 b, dvec2 c, dvec2 d) {
 
 }  // namespace
 
-bool collide(VehicleState& s, const VehicleState& before, const VehicleParameters& p, const std::vector<Barrier>& barriers, double height) {
+bool collide(VehicleState& s, const VehicleState& before, const VehicleParameters& p,
+             const std::vector<Barrier>& barriers, double height) {
     bool hit = false;
     const auto was = ground_box(before, p).corners();
     auto is = ground_box(s, p).corners();

@@ -18,6 +18,7 @@ struct Barrier {
 /// Stops the corners of a car that crossed a barrier since `before`: an inelastic blow there, with friction (kScrape)
 /// along the barrier, and the car put back to its side. Never adds energy. Returns true if there was a blow. `height`:
 /// Y of the road under the car, m; barriers more than kLevels away belong to another road.
-bool collide(VehicleState&, const VehicleState& before, const VehicleParameters&, const std::vector<Barrier>&, double height = 0);
+bool collide(VehicleState&, const VehicleState& before, const VehicleParameters&, const std::vector<Barrier>&,
+             double height = 0);
 
 }  // namespace vesper::traffic

@@ -64,7 +64,8 @@ dvec2 strike(VehicleState& s, const VehicleParameters& p, dvec2 arm, dvec2 norma
     const auto lever = [&](dvec2 direction) { return arm.y * direction.x - arm.x * direction.y; };
     const auto relative = [&] {
         const dvec2 gives(glm::dot(given, other.heading), other.heading.x * given.y - other.heading.y * given.x);
-        return velocity_at(s, arm) - (other.velocity + other.along * gives.x * other.heading + other.across * gives.y * dvec2(-other.heading.y, other.heading.x));
+        return velocity_at(s, arm) - (other.velocity + other.along * gives.x * other.heading +
+                                      other.across * gives.y * dvec2(-other.heading.y, other.heading.x));
     };
     const auto push = [&](dvec2 direction, double impulse) {
         const dvec2 changed = s.velocity() + impulse / p.mass * direction;
@@ -72,7 +73,9 @@ dvec2 strike(VehicleState& s, const VehicleParameters& p, dvec2 arm, dvec2 norma
         s.yaw_rate += impulse * lever(direction) / p.yaw_inertia;
         given -= impulse * direction;
     };
-    const auto inertia = [&](dvec2 direction) { return 1 / (1 / p.mass + lever(direction) * lever(direction) / p.yaw_inertia + other.give(direction)); };
+    const auto inertia = [&](dvec2 direction) {
+        return 1 / (1 / p.mass + lever(direction) * lever(direction) / p.yaw_inertia + other.give(direction));
+    };
     const double into = -glm::dot(relative(), normal);
     if (into <= 0) return {0, 0};
     const double blow = into * inertia(normal);

@@ -21,15 +21,16 @@ public:
     };
     /// A point relative to a lane.
     struct Beside {
-        double s = 0;       ///< along the lane, m; before its start negative, beyond its end more than its length
-        double offset = 0;  ///< to the left, m
+        double s = 0;         ///< along the lane, m; before its start negative, beyond its end more than its length
+        double offset = 0;    ///< to the left, m
         double distance = 0;  ///< in plan, m
     };
 
     /// A closed lane continues from its last point to its first. `width` m, `speed` m/s. Throws Error.
     Course(std::string name, std::vector<glm::dvec3> points, double width, double speed, bool closed = false);
     /// `limits`: the speed allowed from each point to the next, m/s.
-    Course(std::string name, std::vector<glm::dvec3> points, double width, const std::vector<double>& limits, bool closed = false);
+    Course(std::string name, std::vector<glm::dvec3> points, double width, const std::vector<double>& limits,
+           bool closed = false);
 
     const std::string& name() const { return name_; }
     double width() const { return width_; }  ///< m
@@ -61,8 +62,9 @@ private:
     double wrapped(double s) const;
 };
 
-/// Acceleration, m/s^2, of a car at `s` of a lane that desires `speed_factor` times speed_at(): idm_acceleration, limited where
-/// that speed falls ahead (there the model alone brakes with kEase only when a quarter too fast).
-double follow_lane(const Course& lane, CarFollowing following, double s, double speed_factor, double speed, double gap, double closing);
+/// Acceleration, m/s^2, of a car at `s` of a lane that desires `speed_factor` times speed_at(): idm_acceleration,
+/// limited where that speed falls ahead (there the model alone brakes with kEase only when a quarter too fast).
+double follow_lane(const Course& lane, CarFollowing following, double s, double speed_factor, double speed, double gap,
+                   double closing);
 
 }  // namespace vesper::traffic

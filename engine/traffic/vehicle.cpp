@@ -6,9 +6,9 @@
 namespace vesper::traffic {
 namespace {
 
-constexpr double kGravity = 9.80665;                    // m/s^2
-constexpr double kRollsBelow = 3, kSlipsAbove = 5;      // m/s
-constexpr int kSubsteps = 4;                            // tyres of a slow car are stiff: 70 /s at 3 m/s
+constexpr double kGravity = 9.80665;                // m/s^2
+constexpr double kRollsBelow = 3, kSlipsAbove = 5;  // m/s
+constexpr int kSubsteps = 4;                        // tyres of a slow car are stiff: 70 /s at 3 m/s
 
 // Pacejka's magic formula of one axle, of which the longitudinal force takes its part of the friction circle.
 double lateral_force(const VehicleParameters& p, double stiffness, double load, double slip, double longitudinal) {
@@ -25,14 +25,17 @@ struct Forces {
     bool held;           // brakes are stronger than the engine
 };
 
-Forces longitudinal_forces(const VehicleState& s, const VehicleParameters& p, const VehicleControls& c, double front_load, double rear_load) {
+Forces longitudinal_forces(const VehicleState& s, const VehicleParameters& p, const VehicleControls& c,
+                           double front_load, double rear_load) {
     const double weight = p.mass * kGravity, v = std::abs(s.speed);
     const double throttle = std::clamp(c.throttle, -1.0, 1.0);
     const double engine = throttle * std::min(p.drive_force, v > 0 ? p.power / v : p.drive_force);
     const double pedal = std::clamp(c.brake, 0.0, 1.0) * p.mass * p.brake_deceleration;
     // At rest brakes work against the engine, and as much as they have to.
     const double moves = s.speed != 0 ? s.speed : engine, against = moves > 0 ? -1 : moves < 0 ? 1 : 0;
-    const auto grip = [&](double force, double load) { return std::clamp(force, -p.friction * load, p.friction * load); };
+    const auto grip = [&](double force, double load) {
+        return std::clamp(force, -p.friction * load, p.friction * load);
+    };
     Forces f{};
     f.front = grip(engine + against * pedal * front_load / weight, front_load);
     f.rear = grip(against * pedal * rear_load / weight, rear_load);
@@ -54,10 +57,13 @@ void substep(VehicleState& s, const VehicleParameters& p, const VehicleControls&
     const double cosine = std::cos(s.angle), sine = std::sin(s.angle);
     double front = 0, rear = 0;
     if (slipping > 0) {
-        front = lateral_force(p, p.front_stiffness, front_load, s.angle - std::atan2(s.lateral + p.front_axle * s.yaw_rate, s.speed), f.front);
-        rear = lateral_force(p, p.rear_stiffness, rear_load, -std::atan2(s.lateral - p.rear_axle * s.yaw_rate, s.speed), f.rear);
+        front = lateral_force(p, p.front_stiffness, front_load,
+                              s.angle - std::atan2(s.lateral + p.front_axle * s.yaw_rate, s.speed), f.front);
+        rear = lateral_force(p, p.rear_stiffness, rear_load, -std::atan2(s.lateral - p.rear_axle * s.yaw_rate, s.speed),
+                             f.rear);
     }
-    const double driven = (f.front * cosine + f.rear) / p.mass + slipping * (s.lateral * s.yaw_rate - front * sine / p.mass);
+    const double driven =
+        (f.front * cosine + f.rear) / p.mass + slipping * (s.lateral * s.yaw_rate - front * sine / p.mass);
     double speed = s.speed + driven * dt;
     // Brakes and resistances bring a car to rest, and keep it there against less force than they have.
     const double drop = f.resistance / p.mass * dt;
@@ -65,7 +71,8 @@ void substep(VehicleState& s, const VehicleParameters& p, const VehicleControls&
     speed = std::abs(speed) <= drop ? 0 : speed - std::copysign(drop, speed);
 
     const double lateral = s.lateral + ((front * cosine + f.front * sine + rear) / p.mass - s.speed * s.yaw_rate) * dt;
-    const double yaw_rate = s.yaw_rate + (p.front_axle * (front * cosine + f.front * sine) - p.rear_axle * rear) / p.yaw_inertia * dt;
+    const double yaw_rate =
+        s.yaw_rate + (p.front_axle * (front * cosine + f.front * sine) - p.rear_axle * rear) / p.yaw_inertia * dt;
     const double turn = speed * std::tan(s.angle) / base;
     s.speed = speed;
     s.lateral = slipping * lateral + (1 - slipping) * p.rear_axle * turn;

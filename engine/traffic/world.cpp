@@ -11,29 +11,38 @@ namespace vesper::traffic {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kChangeSeconds = 3;        // of a change of lane
-constexpr double kPatience = 1;             // between thoughts of changing lane, s
-constexpr double kBraking = 0.7;            // deceleration beyond which the pedal is pressed, m/s^2: engines alone give about this
-constexpr double kWalkerRoom = 0.5;         // that a walker keeps before him, m
-constexpr double kWalkerReach = 1.2;        // beyond the edge of a lane a walker counts as on it, m
-constexpr double kRecordedReach = 0.5;      // the same of what was recorded
-constexpr double kGapSeconds = 6;           // before walkers go, nobody may be nearer in time (HCM: critical gaps of 5 to 7 s for two lanes)
-constexpr double kHidden = 50;              // m below the ground
-constexpr double kLying = 0.15;             // height of the middle of somebody who lies, m
-constexpr double kQueue = 12;              // between cars that come in anew, m
-// MOBIL (Kesting, Treiber and Helbing 2007): what others lose counts for so much, the gain must be so much, and nobody behind may
-// have to brake harder, m/s^2.
+constexpr double kChangeSeconds = 3;  // of a change of lane
+constexpr double kPatience = 1;       // between thoughts of changing lane, s
+constexpr double kBraking =
+    0.7;  // deceleration beyond which the pedal is pressed, m/s^2: engines alone give about this
+constexpr double kWalkerRoom = 0.5;     // that a walker keeps before him, m
+constexpr double kWalkerReach = 1.2;    // beyond the edge of a lane a walker counts as on it, m
+constexpr double kRecordedReach = 0.5;  // the same of what was recorded
+constexpr double kGapSeconds =
+    6;  // before walkers go, nobody may be nearer in time (HCM: critical gaps of 5 to 7 s for two lanes)
+constexpr double kHidden = 50;   // m below the ground
+constexpr double kLying = 0.15;  // height of the middle of somebody who lies, m
+constexpr double kQueue = 12;    // between cars that come in anew, m
+// MOBIL (Kesting, Treiber and Helbing 2007): what others lose counts for so much, the gain must be so much, and nobody
+// behind may have to brake harder, m/s^2.
 constexpr double kPoliteness = 0.2, kGain = 0.2, kSafe = 3;
 
 }  // namespace
 
-World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed) : description_(std::move(description)), random_(seed) {
+World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
+    : description_(std::move(description)), random_(seed) {
     const WorldDescription& d = *description_;
-    if (d.driver_lane >= d.lanes.size()) throw Error("the driver's lane is none of the " + std::to_string(d.lanes.size()) + " there are");
+    if (d.driver_lane >= d.lanes.size())
+        throw Error("the driver's lane is none of the " + std::to_string(d.lanes.size()) + " there are");
     for (const TrafficCar& car : d.cars) {
         if (car.lane >= d.lanes.size()) throw Error("car " + car.node + ": there is no such lane");
         const double drawn = draw(0.9, 1.05);
-        cars_.push_back({.s = car.s, .speed = car.speed, .speed_factor = car.speed_factor > 0 ? car.speed_factor : drawn, .lane = car.lane, .from = car.lane, .patience = draw(0, kPatience)});
+        cars_.push_back({.s = car.s,
+                         .speed = car.speed,
+                         .speed_factor = car.speed_factor > 0 ? car.speed_factor : drawn,
+                         .lane = car.lane,
+                         .from = car.lane,
+                         .patience = draw(0, kPatience)});
     }
     for (const Walker& walker : d.walkers) {
         if (walker.path >= d.paths.size()) throw Error("walker " + walker.node + ": there is no such path");
@@ -64,7 +73,8 @@ void World::find_crossings(const Course& path, size_t index) {
     for (double s = 0; s <= path.length() + 0.5; s += 0.5) {
         const glm::dvec3 at = path.at(s).position;
         const Course::Beside here = lane.beside({at.x, at.z});
-        if (last.distance < 1 && last.distance <= before.distance && last.distance <= here.distance) crossings_.back().push_back({index, last.s});
+        if (last.distance < 1 && last.distance <= before.distance && last.distance <= here.distance)
+            crossings_.back().push_back({index, last.s});
         before = last, last = here;
     }
 }
@@ -79,14 +89,16 @@ void World::occupy() {
         occupants_.push_back({car.lane, car.s, car.speed, d.cars[i].length / 2, int(i)});
         if (car.change >= 1) continue;
         const glm::dvec3 at = place_of(i).position;
-        occupants_.push_back({car.from, d.lanes[car.from].beside({at.x, at.z}).s, car.speed, d.cars[i].length / 2, int(i)});
+        occupants_.push_back(
+            {car.from, d.lanes[car.from].beside({at.x, at.z}).s, car.speed, d.cars[i].length / 2, int(i)});
     }
     const Course::Place road = ground();
     for (size_t lane = 0; lane < d.lanes.size(); ++lane) {
         const Course& l = d.lanes[lane];
         const Course::Beside me = l.beside(driver_.position);
         const Course::Place here = l.at(me.s);
-        if (me.distance < (l.width() + d.vehicle.width) / 2 - 0.4 && std::abs(here.position.y - road.position.y) < kLevels) {
+        if (me.distance < (l.width() + d.vehicle.width) / 2 - 0.4 &&
+            std::abs(here.position.y - road.position.y) < kLevels) {
             const double along = driver_.speed * std::cos(driver_.yaw - here.yaw);
             occupants_.push_back({lane, me.s, along, d.vehicle.length / 2, kDriver});
         }
@@ -94,30 +106,41 @@ void World::occupy() {
             bool there = false;
             const Actor a = recorded(r, there);
             if (!there) continue;
-            const Course::Beside beside = l.beside(glm::dvec2(a.position.x, a.position.z) + r.middle * glm::dvec2(-std::sin(a.yaw), -std::cos(a.yaw)));
-            if (beside.distance < l.width() / 2 + kRecordedReach && std::abs(l.at(beside.s).position.y - a.position.y) < kLevels) occupants_.push_back({lane, beside.s, a.speed * std::cos(a.yaw - l.at(beside.s).yaw), r.length / 2, kRecorded});
+            const Course::Beside beside = l.beside(glm::dvec2(a.position.x, a.position.z) +
+                                                   r.middle * glm::dvec2(-std::sin(a.yaw), -std::cos(a.yaw)));
+            if (beside.distance < l.width() / 2 + kRecordedReach &&
+                std::abs(l.at(beside.s).position.y - a.position.y) < kLevels)
+                occupants_.push_back(
+                    {lane, beside.s, a.speed * std::cos(a.yaw - l.at(beside.s).yaw), r.length / 2, kRecorded});
         }
         for (size_t w = 0; w < walks_.size(); ++w) {
             if (!walks_[w].under_way) continue;
             const size_t path = d.walkers[w].path;
             const glm::dvec3 at = (walks_[w].back ? back_ : d.paths)[path].at(walks_[w].s).position;
             const Course::Beside there = l.beside({at.x, at.z});
-            if (there.distance < l.width() / 2 + kWalkerReach && there.s > 0 && there.s < l.length()) occupants_.push_back({lane, there.s, 0, 1, kWalker});
+            if (there.distance < l.width() / 2 + kWalkerReach && there.s > 0 && there.s < l.length())
+                occupants_.push_back({lane, there.s, 0, 1, kWalker});
         }
     }
 }
 
 // What is not there lies under the ground, in the dark.
 Actor World::recorded(const RecordedMover& r, bool& there) const {
-    const auto after = std::upper_bound(r.poses.begin(), r.poses.end(), seconds_, [](double t, const RecordedMover::Pose& p) { return t < p.time; });
+    const auto after = std::upper_bound(r.poses.begin(), r.poses.end(), seconds_,
+                                        [](double t, const RecordedMover::Pose& p) { return t < p.time; });
     there = after != r.poses.begin() && (after != r.poses.end() || seconds_ <= r.poses.back().time);
     const RecordedMover::Pose& from = after == r.poses.begin() ? r.poses.front() : after[-1];
     if (!there) return {.node = r.node, .position = from.position - glm::dvec3(0, kHidden, 0), .yaw = from.yaw};
     if (after == r.poses.end()) return {r.node, from.position, from.yaw, from.pitch, from.roll, from.speed, from.lamps};
     const double t = (seconds_ - from.time) / (after->time - from.time);
     const auto turn = [&](double a, double b) { return a + t * std::remainder(b - a, 2 * std::numbers::pi); };
-    return {r.node, glm::mix(from.position, after->position, t), turn(from.yaw, after->yaw), turn(from.pitch, after->pitch), turn(from.roll, after->roll),
-            from.speed + t * (after->speed - from.speed), from.lamps};
+    return {r.node,
+            glm::mix(from.position, after->position, t),
+            turn(from.yaw, after->yaw),
+            turn(from.pitch, after->pitch),
+            turn(from.roll, after->roll),
+            from.speed + t * (after->speed - from.speed),
+            from.lamps};
 }
 
 World::Neighbour World::ahead(size_t lane, double s, double half_length, int self) const {
@@ -125,7 +148,8 @@ World::Neighbour World::ahead(size_t lane, double s, double half_length, int sel
     for (const Occupant& o : occupants_) {
         if (o.lane != lane || o.who == self) continue;
         const double away = description_->lanes[lane].ahead(s, o.s);
-        if (away >= 0 && away - o.half_length - half_length < best.gap) best = {away - o.half_length - half_length, o.speed};
+        if (away >= 0 && away - o.half_length - half_length < best.gap)
+            best = {away - o.half_length - half_length, o.speed};
     }
     return best;
 }
@@ -135,7 +159,8 @@ World::Neighbour World::behind(size_t lane, double s, double half_length, int se
     for (const Occupant& o : occupants_) {
         if (o.lane != lane || o.who == self) continue;
         const double away = description_->lanes[lane].ahead(o.s, s);
-        if (away >= 0 && away - o.half_length - half_length < best.gap) best = {away - o.half_length - half_length, o.speed};
+        if (away >= 0 && away - o.half_length - half_length < best.gap)
+            best = {away - o.half_length - half_length, o.speed};
     }
     return best;
 }
@@ -147,7 +172,8 @@ double World::follow(const Car& car, size_t lane, double half_length, int self) 
         s = description_->lanes[lane].beside({at.x, at.z}).s;
     }
     const Neighbour next = ahead(lane, s, half_length, self);
-    return follow_lane(description_->lanes[lane], description_->autopilot.following, s, car.speed_factor, car.speed, next.gap, car.speed - next.speed);
+    return follow_lane(description_->lanes[lane], description_->autopilot.following, s, car.speed_factor, car.speed,
+                       next.gap, car.speed - next.speed);
 }
 
 void World::consider_change(size_t index) {
@@ -163,15 +189,25 @@ void World::consider_change(size_t index) {
         const Course::Beside there = lane.beside({place.position.x, place.position.z});
         // Only where the lanes run beside one another, now and after the change.
         const double later = car.speed * kChangeSeconds;
-        const auto parallel = [&](double s, double t) { return std::abs(std::remainder(lane.at(there.s + s).yaw - d.lanes[car.lane].at(car.s + t).yaw, 2 * std::numbers::pi)) < 0.02; };
+        const auto parallel = [&](double s, double t) {
+            return std::abs(std::remainder(lane.at(there.s + s).yaw - d.lanes[car.lane].at(car.s + t).yaw,
+                                           2 * std::numbers::pi)) < 0.02;
+        };
         if (there.distance > 1.5 * lane.width() || !parallel(0, 0) || !parallel(later, later)) continue;
-        const Neighbour next = ahead(number, there.s, half, int(index)), last = behind(number, there.s, half, int(index));
+        const Neighbour next = ahead(number, there.s, half, int(index)),
+                        last = behind(number, there.s, half, int(index));
         if (next.gap < 4 || last.gap < 4) continue;
         CarFollowing p = d.autopilot.following;
         p.speed = lane.speed_at(there.s);
-        const double yields = std::isinf(last.gap) ? 0 : idm_acceleration(p, last.speed, last.gap, last.speed - car.speed);
-        const double undisturbed = std::isinf(last.gap) ? 0 : idm_acceleration(p, last.speed, last.gap + next.gap + 2 * half, last.speed - next.speed);
-        if (yields < -kSafe || follow(car, number, half, int(index)) - here < kGain + kPoliteness * (undisturbed - yields)) continue;
+        const double yields =
+            std::isinf(last.gap) ? 0 : idm_acceleration(p, last.speed, last.gap, last.speed - car.speed);
+        const double undisturbed =
+            std::isinf(last.gap)
+                ? 0
+                : idm_acceleration(p, last.speed, last.gap + next.gap + 2 * half, last.speed - next.speed);
+        if (yields < -kSafe ||
+            follow(car, number, half, int(index)) - here < kGain + kPoliteness * (undisturbed - yields))
+            continue;
         car.from = car.lane, car.lane = number, car.s = there.s, car.change = 0, car.offset = there.offset;
         return;
     }
@@ -209,7 +245,9 @@ void World::move_cars(double seconds) {
         car.s = s, car.change = 1;
         const Neighbour next = ahead(car.lane, s, d.cars[i].length / 2, int(i));
         if (std::isfinite(next.gap))
-            car.speed = std::min(car.speed, std::sqrt(next.speed * next.speed + 2 * d.autopilot.following.deceleration * std::max(0.0, next.gap - d.autopilot.following.distance)));
+            car.speed = std::min(car.speed, std::sqrt(next.speed * next.speed +
+                                                      2 * d.autopilot.following.deceleration *
+                                                          std::max(0.0, next.gap - d.autopilot.following.distance)));
     }
 }
 
@@ -220,7 +258,8 @@ bool World::way_is_free(size_t path) const {
             const Course& lane = description_->lanes[o.lane];
             const bool passing = lane.ahead(crossing.s, o.s) < 4 && lane.ahead(crossing.s, o.s) >= 0;
             const double gap = lane.ahead(o.s, crossing.s);
-            if (passing || (gap >= 0 && gap < 6) || (gap >= 0 && o.speed > 0.5 && gap < o.speed * kGapSeconds)) return false;
+            if (passing || (gap >= 0 && gap < 6) || (gap >= 0 && o.speed > 0.5 && gap < o.speed * kGapSeconds))
+                return false;
         }
     return true;
 }
@@ -239,7 +278,9 @@ void World::move_walkers(double seconds) {
         }
         // Nobody walks into a car that stands.
         const Course::Place next = path.at(walk.s + kWalkerRoom);
-        if (std::abs(driver_.speed) < path.speed() && ground_box(driver_, d.vehicle).contains({next.position.x, next.position.z})) continue;
+        if (std::abs(driver_.speed) < path.speed() &&
+            ground_box(driver_, d.vehicle).contains({next.position.x, next.position.z}))
+            continue;
         walk.speed = path.speed();
         walk.s += walk.speed * seconds;
         if (walk.s < path.length()) continue;
@@ -290,7 +331,8 @@ Course::Place World::place_of(size_t index) const {
     Course::Place place = description_->lanes[car.lane].at(car.s);
     if (car.change >= 1) return place;
     // A quintic: no jerk at either end.
-    const double t = car.change, left = 1 - t * t * t * (10 + t * (6 * t - 15)), rate = 30 * t * t * (1 - t) * (1 - t) / kChangeSeconds;
+    const double t = car.change, left = 1 - t * t * t * (10 + t * (6 * t - 15)),
+                 rate = 30 * t * t * (1 - t) * (1 - t) / kChangeSeconds;
     place.position += car.offset * left * glm::dvec3(-std::cos(place.yaw), 0, std::sin(place.yaw));
     place.yaw += std::atan2(-rate * car.offset, std::max(car.speed, 3.0));
     return place;
@@ -307,16 +349,23 @@ std::vector<Actor> World::actors() const {
     const Course::Place ground = World::ground();
     const double middle = (d.vehicle.front_axle - d.vehicle.rear_axle) / 2;
     const glm::dvec2 origin = driver_.position + middle * driver_.forward();
-    actors.push_back({d.driver_node, {origin.x, ground.position.y, origin.y}, driver_.yaw,
-                      driver_.pitch + ground.slope * std::cos(driver_.yaw - ground.yaw), driver_.roll, driver_.speed,
+    actors.push_back({d.driver_node,
+                      {origin.x, ground.position.y, origin.y},
+                      driver_.yaw,
+                      driver_.pitch + ground.slope * std::cos(driver_.yaw - ground.yaw),
+                      driver_.roll,
+                      driver_.speed,
                       lamps_of(input_.beam, input_.indicator, braking_, seconds_)});
     for (size_t i = 0; i < cars_.size(); ++i) {
         const Car& car = cars_[i];
         const Course::Place at = place_of(i);
-        const Indicator indicator = car.change >= 1 ? Indicator::None : car.offset < 0 ? Indicator::Left : Indicator::Right;
+        const Indicator indicator = car.change >= 1  ? Indicator::None
+                                    : car.offset < 0 ? Indicator::Left
+                                                     : Indicator::Right;
         // Cars flash out of step.
         actors.push_back({d.cars[i].node, at.position, at.yaw, at.slope, 0, car.speed,
-                          lamps_of(d.cars[i].beam, indicator, car.acceleration < -kBraking || car.speed < 0.1, seconds_ + 0.37 * double(i))});
+                          lamps_of(d.cars[i].beam, indicator, car.acceleration < -kBraking || car.speed < 0.1,
+                                   seconds_ + 0.37 * double(i))});
     }
     for (size_t i = 0; i < walks_.size(); ++i) {
         const Walk& walk = walks_[i];

@@ -12,56 +12,56 @@
 #include "traffic/autopilot.h"
 #include "traffic/barrier.h"
 #include "traffic/contact.h"
-#include "traffic/driver.h"
 #include "traffic/course.h"
+#include "traffic/driver.h"
 #include "traffic/vehicle.h"
 
 namespace vesper::traffic {
 
 /// A car that keeps to lanes.
 struct TrafficCar {
-    std::string node;        ///< of the scene: its origin on the ground below the middle, front towards -Z
+    std::string node;  ///< of the scene: its origin on the ground below the middle, front towards -Z
     size_t lane = 0;
-    double s = 0;            ///< of its middle along the lane at the start, m
-    double speed = 0;        ///< m/s
+    double s = 0;                      ///< of its middle along the lane at the start, m
+    double speed = 0;                  ///< m/s
     double length = 4.4, width = 1.8;  ///< m
-    double speed_factor = 0;         ///< desired speed over the limit; 0: random, 0.9 .. 1.05
+    double speed_factor = 0;           ///< desired speed over the limit; 0: random, 0.9 .. 1.05
     Beam beam = Beam::Low;
 };
 
 /// A pedestrian who walks to and fro over the road.
 struct Walker {
     std::string node;
-    size_t path = 0;   ///< index into WorldDescription::paths
-    double wait = 5;   ///< before the first crossing, s; later waits are random
-    double s = 0;      ///< position on the path at the start, m; above 0: under way
+    size_t path = 0;  ///< index into WorldDescription::paths
+    double wait = 5;  ///< before the first crossing, s; later waits are random
+    double s = 0;     ///< position on the path at the start, m; above 0: under way
 };
 
 /// An object with recorded poses. It exists from its first pose to its last.
 struct RecordedMover {
     struct Pose {
-        double time = 0;                     ///< s
-        glm::dvec3 position{0};              ///< of the node's origin, m
-        double yaw = 0, pitch = 0, roll = 0; ///< as of Actor
-        double speed = 0;                    ///< m/s
-        VehicleLamps lamps;                  ///< until the next
+        double time = 0;                      ///< s
+        glm::dvec3 position{0};               ///< of the node's origin, m
+        double yaw = 0, pitch = 0, roll = 0;  ///< as of Actor
+        double speed = 0;                     ///< m/s
+        VehicleLamps lamps;                   ///< until the next
     };
     std::string node;
     double length = 4.4, width = 1.8;  ///< m
-    double middle = 0;         ///< its middle, m before the node's origin
-    bool person = false;       ///< does not stop a car
-    std::vector<Pose> poses;   ///< times ascending, at least one
+    double middle = 0;                 ///< its middle, m before the node's origin
+    bool person = false;               ///< does not stop a car
+    std::vector<Pose> poses;           ///< times ascending, at least one
 };
 
 /// Initial state and rules of a world.
 struct WorldDescription {
     std::vector<Course> lanes;
-    std::vector<Course> paths;         ///< of walkers, beyond both kerbs; their speed is the walking speed
+    std::vector<Course> paths;  ///< of walkers, beyond both kerbs; their speed is the walking speed
     std::vector<Barrier> barriers;
     std::vector<TrafficCar> cars;
     std::vector<Walker> walkers;
     std::vector<RecordedMover> recordings;
-    VehicleParameters vehicle;       ///< of the driver
+    VehicleParameters vehicle;  ///< of the driver
     std::string driver_node;
     size_t driver_lane = 0;
     double driver_s = 0, driver_speed = 0;  ///< m, m/s
@@ -71,18 +71,18 @@ struct WorldDescription {
 /// A moving object at the present time.
 struct Actor {
     std::string node;
-    glm::dvec3 position{0};             ///< of the node's origin, m
-    double yaw = 0, pitch = 0, roll = 0; ///< rad, in that order about Y, X and Z
-    double speed = 0;                   ///< m/s
+    glm::dvec3 position{0};               ///< of the node's origin, m
+    double yaw = 0, pitch = 0, roll = 0;  ///< rad, in that order about Y, X and Z
+    double speed = 0;                     ///< m/s
     VehicleLamps lamps;
 };
 
 /// A collision of the driver's car with a moving object.
 struct Contact {
-    double seconds = 0;   ///< time
-    std::string node;     ///< node of the opponent
-    double speed = 0;     ///< closing speed, m/s
-    double impulse = 0;   ///< N s
+    double seconds = 0;  ///< time
+    std::string node;    ///< node of the opponent
+    double speed = 0;    ///< closing speed, m/s
+    double impulse = 0;  ///< N s
 };
 
 class World {
@@ -107,10 +107,10 @@ public:
 private:
     struct Car {
         double s = 0, speed = 0, acceleration = 0, speed_factor = 1;  // speed_factor: of the allowed speed
-        size_t lane = 0, from = 0;                            // from: the lane it is leaving
-        double change = 1, offset = 0;                        // 0 .. 1: progress of the change; offset to the left at
-                                                              // its start, m
-        double patience = 0;                                  // s until the next lane change is considered
+        size_t lane = 0, from = 0;                                    // from: the lane it is leaving
+        double change = 1, offset = 0;  // 0 .. 1: progress of the change; offset to the left at
+                                        // its start, m
+        double patience = 0;            // s until the next lane change is considered
     };
     struct Walk {
         double s = 0, wait = 0;
@@ -119,8 +119,8 @@ private:
     };
     /// The next road user on a lane.
     struct Neighbour {
-        double gap;   // bumper to bumper, m; infinite: none
-        double speed; // m/s
+        double gap;    // bumper to bumper, m; infinite: none
+        double speed;  // m/s
     };
     struct Occupant {  // a road user on a lane, in the last step
         size_t lane;

@@ -8,13 +8,14 @@
 namespace vesper::traffic {
 namespace {
 
-constexpr double kSameContact = 0.5;                 // s without touching, after which it is another contact
+constexpr double kSameContact = 0.5;                   // s without touching, after which it is another contact
 constexpr double kPersonMass = 75, kPersonSize = 0.5;  // kg, m
 
 }  // namespace
 
 // The impulse on the car, N s.
-glm::dvec2 World::meet(size_t who, const std::string& node, const GroundBox& other, double height, const Opponent& opponent, bool person) {
+glm::dvec2 World::meet(size_t who, const std::string& node, const GroundBox& other, double height,
+                       const Opponent& opponent, bool person) {
     const VehicleParameters& p = description_->vehicle;
     const GroundBox mine = ground_box(driver_, p);
     const glm::dvec2 apart = mine.centre - other.centre;
@@ -40,7 +41,8 @@ void World::meet_others(const VehicleState& before) {
         const Course::Place at = place_of(i);
         const GroundBox other{plan(at.position), at.yaw, d.cars[i].length, d.cars[i].width};
         const glm::dvec2 heading = other.forward();
-        const glm::dvec2 impulse = meet(i, d.cars[i].node, other, at.position.y, {cars_[i].speed * heading, heading, 1 / d.vehicle.mass, 0}, false);
+        const glm::dvec2 impulse = meet(i, d.cars[i].node, other, at.position.y,
+                                        {cars_[i].speed * heading, heading, 1 / d.vehicle.mass, 0}, false);
         cars_[i].speed = std::max(0.0, cars_[i].speed - glm::dot(impulse, heading) / d.vehicle.mass);
     }
     for (size_t i = 0; i < walks_.size(); ++i) {
@@ -49,7 +51,8 @@ void World::meet_others(const VehicleState& before) {
         const Course::Place at = (walk.back ? back_ : d.paths)[d.walkers[i].path].at(walk.s);
         const GroundBox other{plan(at.position), at.yaw, kPersonSize, kPersonSize};
         const size_t known = contacts_.size();
-        meet(cars_.size() + i, d.walkers[i].node, other, at.position.y, {walk.speed * other.forward(), other.forward(), 1 / kPersonMass, 1 / kPersonMass}, true);
+        meet(cars_.size() + i, d.walkers[i].node, other, at.position.y,
+             {walk.speed * other.forward(), other.forward(), 1 / kPersonMass, 1 / kPersonMass}, true);
         walk.fallen = contacts_.size() > known;
     }
     for (size_t i = 0; i < d.recordings.size(); ++i) {
@@ -61,7 +64,8 @@ void World::meet_others(const VehicleState& before) {
         const glm::dvec2 heading = other.forward();
         other.centre += r.middle * heading;
         const double gives = r.person ? 1 / kPersonMass : 0;
-        meet(cars_.size() + walks_.size() + i, r.node, other, a.position.y, {a.speed * heading, heading, gives, gives}, r.person);
+        meet(cars_.size() + walks_.size() + i, r.node, other, a.position.y, {a.speed * heading, heading, gives, gives},
+             r.person);
     }
     // Nobody is pushed over a kerb.
     if (driver_.position != was) touched_ |= collide(driver_, before, d.vehicle, d.barriers, ground().position.y);

@@ -28,7 +28,8 @@ Course lane_of(const JsonValue& value, double width, double speed) {
     std::vector<glm::dvec3> points;
     for (const JsonValue& point : value.at("points").elements()) points.push_back(point_of(point));
     try {
-        return {value.at("name").text(), std::move(points), value.number_or("width_m", width, 0.5, 20), value.number_or("speed_km_h", speed, 0.1, 300) / 3.6, value.boolean_or("closed", false)};
+        return {value.at("name").text(), std::move(points), value.number_or("width_m", width, 0.5, 20),
+                value.number_or("speed_km_h", speed, 0.1, 300) / 3.6, value.boolean_or("closed", false)};
     } catch (const Error& error) {
         value.fail(error.what());
     }
@@ -40,7 +41,8 @@ std::vector<Course> lanes_of(const JsonValue& root, const char* key, double widt
     for (const JsonValue& value : root.elements_of(key)) {
         lanes.push_back(lane_of(value, width, speed));
         points += value.at("points").elements().size();
-        if (points > kMostPoints) value.fail("with this one there are more than " + std::to_string(kMostPoints) + " points");
+        if (points > kMostPoints)
+            value.fail("with this one there are more than " + std::to_string(kMostPoints) + " points");
     }
     return lanes;
 }
@@ -80,17 +82,24 @@ void read_front(const JsonValue& mover, WorldFile& file) {
 void read_cars(const JsonValue& root, WorldFile& file) {
     WorldDescription& world = file.world;
     for (const char* movers : {"cars", "walkers"})
-        if (root.elements_of(movers).size() > kMostMovers) root.at(movers).fail("more than " + std::to_string(kMostMovers));
+        if (root.elements_of(movers).size() > kMostMovers)
+            root.at(movers).fail("more than " + std::to_string(kMostMovers));
     for (const JsonValue& car : root.elements_of("cars")) {
         car.allow_only({"node", "front", "lane", "at_m", "speed_km_h", "length_m", "width_m", "beam", "wish"});
-        world.cars.push_back({.node = car.at("node").text(), .lane = index_of(car.at("lane"), world.lanes), .s = car.number_or("at_m", 0, -kFar, kFar),
-                              .speed = car.number_or("speed_km_h", 0, 0, 300) / 3.6, .length = car.number_or("length_m", 4.4, 0.5, 50), .width = car.number_or("width_m", 1.8, 0.3, 10),
-                              .speed_factor = car.number_or("wish", 0, 0.05, 2), .beam = beam_of(car)});
+        world.cars.push_back({.node = car.at("node").text(),
+                              .lane = index_of(car.at("lane"), world.lanes),
+                              .s = car.number_or("at_m", 0, -kFar, kFar),
+                              .speed = car.number_or("speed_km_h", 0, 0, 300) / 3.6,
+                              .length = car.number_or("length_m", 4.4, 0.5, 50),
+                              .width = car.number_or("width_m", 1.8, 0.3, 10),
+                              .speed_factor = car.number_or("wish", 0, 0.05, 2),
+                              .beam = beam_of(car)});
         read_front(car, file);
     }
     for (const JsonValue& walker : root.elements_of("walkers")) {
         walker.allow_only({"node", "front", "path", "wait_s", "at_m"});
-        world.walkers.push_back({walker.at("node").text(), index_of(walker.at("path"), world.paths), walker.number_or("wait_s", 5, 0, 1e6), walker.number_or("at_m", 0, 0, kFar)});
+        world.walkers.push_back({walker.at("node").text(), index_of(walker.at("path"), world.paths),
+                                 walker.number_or("wait_s", 5, 0, 1e6), walker.number_or("at_m", 0, 0, kFar)});
         read_front(walker, file);
     }
 }
@@ -113,7 +122,8 @@ void read_driver(const JsonValue& driver, WorldFile& file) {
 WorldFile read_world(const std::filesystem::path& path) {
     const JsonFile json = parse_json(read_file(path, kMostBytes), path.string());
     const JsonValue root(json);
-    root.allow_only({"$schema", "version", "scene", "photometry", "driver", "lanes", "paths", "barriers", "cars", "walkers", "lamps", "lit_by_day", "tunnels"});
+    root.allow_only({"$schema", "version", "scene", "photometry", "driver", "lanes", "paths", "barriers", "cars",
+                     "walkers", "lamps", "lit_by_day", "tunnels"});
     if (root.at("version").integer() != 1) root.at("version").fail("this version of Vesper reads worlds of version 1");
     WorldFile file;
     const auto beside = [&](const JsonValue& name) {
@@ -131,16 +141,19 @@ WorldFile read_world(const std::filesystem::path& path) {
     const auto lanes = root.at("lanes").elements();
     for (size_t i = 0; i < lanes.size(); ++i) {
         if (const auto left = lanes[i].find("left")) file.world.lanes[i].left = int(index_of(*left, file.world.lanes));
-        if (const auto right = lanes[i].find("right")) file.world.lanes[i].right = int(index_of(*right, file.world.lanes));
+        if (const auto right = lanes[i].find("right"))
+            file.world.lanes[i].right = int(index_of(*right, file.world.lanes));
     }
     file.world.paths = lanes_of(root, "paths", 1, 4.7);  // km/h: 1.3 m/s
     double walked = 0;
     for (const Course& walk : file.world.paths) walked += walk.length();
-    if (walked > kLongestPaths) root.at("paths").fail("are longer than " + std::to_string(int(kLongestPaths)) + " m in all");
+    if (walked > kLongestPaths)
+        root.at("paths").fail("are longer than " + std::to_string(int(kLongestPaths)) + " m in all");
     size_t points = 0;
     for (const JsonValue& barrier : root.elements_of("barriers")) {
         points += barrier.elements().size();
-        if (points > kMostPoints) barrier.fail("with this one there are more than " + std::to_string(kMostPoints) + " points");
+        if (points > kMostPoints)
+            barrier.fail("with this one there are more than " + std::to_string(kMostPoints) + " points");
         file.world.barriers.emplace_back();
         for (const JsonValue& point : barrier.elements()) {
             const auto xz = point.elements(2);
@@ -156,8 +169,11 @@ WorldFile read_world(const std::filesystem::path& path) {
     file.by_day = names_of(root, "lit_by_day");
     for (const JsonValue& tunnel : root.elements_of("tunnels")) {
         tunnel.allow_only({"from", "to", "width_m", "height_m"});
-        file.tunnels.push_back({glm::vec3(point_of(tunnel.at("from"))), glm::vec3(point_of(tunnel.at("to"))), float(tunnel.at("width_m").number(0.5, 100)), float(tunnel.at("height_m").number(0.5, 100))});
-        if (glm::distance(file.tunnels.back().from, file.tunnels.back().to) < 0.1) tunnel.fail("must be longer than 0.1 m");
+        file.tunnels.push_back({glm::vec3(point_of(tunnel.at("from"))), glm::vec3(point_of(tunnel.at("to"))),
+                                float(tunnel.at("width_m").number(0.5, 100)),
+                                float(tunnel.at("height_m").number(0.5, 100))});
+        if (glm::distance(file.tunnels.back().from, file.tunnels.back().to) < 0.1)
+            tunnel.fail("must be longer than 0.1 m");
     }
     return file;
 }

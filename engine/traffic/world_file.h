@@ -19,7 +19,12 @@ struct LampRoles {
 };
 /// Names of roles in files.
 constexpr std::array<std::pair<const char*, std::vector<std::string> LampRoles::*>, 6> kLampRoles{
-    {{"low", &LampRoles::low}, {"high", &LampRoles::high}, {"tail", &LampRoles::tail}, {"brake", &LampRoles::brake}, {"left", &LampRoles::left}, {"right", &LampRoles::right}}};
+    {{"low", &LampRoles::low},
+     {"high", &LampRoles::high},
+     {"tail", &LampRoles::tail},
+     {"brake", &LampRoles::brake},
+     {"left", &LampRoles::left},
+     {"right", &LampRoles::right}}};
 
 struct WorldFile {
     std::filesystem::path scene;       ///< a glTF file
@@ -28,7 +33,7 @@ struct WorldFile {
     WorldDescription world;
     std::map<std::string, double> turns;  ///< rad about +Y from the front of a node's model to -Z; missing: 0
     LampRoles roles;
-    std::vector<std::string> by_day;   ///< names of lamps that are lit by day, too; empty: all
+    std::vector<std::string> by_day;  ///< names of lamps that are lit by day, too; empty: all
     std::vector<Tunnel> tunnels;
 };
 

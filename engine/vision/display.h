@@ -20,7 +20,8 @@ enum class Eotf : uint8_t {
 };
 
 /// Names in files and commands.
-constexpr std::array<std::pair<const char*, Eotf>, 4> kEotfNames{{{"gamma", Eotf::Gamma}, {"srgb", Eotf::Srgb}, {"pq", Eotf::Pq}, {"table", Eotf::Table}}};
+constexpr std::array<std::pair<const char*, Eotf>, 4> kEotfNames{
+    {{"gamma", Eotf::Gamma}, {"srgb", Eotf::Srgb}, {"pq", Eotf::Pq}, {"table", Eotf::Table}}};
 
 /// One measurement of a display in the dark.
 struct DisplaySample {
@@ -39,7 +40,7 @@ struct Display {
     float ambient = 5;         ///< illuminance on the screen, lx
     float reflection = 0.01f;  ///< diffuse reflectance of the screen
     Eotf eotf = Eotf::Gamma;
-    uint32_t bits = 8;         ///< of a channel's code: 8 or 10
+    uint32_t bits = 8;  ///< of a channel's code: 8 or 10
     Primaries primaries = kRec709;
     /// Of Eotf::Table: from code 0 (luminance `black`) to code 1 (luminance `peak`); codes and luminances ascend.
     std::vector<DisplaySample> table;

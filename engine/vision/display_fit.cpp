@@ -23,7 +23,8 @@ double peak_of(std::span<const DisplayMeasurement> measured) {
     return peak;
 }
 
-std::optional<DisplayMeasurement> read_line(const LineReader& lines, std::string_view line, uint32_t largest, bool heading_allowed) {
+std::optional<DisplayMeasurement> read_line(const LineReader& lines, std::string_view line, uint32_t largest,
+                                            bool heading_allowed) {
     const size_t end = line.find_first_of(",;\t ");
     if (end == line.npos) lines.fail(quoted(line) + " is not a code and a luminance");
     std::string_view rest = line.substr(end);
@@ -32,11 +33,13 @@ std::optional<DisplayMeasurement> read_line(const LineReader& lines, std::string
     if (!code && !luminance && heading_allowed) return std::nullopt;
     if (!code || *code != std::floor(*code) || *code < 0 || *code > largest)
         lines.fail(quoted(line.substr(0, end)) + " is not a code from 0 to " + std::to_string(largest));
-    if (!luminance || *luminance < 0 || *luminance > 1e5) lines.fail(quoted(rest) + " is not a luminance from 0 to 1e5 cd/m^2");
+    if (!luminance || *luminance < 0 || *luminance > 1e5)
+        lines.fail(quoted(rest) + " is not a luminance from 0 to 1e5 cd/m^2");
     return DisplayMeasurement{uint32_t(*code), *luminance, 0};
 }
 
-/// No display has luminances that fall as codes rise, or two of one code: by more than 10 % and 0.1 % of the peak they are no noise.
+/// No display has luminances that fall as codes rise, or two of one code: by more than 10 % and 0.1 % of the peak they
+/// are no noise.
 void check_rise(const LineReader& lines, const std::vector<DisplayMeasurement>& sorted, double peak) {
     const auto falls = [peak](double from, double to) { return to < 0.9 * from && to < from - 1e-3 * peak; };
     const DisplayMeasurement* brightest = nullptr;  // of all smaller codes
@@ -47,11 +50,15 @@ void check_rise(const LineReader& lines, const std::vector<DisplayMeasurement>& 
             if (sorted[end].luminance > high->luminance) high = &sorted[end];
         }
         if (falls(high->luminance, low->luminance)) {
-            const auto [earlier, later] = std::minmax(high, low, [](const auto* a, const auto* b) { return a->line < b->line; });
-            lines.fail_at(later->line, "code " + std::to_string(later->code) + " has another luminance than in line " + std::to_string(earlier->line));
+            const auto [earlier, later] =
+                std::minmax(high, low, [](const auto* a, const auto* b) { return a->line < b->line; });
+            lines.fail_at(later->line, "code " + std::to_string(later->code) + " has another luminance than in line " +
+                                           std::to_string(earlier->line));
         }
         if (brightest && falls(brightest->luminance, low->luminance))
-            lines.fail_at(low->line, "code " + std::to_string(low->code) + " is darker than code " + std::to_string(brightest->code) + " in line " + std::to_string(brightest->line));
+            lines.fail_at(low->line, "code " + std::to_string(low->code) + " is darker than code " +
+                                         std::to_string(brightest->code) + " in line " +
+                                         std::to_string(brightest->line));
         if (!brightest || high->luminance > brightest->luminance) brightest = high;
     }
 }
@@ -62,14 +69,19 @@ void check_measurements(const LineReader& lines, const std::vector<DisplayMeasur
     std::map<uint32_t, int> codes;
     for (const DisplayMeasurement& m : sorted) ++codes[m.code];
     const size_t last = measured.empty() ? 1 : measured.back().line;
-    if (codes.size() < 3) lines.fail_at(last, "after it there are measurements of " + std::to_string(codes.size()) + " codes; at least 3 are needed");
+    if (codes.size() < 3)
+        lines.fail_at(last, "after it there are measurements of " + std::to_string(codes.size()) +
+                                " codes; at least 3 are needed");
     if (!codes.contains(0)) lines.fail_at(last, "after it there is no measurement of code 0");
-    if (!codes.contains(largest)) lines.fail_at(last, "after it there is no measurement of code " + std::to_string(largest) + ", the largest");
+    if (!codes.contains(largest))
+        lines.fail_at(last, "after it there is no measurement of code " + std::to_string(largest) + ", the largest");
     const double peak = peak_of(measured);
     check_rise(lines, sorted, peak);
-    const auto brightest = std::max_element(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.luminance < b.luminance; });
+    const auto brightest = std::max_element(sorted.begin(), sorted.end(),
+                                            [](const auto& a, const auto& b) { return a.luminance < b.luminance; });
     if (!(peak >= 0.1)) lines.fail_at(brightest->line, "the brightest code has less than 0.1 cd/m^2");
-    if (sorted.front().luminance > 0.9 * peak) lines.fail_at(sorted.front().line, "code 0 is as bright as the brightest");
+    if (sorted.front().luminance > 0.9 * peak)
+        lines.fail_at(sorted.front().line, "code 0 is as bright as the brightest");
 }
 
 struct Line {
@@ -88,14 +100,16 @@ Line fit_line(std::span<const DisplayMeasurement> measured, double floor, const 
     line.black = (sy - line.range * sx) / sw;
     if (line.black < 0) line.black = 0, line.range = sxy / sxx;
     for (size_t i = 0; i < measured.size(); ++i)
-        line.error += std::pow((line.black + line.range * x[i] - measured[i].luminance) / std::max(measured[i].luminance, floor), 2);
+        line.error += std::pow(
+            (line.black + line.range * x[i] - measured[i].luminance) / std::max(measured[i].luminance, floor), 2);
     return line;
 }
 
 void fit_gamma(Display& display, std::span<const DisplayMeasurement> measured, double floor) {
     const auto line_of = [&](double gamma) {
         std::vector<double> x;
-        for (const DisplayMeasurement& m : measured) x.push_back(std::pow(double(m.code) / display.largest_code(), gamma));
+        for (const DisplayMeasurement& m : measured)
+            x.push_back(std::pow(double(m.code) / display.largest_code(), gamma));
         return fit_line(measured, floor, x);
     };
     double best = 1, least = line_of(best).error;
@@ -112,15 +126,19 @@ void fit_gamma(Display& display, std::span<const DisplayMeasurement> measured, d
     display.black = float(line.black), display.peak = float(line.black + line.range);
 }
 
-/// Luminance must rise, so those of a plateau differ by this part from its first code to its last: far less than a meter can tell.
+/// Luminance must rise, so those of a plateau differ by this part from its first code to its last: far less than a
+/// meter can tell.
 constexpr double kPlateau = 1e-6;
 
-/// Means of each code; those that do not rise are a plateau of their mean from the first code to the last (isotonic regression).
+/// Means of each code; those that do not rise are a plateau of their mean from the first code to the last (isotonic
+/// regression).
 void fit_table(Display& display, std::span<const DisplayMeasurement> measured) {
     struct Block {
         uint32_t first = 0, last = 0;
         double luminance = 0, weight = 0;
-        void add(double mean, double more) { luminance = (luminance * weight + mean * more) / (weight + more), weight += more; }
+        void add(double mean, double more) {
+            luminance = (luminance * weight + mean * more) / (weight + more), weight += more;
+        }
     };
     std::map<uint32_t, Block> codes;
     for (const DisplayMeasurement& m : measured) {
@@ -141,7 +159,8 @@ void fit_table(Display& display, std::span<const DisplayMeasurement> measured) {
     if (blocks.size() < 2) throw Error("the luminance of the display does not rise with the code");
     for (const Block& b : blocks) {
         display.table.push_back({double(b.first) / display.largest_code(), b.luminance});
-        if (b.last > b.first) display.table.push_back({double(b.last) / display.largest_code(), b.luminance * (1 + kPlateau)});
+        if (b.last > b.first)
+            display.table.push_back({double(b.last) / display.largest_code(), b.luminance * (1 + kPlateau)});
     }
     display.black = float(display.table.front().luminance), display.peak = float(display.table.back().luminance);
 }
@@ -177,7 +196,8 @@ DisplayFit fit_display(std::span<const DisplayMeasurement> measured, uint32_t bi
     if (eotf == Eotf::Table) fit_table(display, measured);
     if (eotf == Eotf::Srgb) {
         std::vector<double> x;
-        for (const DisplayMeasurement& m : measured) x.push_back(srgb_to_linear(double(m.code) / display.largest_code()));
+        for (const DisplayMeasurement& m : measured)
+            x.push_back(srgb_to_linear(double(m.code) / display.largest_code()));
         const Line line = fit_line(measured, floor, x);
         display.black = float(line.black), display.peak = float(line.black + line.range);
     }
@@ -190,7 +210,8 @@ DisplayFit fit_display(std::span<const DisplayMeasurement> measured, uint32_t bi
     check_display(display);
     const DisplayCurve curve(display);
     for (const DisplayMeasurement& m : measured) {
-        fit.residuals.push_back((curve.emitted(double(m.code) / display.largest_code()) - m.luminance) / std::max(m.luminance, floor));
+        fit.residuals.push_back((curve.emitted(double(m.code) / display.largest_code()) - m.luminance) /
+                                std::max(m.luminance, floor));
         fit.rms += std::pow(fit.residuals.back(), 2);
         fit.largest = std::max(fit.largest, std::abs(fit.residuals.back()));
     }

@@ -6,11 +6,21 @@
 namespace vesper {
 
 Receptors Receptors::cones() {
-    return {.weber = -1.255, .fast_seconds = 0.08, .slow_seconds = 10, .fast_share = 0.5, .bleach_seconds = 120, .bleach_trolands = std::pow(10.0, 4.3)};
+    return {.weber = -1.255,
+            .fast_seconds = 0.08,
+            .slow_seconds = 10,
+            .fast_share = 0.5,
+            .bleach_seconds = 120,
+            .bleach_trolands = std::pow(10.0, 4.3)};
 }
 
 Receptors Receptors::rods() {
-    return {.weber = -0.395, .fast_seconds = 0.15, .slow_seconds = 60, .fast_share = 0.3, .bleach_seconds = 400, .bleach_trolands = 1e7};
+    return {.weber = -0.395,
+            .fast_seconds = 0.15,
+            .slow_seconds = 60,
+            .fast_share = 0.3,
+            .bleach_seconds = 400,
+            .bleach_trolands = 1e7};
 }
 
 ReceptorModel::ReceptorModel(ReceptorKind kind, const Receptors& receptors, ThresholdBreaks breaks)
@@ -48,8 +58,11 @@ ReceptorState ReceptorModel::adapted(double luminance) const {
 ReceptorState ReceptorModel::after(const ReceptorState& state, double luminance, double seconds) const {
     const ReceptorState goal = adapted(luminance);
     const double rate = (1 + trolands(luminance) / receptors_.bleach_trolands) / receptors_.bleach_seconds;
-    const auto towards = [](double from, double to, double time_constants) { return to + (from - to) * std::exp(-time_constants); };
-    return {towards(state.pigment, goal.pigment, rate * seconds), towards(state.fast, goal.fast, seconds / receptors_.fast_seconds),
+    const auto towards = [](double from, double to, double time_constants) {
+        return to + (from - to) * std::exp(-time_constants);
+    };
+    return {towards(state.pigment, goal.pigment, rate * seconds),
+            towards(state.fast, goal.fast, seconds / receptors_.fast_seconds),
             towards(state.slow, goal.slow, seconds / receptors_.slow_seconds)};
 }
 

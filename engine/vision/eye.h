@@ -12,14 +12,14 @@ namespace vesper {
 
 /// Parameters of cones or rods: response R = L / (L + sigma), and the time course of sigma.
 struct Receptors {
-    double weber;             ///< log10 of threshold over luminance where Weber's law holds
-    double semi_saturation = 2;  ///< c: sigma over luminance there; at least 1
-    double threshold_factor = 1; ///< times all thresholds: age, low vision
-    double fast_seconds;      ///< time constant of fast neural adaptation
-    double slow_seconds;      ///< of slow neural adaptation
-    double fast_share;        ///< part of the neural adaptation, in log units, that is fast
-    double bleach_seconds;    ///< time constant of the pigment
-    double bleach_trolands;   ///< td that bleach half of it
+    double weber;                 ///< log10 of threshold over luminance where Weber's law holds
+    double semi_saturation = 2;   ///< c: sigma over luminance there; at least 1
+    double threshold_factor = 1;  ///< times all thresholds: age, low vision
+    double fast_seconds;          ///< time constant of fast neural adaptation
+    double slow_seconds;          ///< of slow neural adaptation
+    double fast_share;            ///< part of the neural adaptation, in log units, that is fast
+    double bleach_seconds;        ///< time constant of the pigment
+    double bleach_trolands;       ///< td that bleach half of it
 
     static Receptors cones();  ///< Rushton and Henry 1968; Pattanaik et al. 2000; slow ones and shares are choices
     static Receptors rods();
@@ -37,20 +37,21 @@ enum class ReceptorKind : unsigned char { Cones, Rods };
 /// Thresholds of receptors in any state. All luminances cd/m^2.
 class ReceptorModel {
 public:
-    ReceptorModel(ReceptorKind kind, const Receptors& receptors, ThresholdBreaks breaks = ThresholdBreaks::continuous());
+    ReceptorModel(ReceptorKind kind, const Receptors& receptors,
+                  ThresholdBreaks breaks = ThresholdBreaks::continuous());
 
     /// Threshold of the eye adapted to L, cd/m^2 (Ferwerda et al. 1996), times the factor of the observer.
     double adapted_threshold(double luminance) const;
-    double response_step() const { return step_; }    ///< Delta R: the just noticeable difference of the response
-    double dark_sigma() const { return dark_; }       ///< sigma in the dark, cd/m^2
+    double response_step() const { return step_; }  ///< Delta R: the just noticeable difference of the response
+    double dark_sigma() const { return dark_; }     ///< sigma in the dark, cd/m^2
     /// Half saturation of the eye adapted to L, cd/m^2, in closed form from its threshold.
     double adapted_sigma(double luminance) const;
-    double adapted_pigment(double luminance) const;   ///< p = I0 / (I0 + I)
+    double adapted_pigment(double luminance) const;  ///< p = I0 / (I0 + I)
     ReceptorState adapted(double luminance) const;
 
     /// State after `seconds` at a constant luminance; exact for any duration.
     ReceptorState after(const ReceptorState& state, double luminance, double seconds) const;
-    double sigma(const ReceptorState& state) const;   ///< dark sigma * 10^(fast + slow) / pigment
+    double sigma(const ReceptorState& state) const;  ///< dark sigma * 10^(fast + slow) / pigment
 
     /// Least visible small difference at L, cd/m^2: Delta R (L + sigma)^2 / sigma.
     double threshold(double luminance, double sigma) const;
@@ -70,9 +71,9 @@ private:
 
 /// An observer.
 struct Observer {
-    double age = 23;              ///< years; raises thresholds (Adrian 1989)
-    double low_vision = 1;        ///< times all thresholds
-    bool use_rods = false;        ///< true: the lower threshold of cones and rods; false: foveal vision
+    double age = 23;        ///< years; raises thresholds (Adrian 1989)
+    double low_vision = 1;  ///< times all thresholds
+    bool use_rods = false;  ///< true: the lower threshold of cones and rods; false: foveal vision
     Receptors cones = Receptors::cones();
     Receptors rods = Receptors::rods();
 

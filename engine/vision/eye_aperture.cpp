@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kWidestPupil = 9, kUsualPupil = 5;  // mm
+constexpr double kWidestPupil = 9, kUsualPupil = 5;                    // mm
 constexpr double kSample = EyeAperture::kWindow / EyeAperture::kSide;  // mm
 
 // Numbers that depend on nothing but two others (SplitMix64, Steele et al. 2014), [0, 1).
@@ -32,10 +32,12 @@ double noise(double x, uint64_t seed) {
     return glm::mix(value(whole), value(whole + 1), t * t * (3 - 2 * t));
 }
 
-double octaves(double x, uint64_t seed) { return (noise(x, seed) + noise(2 * x, seed + 1) / 2 + noise(4 * x, seed + 2) / 4) / 1.75; }
+double octaves(double x, uint64_t seed) {
+    return (noise(x, seed) + noise(2 * x, seed + 1) / 2 + noise(4 * x, seed + 2) / 4) / 1.75;
+}
 
-// Where the vitreous humour is after the movements of the eye so far, mm: every 1.2 s on average the eye turns, what floats in it
-// lags behind by up to half a millimetre and comes back.
+// Where the vitreous humour is after the movements of the eye so far, mm: every 1.2 s on average the eye turns, what
+// floats in it lags behind by up to half a millimetre and comes back.
 dvec2 vitreous_drift(double seconds, uint64_t seed) {
     constexpr double kEvery = 1.2, kBack = 0.5, kFarthest = 0.5;  // s, s, mm
     const auto now = int64_t(std::floor(seconds / kEvery));
@@ -44,7 +46,8 @@ dvec2 vitreous_drift(double seconds, uint64_t seed) {
         const uint64_t event = uint64_t(k) * 3;
         const double since = (seconds - (double(k) + chance(seed, event)) * kEvery) / kBack;
         if (since <= 0) continue;
-        const double far = kFarthest * chance(seed, event + 1) * since * std::exp(1 - since), turn = kTwoPi * chance(seed, event + 2);
+        const double far = kFarthest * chance(seed, event + 1) * since * std::exp(1 - since),
+                     turn = kTwoPi * chance(seed, event + 2);
         drift += far * dvec2(std::cos(turn), std::sin(turn));
     }
     return drift;
@@ -58,7 +61,8 @@ void take(std::vector<double>& transmitted, dvec2 place, double area) {
     for (int i = 0; i < 4; ++i) {
         const int x = int(first.x) + i % 2, y = int(first.y) + i / 2;
         if (x < 0 || y < 0 || x >= kSide || y >= kSide) continue;
-        transmitted[size_t(y) * kSide + size_t(x)] -= taken * (i % 2 ? part.x : 1 - part.x) * (i / 2 ? part.y : 1 - part.y);
+        transmitted[size_t(y) * kSide + size_t(x)] -=
+            taken * (i % 2 ? part.x : 1 - part.x) * (i / 2 ? part.y : 1 - part.y);
     }
 }
 
@@ -67,7 +71,8 @@ void take(std::vector<double>& transmitted, dvec2 place, double area) {
 double restless_pupil(double diameter, double seconds, uint32_t seed) {
     const double p = std::clamp(diameter, 1.0, 0.98 * EyeAperture::kWindow);
     // Of time alone: of t / p a change of p late in a drive would move it by many turns.
-    const double moved = p + 0.35 * octaves(2 * seconds / kUsualPupil, seed) * (kWidestPupil / p) * std::sqrt(1 - p / kWidestPupil);
+    const double moved =
+        p + 0.35 * octaves(2 * seconds / kUsualPupil, seed) * (kWidestPupil / p) * std::sqrt(1 - p / kWidestPupil);
     return std::clamp(moved, 1.0, 0.98 * EyeAperture::kWindow);
 }
 
@@ -76,7 +81,8 @@ EyeAperture::EyeAperture(const ApertureSettings& settings) : settings_(settings)
     const auto unit = [&] { return double(random()) * 0x1p-32; };
     const auto scatter = [&](std::vector<Particle>& particles, int count, double smallest, double largest) {
         for (int i = 0; i < count; ++i) {
-            const double r = 0.5 * kWindow * std::sqrt(unit()), turn = kTwoPi * unit(), radius = glm::mix(smallest, largest, unit());
+            const double r = 0.5 * kWindow * std::sqrt(unit()), turn = kTwoPi * unit(),
+                         radius = glm::mix(smallest, largest, unit());
             particles.push_back({r * dvec2(std::cos(turn), std::sin(turn)), std::numbers::pi * radius * radius});
         }
     };
@@ -84,14 +90,16 @@ EyeAperture::EyeAperture(const ApertureSettings& settings) : settings_(settings)
     scatter(lens_, 750, 0.005, 0.015);
     scatter(vitreous_, 250, 0.006, 0.018);
     for (int i = 0; i < 200; ++i) {
-        // At random: 200 in order would be a grating, with a ring at a tenth of the angle that thousands of them have theirs at.
+        // At random: 200 in order would be a grating, with a ring at a tenth of the angle that thousands of them have
+        // theirs at.
         const double turn = kTwoPi * unit(), inner = 1.5 + unit();  // mm
         const dvec2 along(std::cos(turn), std::sin(turn));
         const double width = 0.012 * unit();
         fibres_.push_back({inner * along, 0.5 * kWindow * along, width});
     }
     for (int i = 0; settings.lashes && i < 14; ++i) {
-        const double x = glm::mix(-3.0, 3.0, (i + unit()) / 14), tip = glm::mix(-1.0, 1.0, unit()), lean = 0.25 * x + 0.5 * (unit() - 0.5);
+        const double x = glm::mix(-3.0, 3.0, (i + unit()) / 14), tip = glm::mix(-1.0, 1.0, unit()),
+                     lean = 0.25 * x + 0.5 * (unit() - 0.5);
         lashes_.push_back({{x, tip}, {x + lean, 0.5 * kWindow}, 0.06});
     }
 }

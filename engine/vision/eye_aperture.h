@@ -18,8 +18,8 @@ double restless_pupil(double diameter, double seconds, uint32_t seed);
 
 /// Choice of an eye, and whether it squints.
 struct ApertureSettings {
-    uint32_t seed = 1;     ///< selects the places of all obstacles
-    bool lashes = false;   ///< lashes of the upper lid cover a part of the pupil
+    uint32_t seed = 1;    ///< selects the places of all obstacles
+    bool lashes = false;  ///< lashes of the upper lid cover a part of the pupil
     bool operator==(const ApertureSettings&) const = default;
 };
 
@@ -28,8 +28,8 @@ struct ApertureSettings {
 /// particles on the cornea, at rest.
 class EyeAperture {
 public:
-    static constexpr int kSide = 512;        ///< samples along either side
-    static constexpr double kWindow = 8;     ///< mm covered by the samples: no pupil is wider
+    static constexpr int kSide = 512;              ///< samples along either side
+    static constexpr double kWindow = 8;           ///< mm covered by the samples: no pupil is wider
     static constexpr double kWavelength = 575e-6;  ///< mm, wavelength of the samples
     static constexpr double kDefocus = 0.5;  ///< dioptres: the eye is short-sighted at night (Leibowitz and Owens 1975)
 
@@ -46,7 +46,7 @@ private:
     };
     struct Fibre {
         glm::dvec2 from, to;
-        double width;      // mm
+        double width;  // mm
     };
     ApertureSettings settings_;
     std::vector<Particle> cornea_, lens_, vitreous_;

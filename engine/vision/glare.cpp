@@ -10,14 +10,15 @@
 namespace vesper {
 namespace {
 
-
 double square(double x) { return x * x; }
 double fourth(double x) { return square(square(x)); }
 double three_halves(double x) { return x * std::sqrt(x); }
 
 // Gauss-Legendre nodes and weights of five points on [-1, 1].
-constexpr std::array<double, 5> kNodes{-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831, 0.9061798459386640};
-constexpr std::array<double, 5> kWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
+constexpr std::array<double, 5> kNodes{-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831,
+                                       0.9061798459386640};
+constexpr std::array<double, 5> kWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
+                                         0.2369268850561891};
 
 constexpr double kSmallest = 1e-4;  // deg: the narrowest core, that of CIE, is 0.0046 deg wide
 constexpr int kPerDecade = 64;
@@ -27,7 +28,8 @@ constexpr int kPerDecade = 64;
 double cie_total_glare(double t, const ScatteringEye& eye) {
     const double a = fourth(eye.age / 70), p = eye.pigmentation, lens = 1 + 1.6 * a;
     const double wide = 1 + square(t / 0.1);
-    const double core = (1 - 0.08 * a) * (9.2e6 / three_halves(1 + square(t / 0.0046)) + 1.5e5 / three_halves(1 + square(t / 0.045)));
+    const double core =
+        (1 - 0.08 * a) * (9.2e6 / three_halves(1 + square(t / 0.0046)) + 1.5e5 / three_halves(1 + square(t / 0.045)));
     const double scatter = lens * (400 / wide + 3e-8 * square(t));
     const double iris = p * lens * (1300 / three_halves(wide) + 0.8 / std::sqrt(wide)) + 2.5e-3 * p;
     return (core + scatter + iris) / (1 + p * (0.0417 + 0.055 * a));
@@ -51,9 +53,12 @@ double spencer_halo(double t, double nanometres) {
 
 SpencerWeights spencer_weights(SpencerState state) {
     switch (state) {
-        case SpencerState::Photopic: return {0.384, 0.478, 0.138, 0};
-        case SpencerState::Mesopic: return {0.368, 0.478, 0.138, 0.016};
-        case SpencerState::Scotopic: break;
+        case SpencerState::Photopic:
+            return {0.384, 0.478, 0.138, 0};
+        case SpencerState::Mesopic:
+            return {0.368, 0.478, 0.138, 0.016};
+        case SpencerState::Scotopic:
+            break;
     }
     return {0.282, 0.478, 0.207, 0.033};
 }
@@ -86,7 +91,8 @@ double ward_scattered(double t) { return std::cos(t * kRadiansPerDegree) / squar
 double ward_veil(double t) {
     constexpr double kCore = 5e-4;  // deg: far below any pixel
     static const double scattered = EyeScatter(ward_scattered).total();
-    return 0.92 * std::exp(-square(t / kCore)) / (std::numbers::pi * square(kCore * kRadiansPerDegree)) + 0.08 * ward_scattered(t) / scattered;
+    return 0.92 * std::exp(-square(t / kCore)) / (std::numbers::pi * square(kCore * kRadiansPerDegree)) +
+           0.08 * ward_scattered(t) / scattered;
 }
 
 EyeScatter::EyeScatter(std::function<double(double)> psf) : psf_(std::move(psf)), angles_{0}, sums_{0} {

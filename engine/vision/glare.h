@@ -25,9 +25,9 @@ double cie_small_angle_glare(double theta, double age = 35);
 double cie_age_adjusted_glare(double theta, double age = 35);
 
 /// The parts of Spencer, Shirley, Zimmerman and Greenberg 1995, each of which integrates to 1 over the hemisphere.
-double spencer_core(double theta);      ///< f0: unscattered light
-double spencer_corona(double theta);    ///< f1: the ciliary corona, seen as needles
-double spencer_bloom(double theta);     ///< f2
+double spencer_core(double theta);                           ///< f0: unscattered light
+double spencer_corona(double theta);                         ///< f1: the ciliary corona, seen as needles
+double spencer_bloom(double theta);                          ///< f2
 double spencer_halo(double theta, double nanometres = 568);  ///< f3: lenticular halo, a ring at 3 degrees times nm /
                                                              ///< 568
 

@@ -18,8 +18,8 @@ using Rows = std::vector<std::vector<float>>;  // row by row, a value for each c
 constexpr int kColumns = GlarePattern::kColumns, kRows = GlarePattern::kRows;
 constexpr double kStep = kTwoPi / kColumns;  // of azimuth, and of ln theta from row to row
 
-// How strong needles and colours may be: a tenth of the veil, 0.5 * (1 - 0.8), is left where both are darkest, and the pyramid that makes
-// the veil is up to 8 % off.
+// How strong needles and colours may be: a tenth of the veil, 0.5 * (1 - 0.8), is left where both are darkest, and the
+// pyramid that makes the veil is up to 8 % off.
 constexpr double kNeedles = 0.8, kColours = 0.5, kLeastNeedle = 0.1;
 // Needles fade out from here to kReach, degrees.
 constexpr double kFade = 4;
@@ -35,8 +35,8 @@ dvec3 coloured_halo(double theta) {
     return sum;
 }
 
-// The intensity of the far field along rings, over the mean of each: rows first .. first + count of the pattern, for kWavelength.
-// Beyond what the samples tell, the last ring goes on outwards.
+// The intensity of the far field along rings, over the mean of each: rows first .. first + count of the pattern, for
+// kWavelength. Beyond what the samples tell, the last ring goes on outwards.
 Rows rings_of(const std::vector<double>& intensity, int first, int count) {
     constexpr int kSide = EyeAperture::kSide;
     const double sample = EyeAperture::kWavelength / EyeAperture::kWindow / kRadiansPerDegree;  // degrees
@@ -56,7 +56,8 @@ Rows rings_of(const std::vector<double>& intensity, int first, int count) {
         const int parts = int(std::ceil(GlarePattern::angle(row + 1) * kStep / sample));
         if (sides.size() != size_t(parts * kColumns)) {
             sides.clear();
-            for (int i = 0; i < parts * kColumns; ++i) sides.emplace_back(std::cos(kStep * (i + 0.5) / parts), std::sin(kStep * (i + 0.5) / parts));
+            for (int i = 0; i < parts * kColumns; ++i)
+                sides.emplace_back(std::cos(kStep * (i + 0.5) / parts), std::sin(kStep * (i + 0.5) / parts));
         }
         std::vector<float> ring(size_t(kColumns), 0);
         double sum = 0;
@@ -75,7 +76,8 @@ Rows rings_of(const std::vector<double>& intensity, int first, int count) {
     return rows;
 }
 
-// White light through rings that are those of kWavelength, larger or smaller by the wavelength: along ln theta, a convolution.
+// White light through rings that are those of kWavelength, larger or smaller by the wavelength: along ln theta, a
+// convolution.
 std::vector<vec3> chromatic(const std::vector<double>& intensity) {
     static const std::array<dvec3, kWavelengths> white = white_light();
     const auto shift = [](int i) { return std::log(wavelength(i) * 1e-6 / EyeAperture::kWavelength) / kStep; };
@@ -95,15 +97,18 @@ std::vector<vec3> chromatic(const std::vector<double>& intensity) {
             const vec3 k = kernel[size_t(d - least)];
             const std::vector<float>& ring = rings[size_t(row - d + most)];
             for (size_t c = 0; c < 3; ++c)
-                for (size_t column = 0; column < size_t(kColumns); ++column) sums[c * kColumns + column] += k[int(c)] * ring[column];
+                for (size_t column = 0; column < size_t(kColumns); ++column)
+                    sums[c * kColumns + column] += k[int(c)] * ring[column];
         }
         for (int c = 0; c < 3; ++c) {
             // Colours that Rec. 709 does not have are cut off, and the rest is brought to a mean of 0 again.
             double sum = 0;
             float* values = &sums[size_t(c) * kColumns];
-            for (size_t column = 0; column < size_t(kColumns); ++column) sum += double(values[column] = std::max(values[column], -1.0f));
+            for (size_t column = 0; column < size_t(kColumns); ++column)
+                sum += double(values[column] = std::max(values[column], -1.0f));
             const auto scale = float(1 / (1 + sum / kColumns));
-            for (size_t column = 0; column < size_t(kColumns); ++column) modulation[size_t(row) * kColumns + column][c] = (1 + values[column]) * scale - 1;
+            for (size_t column = 0; column < size_t(kColumns); ++column)
+                modulation[size_t(row) * kColumns + column][c] = (1 + values[column]) * scale - 1;
         }
     }
     return modulation;
@@ -114,7 +119,9 @@ std::vector<vec3> chromatic(const std::vector<double>& intensity) {
 double GlarePattern::angle(double row) { return kReach * std::exp((row - kRows) * kStep); }
 double GlarePattern::row_of(double degrees) { return kRows + std::log(degrees / kReach) / kStep; }
 
-double halo_share(double diameter) { return spencer_weights(SpencerState::Scotopic).halo * std::clamp((diameter - 3) / (4.9 - 3), 0.0, 1.0); }
+double halo_share(double diameter) {
+    return spencer_weights(SpencerState::Scotopic).halo * std::clamp((diameter - 3) / (4.9 - 3), 0.0, 1.0);
+}
 
 double spencer_veil(double theta, SpencerState state) {
     constexpr double kWide = 2.2;  // degrees: nearly nothing at kReach
@@ -153,12 +160,15 @@ GlarePattern spencer_pattern(const EyeScatter& smooth, SpencerState state, uint3
         const double azimuth = kTwoPi * double(random()) * 0x1p-32;
         lines.emplace_back(azimuth, double(random()) * 0x1p-32);
     }
-    // Colours of single wavelengths are beyond Rec. 709: all of the ring is less colourful, as far as that leaves light in every channel.
+    // Colours of single wavelengths are beyond Rec. 709: all of the ring is less colourful, as far as that leaves light
+    // in every channel.
     double saturation = 1;
     for (int row = 0; row < kRows; ++row) {
         const double theta = middle(row);
         const dvec3 halo = w.halo * coloured_halo(theta);
-        const double grey = luminance(halo), spare = spencer_smooth_glare(theta, w) - kNeedles * w.corona * spencer_corona(theta) + grey - kLeastNeedle * spencer_veil(theta, state);
+        const double grey = luminance(halo), spare = spencer_smooth_glare(theta, w) -
+                                                     kNeedles * w.corona * spencer_corona(theta) + grey -
+                                                     kLeastNeedle * spencer_veil(theta, state);
         for (int c = 0; c < 3; ++c)
             if (halo[c] < grey) saturation = std::min(saturation, spare / (grey - halo[c]));
     }
@@ -171,7 +181,8 @@ GlarePattern spencer_pattern(const EyeScatter& smooth, SpencerState state, uint3
         std::vector<double> ring(kColumns, 0);
         double sum = 0;
         for (const auto& [azimuth, intensity] : lines) {
-            const int first = int(std::ceil((azimuth - half) / kStep - 0.5)), last = int(std::floor((azimuth + half) / kStep - 0.5));
+            const int first = int(std::ceil((azimuth - half) / kStep - 0.5)),
+                      last = int(std::floor((azimuth + half) / kStep - 0.5));
             for (int column = first; column <= last; ++column) {
                 const double part = intensity * (1 - std::abs(kStep * (column + 0.5) - azimuth) / half);
                 ring[size_t((column + kColumns) % kColumns)] += part, sum += part;

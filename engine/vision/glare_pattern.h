@@ -14,13 +14,13 @@ namespace vesper {
 /// Columns are azimuths, counted from the right upwards, at the same spacing, so that a blur is the same in both.
 struct GlarePattern {
     static constexpr int kColumns = 512, kRows = 448;
-    static constexpr int kReach = 6;             ///< degrees: outer edge of the last row and of the pattern
-    static double angle(double row);             ///< degrees of a row; whole numbers are inner edges, halves are
-                                                 ///< middles
-    static double row_of(double degrees);        ///< its inverse
+    static constexpr int kReach = 6;       ///< degrees: outer edge of the last row and of the pattern
+    static double angle(double row);       ///< degrees of a row; whole numbers are inner edges, halves are
+                                           ///< middles
+    static double row_of(double degrees);  ///< its inverse
 
-    std::vector<glm::vec3> ring, needles;        ///< of each row's middle
-    std::vector<glm::vec3> modulation;           ///< row by row; mean 0 in each row and channel, at least -1
+    std::vector<glm::vec3> ring, needles;  ///< of each row's middle
+    std::vector<glm::vec3> modulation;     ///< row by row; mean 0 in each row and channel, at least -1
 };
 
 /// Temporal glare (Ritschel et al. 2009): the far field of an aperture behind a pupil of `diameter` mm, over its

@@ -8,17 +8,17 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/luminance.h"
-#include "vision/visibility.h"
 #include "photometry/road.h"
+#include "vision/visibility.h"
 
 namespace vesper {
 namespace {
 
 using glm::dvec2, glm::dvec3;
 
-constexpr double kBackground = 10;  // deg about the line of sight
-constexpr double kLooked = 0.1;     // deg: nearer is not beside the line of sight
-constexpr double kLeastLuminance = 1e-4;    // cd/m^2: what is darker is left out of the log average
+constexpr double kBackground = 10;        // deg about the line of sight
+constexpr double kLooked = 0.1;           // deg: nearer is not beside the line of sight
+constexpr double kLeastLuminance = 1e-4;  // cd/m^2: what is darker is left out of the log average
 
 // E cos(theta) f(theta), summed.
 struct Veils {
@@ -28,7 +28,8 @@ struct Veils {
 Veils veils_of(const std::vector<DazzlingLight>& lamps, dvec3 sight, const ScatteringEye& eye) {
     Veils sum;
     for (const DazzlingLight& light : lamps) {
-        const double cosine = std::min(glm::dot(light.direction, sight), 1.0), theta = std::acos(cosine) * kDegreesPerRadian;
+        const double cosine = std::min(glm::dot(light.direction, sight), 1.0),
+                     theta = std::acos(cosine) * kDegreesPerRadian;
         if (cosine <= 0) continue;
         const double e = light.illuminance * cosine;
         sum.illuminance += e;
@@ -57,8 +58,8 @@ private:
     dvec2 pixel_;
 };
 
-// What is bright is so beside exp(mean ln L) of the pixels that have light, cd/m^2: a sky of 0 says nothing. Where lamps are all that has light, the
-// mean of all pixels is less.
+// What is bright is so beside exp(mean ln L) of the pixels that have light, cd/m^2: a sky of 0 says nothing. Where
+// lamps are all that has light, the mean of all pixels is less.
 double ordinary_luminance(const ImageAngles& image, const Pixels& pixels) {
     double logarithms = 0, lit = 0, sum = 0;
     for (int y = 0; y < image.height; ++y)
@@ -76,10 +77,11 @@ struct Mean {
     double value() const { return weight > 0 ? sum / weight : 0; }
 };
 
-void report_target(const ImageAngles& image, const Pixels& pixels, const std::vector<DazzlingLight>& lamps, const GlareQuestion& question, double source_luminance,
-                   GlareReport& report) {
+void report_target(const ImageAngles& image, const Pixels& pixels, const std::vector<DazzlingLight>& lamps,
+                   const GlareQuestion& question, double source_luminance, GlareReport& report) {
     const dvec2 extent(image.width, image.height);
-    const dvec2 low = question.target->corner * extent, high = low + question.target->size * extent, border = high - low;
+    const dvec2 low = question.target->corner * extent, high = low + question.target->size * extent,
+                border = high - low;
     Mean target, around;
     for (int y = int(std::max(0.0, low.y - border.y)); y < std::min(extent.y, high.y + border.y); ++y)
         for (int x = int(std::max(0.0, low.x - border.x)); x < std::min(extent.x, high.x + border.x); ++x) {
@@ -88,7 +90,8 @@ void report_target(const ImageAngles& image, const Pixels& pixels, const std::ve
             if (within || value <= source_luminance) (within ? target : around).add(value, 1);
         }
     if (!(target.weight > 0)) throw Error("no pixel has its centre in the target");
-    if (!(around.weight > 0)) throw Error("there is nothing around the target, of a frame of its own width, but sources of glare");
+    if (!(around.weight > 0))
+        throw Error("there is nothing around the target, of a frame of its own width, but sources of glare");
     const dvec2 middle = image.at(0.5 * (low + high));
     report.target = target.value();
     report.around = around.value();
@@ -97,15 +100,19 @@ void report_target(const ImageAngles& image, const Pixels& pixels, const std::ve
     const double steradians = span.x * span.y * steradians_per_area(middle);
     Target seen{.age = question.eye.age};
     seen.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegreesPerRadian * 60;  // of a disc as large
-    if (report.around + report.target_veil > 0) report.visibility = visibility_level(report.target + report.target_veil, report.around + report.target_veil, seen);
+    if (report.around + report.target_veil > 0)
+        report.visibility =
+            visibility_level(report.target + report.target_veil, report.around + report.target_veil, seen);
 }
 
 }  // namespace
 
-GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, std::span<const DazzlingLight> outside, const GlareQuestion& question) {
+GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, std::span<const DazzlingLight> outside,
+                         const GlareQuestion& question) {
     const Pixels pixels(image, rgba);
     const dvec3 sight = glm::normalize(dvec3(image.at(question.gaze * dvec2(image.width, image.height)), -1));
-    const double source_luminance = question.source_luminance ? *question.source_luminance : kSourceContrast * ordinary_luminance(image, pixels);
+    const double source_luminance =
+        question.source_luminance ? *question.source_luminance : kSourceContrast * ordinary_luminance(image, pixels);
     const double wide = std::cos(kBackground / kDegreesPerRadian);
     std::vector<DazzlingLight> lamps(outside.begin(), outside.end());
     Mean background;
@@ -119,7 +126,10 @@ GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, 
                 background.add(value, pixels.solid_angle(towards));
         }
     const Veils veils = veils_of(lamps, sight, question.eye);
-    GlareReport report{.background = background.value(), .illuminance = veils.illuminance, .veil = veils.general, .road_veil = veils.road};
+    GlareReport report{.background = background.value(),
+                       .illuminance = veils.illuminance,
+                       .veil = veils.general,
+                       .road_veil = veils.road};
     const double average = question.average_luminance.value_or(report.background);
     report.increment = veils.road > 0 ? threshold_increment(veils.road, average) : 0;
     if (question.target) report_target(image, pixels, lamps, question, source_luminance, report);

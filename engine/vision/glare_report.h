@@ -23,7 +23,7 @@ constexpr double kSourceContrast = 100;
 
 struct GlareQuestion {
     ScatteringEye eye;
-    glm::dvec2 gaze{0.5};          ///< the line of sight, parts of the picture from its top left
+    glm::dvec2 gaze{0.5};  ///< the line of sight, parts of the picture from its top left
     /// cd/m^2: a brighter pixel is part of a glare source. Default: kSourceContrast times the log average of the pixels
     /// above 1e-4 cd/m^2, or the mean of all pixels where that is less.
     std::optional<double> source_luminance = {};
@@ -48,6 +48,7 @@ struct GlareReport {
 /// Computes the figures of a picture (RGBA rows from the top, cd/m^2 RGB in linear Rec. 709) and of lights outside of
 /// it. Sources within 0.1 degrees of the line of sight do not count as glare. Pixels that are not finite have no light.
 /// Throws Error for a target without a pixel in it or around it.
-GlareReport report_glare(const ImageAngles&, std::span<const float> rgba, std::span<const DazzlingLight> outside, const GlareQuestion&);
+GlareReport report_glare(const ImageAngles&, std::span<const float> rgba, std::span<const DazzlingLight> outside,
+                         const GlareQuestion&);
 
 }  // namespace vesper

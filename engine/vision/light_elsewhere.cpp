@@ -14,21 +14,27 @@ namespace {
 
 using glm::dvec2, glm::dvec3, glm::ivec2, glm::vec3, glm::vec4;
 
-constexpr int kFinest = 2;              // level at which light from beyond a guard begins: finer ones have no say in what is shown
-constexpr double kNear = 1.0 / 16;      // nodes are taken together that are no further apart than this, times their distance from what is shown:
-constexpr double kFar = 1.0 / 8;        // so wide a tent makes 0.3 % more of a function that falls with the cube of the angle, or 0.5 % with its square
-constexpr int kParts = 8;               // of a pixel, along each axis, that is too large
-constexpr double kInside = 0.01;        // px, from the edge of a picture to where it still is
-constexpr double kUneven = 1e-3;        // of shares under a tent
+constexpr int kFinest = 2;  // level at which light from beyond a guard begins: finer ones have no say in what is shown
+constexpr double kNear =
+    1.0 / 16;  // nodes are taken together that are no further apart than this, times their distance from what is shown:
+constexpr double kFar =
+    1.0 /
+    8;  // so wide a tent makes 0.3 % more of a function that falls with the cube of the angle, or 0.5 % with its square
+constexpr int kParts = 8;                             // of a pixel, along each axis, that is too large
+constexpr double kInside = 0.01;                      // px, from the edge of a picture to where it still is
+constexpr double kUneven = 1e-3;                      // of shares under a tent
 constexpr double kWholeAngle = 90, kNoneAngle = 100;  // deg
-constexpr double kWidest = 2.5 * kRadiansPerDegree;   // between nodes that are taken together, so that what goes from there to there is straight
+constexpr double kWidest =
+    2.5 *
+    kRadiansPerDegree;  // between nodes that are taken together, so that what goes from there to there is straight
 
 // Points outwards from the eye: all planes have it on their positive side. Convex.
 struct Pyramid {
     std::vector<dvec3> planes;
 
     explicit Pyramid(const EyePicture& p, dvec2 low, dvec2 high)
-        : planes{p.turn * dvec3(1, 0, low.x), p.turn * dvec3(-1, 0, -high.x), p.turn * dvec3(0, 1, low.y), p.turn * dvec3(0, -1, -high.y)} {}
+        : planes{p.turn * dvec3(1, 0, low.x), p.turn * dvec3(-1, 0, -high.x), p.turn * dvec3(0, 1, low.y),
+                 p.turn * dvec3(0, -1, -high.y)} {}
     explicit Pyramid(const EyePicture& p) : Pyramid(p, p.image.low, p.image.high) {}
     bool has(dvec3 d) const {
         return std::all_of(planes.begin(), planes.end(), [&](dvec3 n) { return glm::dot(n, d) > 0; });
@@ -51,7 +57,8 @@ double angle(dvec3 a, dvec3 b) { return std::atan2(glm::length(glm::cross(a, b))
 // Of a direction to an arc of a great circle, rad; all of unit length.
 double angle_to_arc(dvec3 d, dvec3 a, dvec3 b) {
     const dvec3 n = glm::normalize(glm::cross(a, b));
-    if (glm::dot(glm::cross(n, a), d) > 0 && glm::dot(glm::cross(b, n), d) > 0) return std::asin(std::min(1.0, std::abs(glm::dot(n, d))));
+    if (glm::dot(glm::cross(n, a), d) > 0 && glm::dot(glm::cross(b, n), d) > 0)
+        return std::asin(std::min(1.0, std::abs(glm::dot(n, d))));
     return std::min(angle(d, a), angle(d, b));
 }
 
@@ -81,9 +88,10 @@ double depth(const EyePicture& p, dvec3 direction) {
     return std::max(0.0, std::min(left.x, left.y));
 }
 
-// How much a direction counts as picture `from` has it, for what `own` takes: beyond the own one, pictures share it by their depths there, so that none begins or
-// ends with a step, which a small lamp would fall through or count twice at. Within the own one, all that it has is there already; but over its guard others take
-// over as its edge comes nearer, and what it has itself counts as much less.
+// How much a direction counts as picture `from` has it, for what `own` takes: beyond the own one, pictures share it by
+// their depths there, so that none begins or ends with a step, which a small lamp would fall through or count twice at.
+// Within the own one, all that it has is there already; but over its guard others take over as its edge comes nearer,
+// and what it has itself counts as much less.
 double share(std::span<const EyePicture> pictures, size_t own, size_t from, dvec3 direction) {
     double others = 0, here = 0;
     for (size_t i = 0; i < pictures.size(); ++i) (i == own ? here : others) += depth(pictures[i], direction);
@@ -106,22 +114,32 @@ LightElsewhere::Veil::Veil(const EyeScatter& psf) : psf_(psf) {
     constexpr int kSteps = 8192;
     for (int i = 0; i <= kSteps; ++i) {
         const double theta = 2 * std::asin(double(i) / kSteps) / kRadiansPerDegree;
-        table_.push_back(float(psf(std::min(theta, kWholeAngle)) * std::clamp((kNoneAngle - theta) / (kNoneAngle - kWholeAngle), 0.0, 1.0)));
+        table_.push_back(float(psf(std::min(theta, kWholeAngle)) *
+                               std::clamp((kNoneAngle - theta) / (kNoneAngle - kWholeAngle), 0.0, 1.0)));
     }
 }
 
 double LightElsewhere::Veil::at(double cosine) const {
-    const double sine = std::sqrt(std::max(0.0, 0.5 - 0.5 * cosine)), at = sine * double(table_.size() - 1);  // of half the angle
-    if (sine < 0.02) return psf_(2 * std::asin(sine) / kRadiansPerDegree);  // within 2.3 degrees it is too steep for a table; beyond, that is good to 1e-4
+    const double sine = std::sqrt(std::max(0.0, 0.5 - 0.5 * cosine)),
+                 at = sine * double(table_.size() - 1);  // of half the angle
+    if (sine < 0.02)
+        return psf_(2 * std::asin(sine) /
+                    kRadiansPerDegree);  // within 2.3 degrees it is too steep for a table; beyond, that is good to 1e-4
     const size_t first = std::min(size_t(at), table_.size() - 2);
     return std::lerp(double(table_[first]), double(table_[first + 1]), at - double(first));
 }
 
-// Goes through the nodes of another picture from the coarsest down, and divides tents among those below until each can be taken as one.
+// Goes through the nodes of another picture from the coarsest down, and divides tents among those below until each can
+// be taken as one.
 class LightElsewhere::Finder {
 public:
     Finder(const LightElsewhere& to, std::span<const EyePicture> pictures, size_t own, size_t other)
-        : to_(to), pictures_(pictures), own_(own), from_(pictures[other]), nodes_(from_.image), shown_(Shown::of(to.own_)) {
+        : to_(to),
+          pictures_(pictures),
+          own_(own),
+          from_(pictures[other]),
+          nodes_(from_.image),
+          shown_(Shown::of(to.own_)) {
         giver_.picture = other;
         bounds_ = {Pyramid(pictures[own]), shown_.pyramid};
         for (size_t k = 0; k < pictures.size(); ++k)
@@ -131,7 +149,8 @@ public:
     Giver find() {
         std::vector<double> weights(size_t(nodes_.sizes.back().x * nodes_.sizes.back().y), 1);
         for (int level = nodes_.levels() - 1; level >= 0; --level) {
-            const ivec2 size = nodes_.sizes[size_t(level)], below = level > 0 ? nodes_.sizes[size_t(level) - 1] : ivec2(0);
+            const ivec2 size = nodes_.sizes[size_t(level)],
+                        below = level > 0 ? nodes_.sizes[size_t(level) - 1] : ivec2(0);
             std::vector<double> rest(size_t(below.x) * size_t(below.y), 0);
             for (int y = 0; y < size.y; ++y)
                 for (int x = 0; x < size.x; ++x) {
@@ -141,7 +160,8 @@ public:
                         for (int u = -1; u <= 1; ++u) {
                             const ivec2 child = 2 * ivec2(x, y) + ivec2(u, v);
                             if (child.x < 0 || child.y < 0 || child.x >= below.x || child.y >= below.y) continue;
-                            rest[size_t(child.y) * size_t(below.x) + size_t(child.x)] += weight * (u == 0 ? 1 : 0.5) * (v == 0 ? 1 : 0.5);
+                            rest[size_t(child.y) * size_t(below.x) + size_t(child.x)] +=
+                                weight * (u == 0 ? 1 : 0.5) * (v == 0 ? 1 : 0.5);
                         }
                 }
             weights = std::move(rest);
@@ -153,15 +173,22 @@ public:
 private:
     // Whether that is done; else the level below has to.
     bool take(int level, ivec2 node, double weight) {
-        const dvec2 step(1 << level), size(from_.image.width, from_.image.height), place = LightNodes::place(level, node);
-        const dvec2 low = glm::max(step * dvec2(node - 1) + 1.0, kInside), high = glm::min(step * dvec2(node + 1), size - kInside);
-        const std::array corners{from_.towards(low), from_.towards({high.x, low.y}), from_.towards(high), from_.towards({low.x, high.y})};
+        const dvec2 step(1 << level), size(from_.image.width, from_.image.height),
+            place = LightNodes::place(level, node);
+        const dvec2 low = glm::max(step * dvec2(node - 1) + 1.0, kInside),
+                    high = glm::min(step * dvec2(node + 1), size - kInside);
+        const std::array corners{from_.towards(low), from_.towards({high.x, low.y}), from_.towards(high),
+                                 from_.towards({low.x, high.y})};
         const dvec3 direction = glm::normalize(from_.towards(place));
         const double part = share_of(direction);
         if (level > 0) {
-            // One share for all under a tent, or pixel by pixel: tents of different sizes side by side do not keep a slope.
-            if (std::any_of(bounds_.begin(), bounds_.end(), [&](const Pyramid& p) { return crosses(p, corners); })) return false;
-            if (std::any_of(corners.begin(), corners.end(), [&](dvec3 corner) { return std::abs(share_of(corner) - part) > kUneven; })) return false;
+            // One share for all under a tent, or pixel by pixel: tents of different sizes side by side do not keep a
+            // slope.
+            if (std::any_of(bounds_.begin(), bounds_.end(), [&](const Pyramid& p) { return crosses(p, corners); }))
+                return false;
+            if (std::any_of(corners.begin(), corners.end(),
+                            [&](dvec3 corner) { return std::abs(share_of(corner) - part) > kUneven; }))
+                return false;
         }
         if (part == 0) return true;
         const double distance = shown_.angle_to(direction), apart = spacing(level, place);
@@ -180,7 +207,8 @@ private:
             for (int x = 0; x < parts; ++x) {
                 const dvec2 at = dvec2(node) + (dvec2(x, y) + 0.5) / double(parts);
                 const dvec3 towards = glm::normalize(from_.towards(at));
-                if (const double there = share_of(towards); there != 0) give(index, 0, at, towards, weight * there / (parts * parts), distance);
+                if (const double there = share_of(towards); there != 0)
+                    give(index, 0, at, towards, weight * there / (parts * parts), distance);
             }
         return true;
     }
@@ -191,7 +219,8 @@ private:
     double spacing(int level, dvec2 place) const {
         const dvec3 at = from_.towards(place);
         const double step = double(1 << level);
-        return std::max(angle(at, from_.towards(place + dvec2(step, 0))), angle(at, from_.towards(place + dvec2(0, step))));
+        return std::max(angle(at, from_.towards(place + dvec2(step, 0))),
+                        angle(at, from_.towards(place + dvec2(0, step))));
     }
     std::optional<ScatterEntry> entry_of(dvec3 direction) const {
         return scatter_entry(to_.own_.image, glm::transpose(to_.own_.turn) * direction, kFinest);
@@ -209,7 +238,8 @@ private:
             const ivec2 side(i & 1, i >> 1);
             const double share = (side.x ? part.x : 1 - part.x) * (side.y ? part.y : 1 - part.y);
             if (share <= 0) continue;
-            if (const auto column = column_of(level, ivec2(first) + side)) giver_.far.push_back({node, *column, float(weight * share)});
+            if (const auto column = column_of(level, ivec2(first) + side))
+                giver_.far.push_back({node, *column, float(weight * share)});
         }
     }
 
@@ -237,14 +267,20 @@ private:
 };
 
 LightElsewhere::LightElsewhere(const EyeScatter& psf, std::span<const EyePicture> pictures, size_t own)
-    : own_(pictures[own]), levels_(scatter_levels(own_.image)), veil_(psf), rows_(scatter_size(own_.image, levels_) + 2 * (kScatterReach + 1)) {
+    : own_(pictures[own]),
+      levels_(scatter_levels(own_.image)),
+      veil_(psf),
+      rows_(scatter_size(own_.image, levels_) + 2 * (kScatterReach + 1)) {
     for (int y = 0; y < rows_.y; ++y)
-        for (int x = 0; x < rows_.x; ++x) places_.push_back(glm::normalize(own_.towards(std::exp2(levels_) * (dvec2(x, y) - (kScatterReach + 0.5)))));
-    for (size_t other = 0; other < pictures.size(); ++other) givers_.push_back(Finder(*this, pictures, own, other).find());
+        for (int x = 0; x < rows_.x; ++x)
+            places_.push_back(glm::normalize(own_.towards(std::exp2(levels_) * (dvec2(x, y) - (kScatterReach + 0.5)))));
+    for (size_t other = 0; other < pictures.size(); ++other)
+        givers_.push_back(Finder(*this, pictures, own, other).find());
 }
 
 LightElsewhere::Splash LightElsewhere::splash(const ScatterEntry& entry) const {
-    const dvec2 place = entry.pixels / std::exp2(entry.level), first = glm::floor(place - 2.0), size = own_.image.pixel();
+    const dvec2 place = entry.pixels / std::exp2(entry.level), first = glm::floor(place - 2.0),
+                size = own_.image.pixel();
     const ivec2 stored = ivec2(first) + kScatterMargin;
     Splash made{.level = uint32_t(entry.level), .first = uint32_t(stored.y * stride(uint32_t(entry.level)) + stored.x)};
     const double luminance = 1 / (size.x * size.y * steradians_per_area(entry.tangents) * std::exp2(2 * entry.level));
@@ -292,7 +328,8 @@ OffscreenLight LightElsewhere::of(std::span<const LightSums> sums, std::span<con
     }
     for (const UnseenLamp& lamp : lamps) {
         if (const auto entry = scatter_entry(own_.image, glm::transpose(own_.turn) * lamp.direction, kFinest)) {
-            add(beyond.levels[size_t(entry->level)], splash(*entry), strides[size_t(entry->level)], vec3(lamp.illuminance));
+            add(beyond.levels[size_t(entry->level)], splash(*entry), strides[size_t(entry->level)],
+                vec3(lamp.illuminance));
             continue;
         }
         for (size_t p = 0; p < places; ++p) {
@@ -308,7 +345,8 @@ OffscreenLight LightElsewhere::of(std::span<const LightSums> sums, std::span<con
             vec4 sharp(0);
             for (int c = 0; c < 3; ++c) {
                 const float* at = &veil[size_t(c)][y * row + x];
-                sharp[c] = std::max(0.0f, at[0] - sharpening * (at[1] + at[-1] + at[rows_.x] + at[-rows_.x] - 4 * at[0]));
+                sharp[c] =
+                    std::max(0.0f, at[0] - sharpening * (at[1] + at[-1] + at[rows_.x] + at[-rows_.x] - 4 * at[0]));
             }
             beyond.veil.push_back(sharp);
         }
@@ -317,7 +355,8 @@ OffscreenLight LightElsewhere::of(std::span<const LightSums> sums, std::span<con
 
 uint64_t LightElsewhere::bytes() const {
     uint64_t sum = 0;
-    for (const Giver& g : givers_) sum += g.near.size() * sizeof(Near) + g.far.size() * sizeof(Far) + g.veils.size() * sizeof(float);
+    for (const Giver& g : givers_)
+        sum += g.near.size() * sizeof(Near) + g.far.size() * sizeof(Far) + g.veils.size() * sizeof(float);
     return sum;
 }
 

@@ -13,8 +13,8 @@ namespace vesper {
 /// One of several pictures of one eye.
 struct EyePicture {
     ImageAngles image;
-    glm::dmat3 turn{1};   ///< from its view frame (x right, y up, along -z) to that of the eye
-    int guard = 0;        ///< px along its border that are rendered for glare and not shown
+    glm::dmat3 turn{1};  ///< from its view frame (x right, y up, along -z) to that of the eye
+    int guard = 0;       ///< px along its border that are rendered for glare and not shown
     bool operator==(const EyePicture&) const = default;
 
     /// Towards a point, px from the top left corner, in the frame of the eye; not of unit length.
@@ -94,8 +94,8 @@ private:
     EyePicture own_;
     int levels_;
     Veil veil_;
-    glm::ivec2 rows_;                  // texels of the top that take, and one more all around
-    std::vector<glm::dvec3> places_;   // of these, in the frame of the eye, of unit length
+    glm::ivec2 rows_;                 // texels of the top that take, and one more all around
+    std::vector<glm::dvec3> places_;  // of these, in the frame of the eye, of unit length
     std::vector<Giver> givers_;
 };
 

@@ -17,10 +17,12 @@ LightNodes::LightNodes(const ImageAngles& image) : sizes{{image.width, image.hei
     first.push_back(first.back() + texels());
 }
 
-LightSums::LightSums(const ImageAngles& image) : nodes_(image), coarse_(nodes_.first.back() - uint32_t(image.width) * uint32_t(image.height)) {
+LightSums::LightSums(const ImageAngles& image)
+    : nodes_(image), coarse_(nodes_.first.back() - uint32_t(image.width) * uint32_t(image.height)) {
     const glm::dvec2 size = image.pixel();
     for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) steradians_.push_back(float(size.x * size.y * steradians_per_area(image.at(glm::dvec2(x, y) + 0.5))));
+        for (int x = 0; x < image.width; ++x)
+            steradians_.push_back(float(size.x * size.y * steradians_per_area(image.at(glm::dvec2(x, y) + 0.5))));
 }
 
 vec4 LightSums::pixel(size_t index) const {
@@ -31,7 +33,9 @@ vec4 LightSums::pixel(size_t index) const {
     return {finite ? w * p.x : 0, finite ? w * p.y : 0, finite ? w * p.z : 0, 0};
 }
 
-glm::vec3 LightSums::at(uint32_t node) const { return node < steradians_.size() ? pixel(node) : coarse_[node - steradians_.size()]; }
+glm::vec3 LightSums::at(uint32_t node) const {
+    return node < steradians_.size() ? pixel(node) : coarse_[node - steradians_.size()];
+}
 
 void LightSums::take(std::span<const float> rgba) {
     rgba_ = rgba;

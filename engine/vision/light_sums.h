@@ -18,7 +18,9 @@ struct LightNodes {
 
     explicit LightNodes(const ImageAngles&);
     int levels() const { return int(sizes.size()); }
-    uint32_t index(int level, glm::ivec2 node) const { return first[size_t(level)] + uint32_t(node.y) * uint32_t(sizes[size_t(level)].x) + uint32_t(node.x); }
+    uint32_t index(int level, glm::ivec2 node) const {
+        return first[size_t(level)] + uint32_t(node.y) * uint32_t(sizes[size_t(level)].x) + uint32_t(node.x);
+    }
     /// Its place, px from the top left corner.
     static glm::dvec2 place(int level, glm::ivec2 node) { return double(1 << level) * glm::dvec2(node) + 0.5; }
 };
@@ -39,8 +41,8 @@ private:
     glm::vec4 pixel(size_t index) const;
 
     LightNodes nodes_;
-    std::vector<float> steradians_;   // of each pixel
-    std::vector<glm::vec4> coarse_;   // of nodes from level 1 on
+    std::vector<float> steradians_;  // of each pixel
+    std::vector<glm::vec4> coarse_;  // of nodes from level 1 on
     std::span<const float> rgba_;
 };
 

@@ -37,15 +37,21 @@ State adapted(double goal, double scotopic) { return {goal, scotopic, 2e6 / (2e6
 
 State after(const State& s, double goal, double scotopic, double seconds) {
     const auto lag = [&](double from, double to, double tau) { return to + (from - to) * std::exp(-seconds / tau); };
-    return {lag(s.cones, goal, 0.080), lag(s.rods, scotopic, 0.150), pigment_after(s.cone_pigment, goal, 110, 2e6, seconds), pigment_after(s.rod_pigment, scotopic, 400, 0.04, seconds)};
+    return {lag(s.cones, goal, 0.080), lag(s.rods, scotopic, 0.150),
+            pigment_after(s.cone_pigment, goal, 110, 2e6, seconds),
+            pigment_after(s.rod_pigment, scotopic, 400, 0.04, seconds)};
 }
 
 Appearance::Appearance(const State& state, double rod_constant)
-    : state_(state), cone_sigma_(pattanaik::cone_sigma(state.cones)), rod_sigma_(pattanaik::rod_sigma(state.rods, rod_constant)) {
+    : state_(state),
+      cone_sigma_(pattanaik::cone_sigma(state.cones)),
+      rod_sigma_(pattanaik::rod_sigma(state.rods, rod_constant)) {
     const double display_sigma = pattanaik::cone_sigma(kDisplayAdaptation);
-    const double display_white = response(kWhite * kDisplayAdaptation, display_sigma), display_black = response(kBlack * kDisplayAdaptation, display_sigma);
+    const double display_white = response(kWhite * kDisplayAdaptation, display_sigma),
+                 display_black = response(kBlack * kDisplayAdaptation, display_sigma);
     const auto scene = [&](double factor) {
-        return state.cone_pigment * response(factor * state.cones, cone_sigma_) + state.rod_pigment * response(factor * state.rods, rod_sigma_);
+        return state.cone_pigment * response(factor * state.cones, cone_sigma_) +
+               state.rod_pigment * response(factor * state.rods, rod_sigma_);
     };
     const double white = scene(kWhite), black = scene(kBlack), span = (display_white - display_black) / (white - black);
     if (white > display_white)
@@ -54,16 +60,20 @@ Appearance::Appearance(const State& state, double rod_constant)
         scale_ = std::min(span, 1.0), offset_ = display_black - black * scale_;
 }
 
-double Appearance::cones(double luminance) const { return scale_ * state_.cone_pigment * response(luminance, cone_sigma_); }
+double Appearance::cones(double luminance) const {
+    return scale_ * state_.cone_pigment * response(luminance, cone_sigma_);
+}
 double Appearance::rods(double scotopic) const { return scale_ * state_.rod_pigment * response(scotopic, rod_sigma_); }
 
 Shown Appearance::operator()(double luminance, double scotopic) const {
     const double display_sigma = pattanaik::cone_sigma(kDisplayAdaptation), n = kExponent;
-    const double display_range = response(kWhite * kDisplayAdaptation, display_sigma) - response(kBlack * kDisplayAdaptation, display_sigma);
+    const double display_range =
+        response(kWhite * kDisplayAdaptation, display_sigma) - response(kBlack * kDisplayAdaptation, display_sigma);
     const double x = excitation(luminance, cone_sigma_), from_cones = cones(luminance), from_rods = rods(scotopic);
     const double shown = std::clamp(from_cones + from_rods + offset_, 0.0, 0.9999999);
     const double colour = state_.cone_pigment * n * x / ((1 + x) * (1 + x)) / (display_range / std::log10(32.0));
-    return {display_sigma / (kWhite * kDisplayAdaptation) * std::pow(shown / (1 - shown), 1 / n), colour, from_cones + from_rods > 0 ? from_cones / (from_cones + from_rods) : 1};
+    return {display_sigma / (kWhite * kDisplayAdaptation) * std::pow(shown / (1 - shown), 1 / n), colour,
+            from_cones + from_rods > 0 ? from_cones / (from_cones + from_rods) : 1};
 }
 
 }  // namespace vesper::pattanaik

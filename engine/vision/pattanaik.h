@@ -5,7 +5,7 @@ namespace vesper::pattanaik {
 
 /// Pattanaik adaptation state. Luminances in cd/m^2; pigment is the unbleached part.
 struct State {
-    double cones = 0, rods = 0;              ///< adaptation luminance, pattanaik
+    double cones = 0, rods = 0;  ///< adaptation luminance, pattanaik
     double cone_pigment = 1, rod_pigment = 1;
 };
 
@@ -26,9 +26,9 @@ State after(const State&, double goal, double scotopic, double seconds);
 
 /// Appearance of a luminance on a display whose viewer is adapted to 25 cd/m^2.
 struct Shown {
-    double luminance;       ///< relative to the display's white of 125 cd/m^2; may exceed 1
-    double colour_exponent; ///< of the colour's ratios
-    double cone_share;      ///< of the response; the rest is grey
+    double luminance;        ///< relative to the display's white of 125 cd/m^2; may exceed 1
+    double colour_exponent;  ///< of the colour's ratios
+    double cone_share;       ///< of the response; the rest is grey
 };
 class Appearance {
 public:

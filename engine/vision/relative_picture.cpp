@@ -12,13 +12,15 @@ namespace vesper {
 namespace {
 
 constexpr double kHighlights = 0.99, kSuns = 0.999;  // parts of the pixels with light that are darker
-constexpr double kCountsNothing = -8, kCountsWhole = -6;         // log10 of luminance over highlights from which it counts, and fully
+constexpr double kCountsNothing = -8,
+                 kCountsWhole = -6;  // log10 of luminance over highlights from which it counts, and fully
 
 std::vector<float> lit_luminances(std::span<const float> rgb) {
     std::vector<float> lit;
     lit.reserve(rgb.size() / 3);
     for (size_t i = 0; i + 2 < rgb.size(); i += 3) {
-        const auto l = static_cast<float>(std::min(luminance({rgb[i], rgb[i + 1], rgb[i + 2]}), static_cast<double>(FLT_MAX)));
+        const auto l =
+            static_cast<float>(std::min(luminance({rgb[i], rgb[i + 1], rgb[i + 2]}), static_cast<double>(FLT_MAX)));
         if (l > 0 && std::isfinite(rgb[i]) && std::isfinite(rgb[i + 1]) && std::isfinite(rgb[i + 2])) lit.push_back(l);
     }
     return lit;
@@ -47,7 +49,8 @@ RelativeLuminance relative_luminance(std::span<const float> rgb) {
     highlights /= static_cast<double>(end - bright);
     double sum = 0, weights = 0;
     for (auto l = lit.begin(); l != end; ++l) {
-        const double log = log_of(*l), weight = smooth_step(highlights + kCountsNothing, highlights + kCountsWhole, log);
+        const double log = log_of(*l),
+                     weight = smooth_step(highlights + kCountsNothing, highlights + kCountsWhole, log);
         sum += weight * log, weights += weight;
     }
     return {std::pow(10, sum / weights), std::pow(10, highlights)};
@@ -60,7 +63,8 @@ double plausible_luminance(const RelativeLuminance& picture) {
 
 double plausible_scale(const RelativeLuminance& picture) {
     if (!(picture.log_average > 0)) return 1;
-    const double scale = std::clamp(plausible_luminance(picture) / picture.log_average, 1e-36, 1e36);  // of what a float holds
+    const double scale =
+        std::clamp(plausible_luminance(picture) / picture.log_average, 1e-36, 1e36);  // of what a float holds
     const double digits = std::pow(10, 5 - std::floor(std::log10(scale)));
     return std::round(scale * digits) / digits;
 }

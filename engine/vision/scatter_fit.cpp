@@ -14,24 +14,30 @@ namespace {
 
 using glm::bvec2, glm::dvec2, glm::dvec3, glm::ivec2;
 
-constexpr int kTopTexels = 1100;   // at most so many texels of the top make the picture
-constexpr double kTopWeights = 8e6;  // and so many weights its matrix: of pictures of more than 20 : 1 most would be of margins
+constexpr int kTopTexels = 1100;  // at most so many texels of the top make the picture
+constexpr double kTopWeights =
+    8e6;  // and so many weights its matrix: of pictures of more than 20 : 1 most would be of margins
 constexpr double kNodeStep = 0.14;  // tangents between two nodes, at most,
-constexpr int kMostNodes = 17;     // of a row or column: beyond 2.4 tangents across (100 degrees) steps grow, so that a fit takes seconds at most
-constexpr int kPhases = 8;        // places of the eye's axis within a texel of the top
+constexpr int kMostNodes =
+    17;  // of a row or column: beyond 2.4 tangents across (100 degrees) steps grow, so that a fit takes seconds at most
+constexpr int kPhases = 8;  // places of the eye's axis within a texel of the top
 constexpr int kAzimuths = 12;
-constexpr double kNarrow = 36 * std::numbers::pi / 180;  // from the axis to a corner: kernels of 5 x 5 follow pixels of that shape
+constexpr double kNarrow =
+    36 * std::numbers::pi / 180;  // from the axis to a corner: kernels of 5 x 5 follow pixels of that shape
 constexpr int kNearTaps = kScatterNear;
-constexpr int kFarTaps = 16;          // texels of the top beyond which light is counted, not added up
-// Texels outside the picture that light may be to go wholly into the margin of a level. One level lower it has then no say in the picture.
+constexpr int kFarTaps = 16;  // texels of the top beyond which light is counted, not added up
+// Texels outside the picture that light may be to go wholly into the margin of a level. One level lower it has then no
+// say in the picture.
 constexpr double kOutside = 6;
 constexpr double kBalance = 1e4;  // of the light, against the rows of the fit
 
-// What a pixel takes of another, on one axis, through each level, for a shift of -kFarTaps .. kFarTaps texels between them.
+// What a pixel takes of another, on one axis, through each level, for a shift of -kFarTaps .. kFarTaps texels between
+// them.
 struct CascadeResponses {
     std::vector<std::array<double, 2 * kFarTaps + 1>> levels;
 
-    CascadeResponses(const std::vector<CascadeTaps>& takes, const std::vector<CascadeTaps>& gives) : levels(takes.size()) {
+    CascadeResponses(const std::vector<CascadeTaps>& takes, const std::vector<CascadeTaps>& gives)
+        : levels(takes.size()) {
         for (size_t l = 0; l < levels.size(); ++l) {
             const int most = l + 1 < levels.size() ? kWideTapReach : kFarTaps;  // taps of levels reach no further
             levels[l].fill(0);
@@ -45,9 +51,11 @@ struct CascadeResponses {
 
 dvec3 ray(dvec2 tangents) { return glm::normalize(dvec3(tangents, 1)); }
 
-// Weights of texels of the top for one place, from the one whose middle lies at `first` onwards, right and down. Sharpened by
-// what the filters on the way there and back blur (variance: 2 * 5/12 texels^2): G - variance/2 * Laplacian.
-std::vector<double> far_weights(const EyeScatter& psf, const ImageAngles& image, int levels, dvec2 to, dvec2 first, ivec2 count) {
+// Weights of texels of the top for one place, from the one whose middle lies at `first` onwards, right and down.
+// Sharpened by what the filters on the way there and back blur (variance: 2 * 5/12 texels^2): G - variance/2 *
+// Laplacian.
+std::vector<double> far_weights(const EyeScatter& psf, const ImageAngles& image, int levels, dvec2 to, dvec2 first,
+                                ivec2 count) {
     const dvec2 texel = std::exp2(levels) * image.pixel() * dvec2(1, -1);
     const int stride = count.x + 2;
     std::vector<double> seen;
@@ -78,12 +86,14 @@ struct Row {
         const auto &along = x.levels.back(), &down = y.levels.back();
         double sum = 0;
         for (size_t j = 0; j < down.size(); ++j)
-            for (size_t i = 0; down[j] != 0 && i < along.size(); ++i) sum += along[i] * down[j] * far[j * along.size() + i];
+            for (size_t i = 0; down[j] != 0 && i < along.size(); ++i)
+                sum += along[i] * down[j] * far[j * along.size() + i];
         return sum;
     }
 };
 
-// Texels of the top whose weights are fitted, row by row; and the taps of all levels and of the top, one after the other.
+// Texels of the top whose weights are fitted, row by row; and the taps of all levels and of the top, one after the
+// other.
 std::vector<ivec2> top_taps() {
     std::vector<ivec2> taps;
     for (int y = -kNearTaps; y <= kNearTaps; ++y)
@@ -102,9 +112,9 @@ Eigen::RowVectorXd responses_of(const Row& row, const std::vector<ivec2>& level,
 
 // Samples of the function, the same wherever the eye looks.
 struct Samples {
-    std::vector<ivec2> offsets;  // px from the eye's axis to the source
+    std::vector<ivec2> offsets;                  // px from the eye's axis to the source
     std::vector<ivec2> level, top = top_taps();  // taps of each level, and of the top
-    std::vector<Row> rows;       // for each phase all offsets
+    std::vector<Row> rows;                       // for each phase all offsets
     Eigen::MatrixXd responses;
 
     Samples(int levels, int reach);
@@ -129,7 +139,8 @@ Samples::Samples(int levels, int reach) : offsets(sample_offsets(levels)), level
     for (int phase = 0; phase < kPhases; ++phase) {
         // The R2 sequence (Roberts 2018) fills the texel of the top evenly.
         const double size = std::exp2(levels);
-        const ivec2 q(int(size * std::fmod(0.5 + 0.7548776662 * phase, 1)), int(size * std::fmod(0.5 + 0.5698402910 * phase, 1)));
+        const ivec2 q(int(size * std::fmod(0.5 + 0.7548776662 * phase, 1)),
+                      int(size * std::fmod(0.5 + 0.5698402910 * phase, 1)));
         const std::vector<CascadeTaps> takes_x = taken(q.x, levels), takes_y = taken(q.y, levels);
         for (const ivec2 offset : offsets) {
             rows.push_back({{takes_x, given(q.x + offset.x, levels)}, {takes_y, given(q.y + offset.y, levels)}});
@@ -141,19 +152,24 @@ Samples::Samples(int levels, int reach) : offsets(sample_offsets(levels)), level
 // Weights of the texels of the top about the one that a place lies in the middle of; none for those that are fitted.
 std::vector<double> weights_beyond_near(const EyeScatter& psf, const ImageAngles& image, int levels, dvec2 place) {
     const dvec2 texel = std::exp2(levels) * image.pixel() * dvec2(1, -1);
-    std::vector<double> weights = far_weights(psf, image, levels, place, place - double(kFarTaps) * texel, ivec2(2 * kFarTaps + 1));
+    std::vector<double> weights =
+        far_weights(psf, image, levels, place, place - double(kFarTaps) * texel, ivec2(2 * kFarTaps + 1));
     for (int y = -kNearTaps; y <= kNearTaps; ++y)
-        for (int x = -kNearTaps; x <= kNearTaps; ++x) weights[size_t((y + kFarTaps) * (2 * kFarTaps + 1) + x + kFarTaps)] = 0;
+        for (int x = -kNearTaps; x <= kNearTaps; ++x)
+            weights[size_t((y + kFarTaps) * (2 * kFarTaps + 1) + x + kFarTaps)] = 0;
     return weights;
 }
 
-// The fit at one place, tangents: the taps of all levels, opposite ones together, then those of the top within kNearTaps.
-std::vector<double> fit_node(const EyeScatter& psf, const ImageAngles& image, int levels, const Samples& samples, dvec2 place) {
+// The fit at one place, tangents: the taps of all levels, opposite ones together, then those of the top within
+// kNearTaps.
+std::vector<double> fit_node(const EyeScatter& psf, const ImageAngles& image, int levels, const Samples& samples,
+                             dvec2 place) {
     const std::vector<double> far = weights_beyond_near(psf, image, levels, place);
     const dvec2 pixel = image.pixel(), half = 0.5 * pixel, most = (kFarTaps + 0.5) * std::exp2(levels) * pixel;
     std::vector<double> wanted;
     for (const ivec2 d : samples.offsets)
-        wanted.push_back(d == ivec2(0) ? light_within(psf, place, -half, half) : light_from(psf, place, place + pixel * dvec2(d.x, -d.y), half));
+        wanted.push_back(d == ivec2(0) ? light_within(psf, place, -half, half)
+                                       : light_from(psf, place, place + pixel * dvec2(d.x, -d.y), half));
 
     Eigen::MatrixXd a(samples.responses.rows(), samples.responses.cols());
     Eigen::VectorXd b(a.rows());
@@ -186,7 +202,9 @@ std::vector<size_t> mirrored_taps(int levels, const Samples& samples, bvec2 mirr
     for (int l = 0; l < levels; ++l)
         for (const ivec2 t : samples.level) {
             const auto same = [&](ivec2 other) { return other == signs * t || other == -signs * t; };
-            all.push_back(samples.level.size() * size_t(l) + size_t(std::find_if(samples.level.begin(), samples.level.end(), same) - samples.level.begin()));
+            all.push_back(
+                samples.level.size() * size_t(l) +
+                size_t(std::find_if(samples.level.begin(), samples.level.end(), same) - samples.level.begin()));
         }
     for (const ivec2 t : samples.top) all.push_back(samples.level.size() * size_t(levels) + top_tap(signs * t));
     return all;
@@ -198,7 +216,8 @@ Fits fit_nodes(const EyeScatter& psf, const ImageAngles& image, int levels, int 
     Fits fits;
     for (int y = 0; y < nodes.y; ++y)
         for (int x = 0; x < nodes.x; ++x) {
-            const ivec2 twin(image.symmetric_x() ? std::min(x, nodes.x - 1 - x) : x, image.symmetric_y() ? std::min(y, nodes.y - 1 - y) : y);
+            const ivec2 twin(image.symmetric_x() ? std::min(x, nodes.x - 1 - x) : x,
+                             image.symmetric_y() ? std::min(y, nodes.y - 1 - y) : y);
             if (twin == ivec2(x, y)) {
                 const dvec2 place = image.at(dvec2(image.width, image.height) * dvec2(x, y) / dvec2(nodes - 1));
                 fits.push_back(fit_node(psf, image, levels, samples, place));
@@ -223,8 +242,10 @@ std::vector<float> top_matrix(const EyeScatter& psf, const ScatterFit& fit, cons
     for (int y = 0; y < rows.y; ++y)
         for (int x = 0; x < rows.x; ++x) {
             const dvec2 to = middle({x, y}, kScatterReach);
-            const BetweenNodes bx = between_nodes(to.x / image.width, fit.nodes.x), by = between_nodes(to.y / image.height, fit.nodes.y);
-            const std::vector<double> far = far_weights(psf, image, fit.levels, image.at(to), image.at(middle({0, 0}, kScatterMargin)), columns);
+            const BetweenNodes bx = between_nodes(to.x / image.width, fit.nodes.x),
+                               by = between_nodes(to.y / image.height, fit.nodes.y);
+            const std::vector<double> far =
+                far_weights(psf, image, fit.levels, image.at(to), image.at(middle({0, 0}, kScatterMargin)), columns);
             for (int v = 0; v < columns.y; ++v)
                 for (int u = 0; u < columns.x; ++u) {
                     const ivec2 d = ivec2(u, v) - kScatterMargin - (ivec2(x, y) - kScatterReach);
@@ -233,8 +254,11 @@ std::vector<float> top_matrix(const EyeScatter& psf, const ScatterFit& fit, cons
                         continue;
                     }
                     const size_t tap = size_t(fit.taps() * fit.levels) + top_tap(d);
-                    const auto at = [&](int dx, int dy) { return fits[size_t((by.first + dy) * fit.nodes.x + bx.first + dx)][tap]; };
-                    matrix.push_back(float(glm::mix(glm::mix(at(0, 0), at(1, 0), bx.part), glm::mix(at(0, 1), at(1, 1), bx.part), by.part)));
+                    const auto at = [&](int dx, int dy) {
+                        return fits[size_t((by.first + dy) * fit.nodes.x + bx.first + dx)][tap];
+                    };
+                    matrix.push_back(float(glm::mix(glm::mix(at(0, 0), at(1, 0), bx.part),
+                                                    glm::mix(at(0, 1), at(1, 1), bx.part), by.part)));
                 }
         }
     return matrix;
@@ -266,13 +290,15 @@ double light_within(const EyeScatter& psf, dvec2 point, dvec2 low, dvec2 high) {
     // Along great circles through the point, which are straight lines of the plane.
     constexpr int kCircles = 192;
     const dvec3 middle = ray(point);
-    const dvec3 side = glm::normalize(glm::cross(std::abs(middle.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), middle)), other = glm::cross(middle, side);
+    const dvec3 side = glm::normalize(glm::cross(std::abs(middle.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), middle)),
+                other = glm::cross(middle, side);
     double sum = 0;
     for (int i = 0; i < kCircles; ++i) {
         const double azimuth = 2 * std::numbers::pi * (i + 0.5) / kCircles;
         const dvec3 e = std::cos(azimuth) * side + std::sin(azimuth) * other;
         const dvec2 along(e.x * middle.z - middle.x * e.z, e.y * middle.z - middle.y * e.z);
-        const dvec2 side_met = glm::max(dvec2(along.x < 0 ? -low.x : high.x, along.y < 0 ? -low.y : high.y), 0.0) / glm::max(glm::abs(along), 1e-300);
+        const dvec2 side_met = glm::max(dvec2(along.x < 0 ? -low.x : high.x, along.y < 0 ? -low.y : high.y), 0.0) /
+                               glm::max(glm::abs(along), 1e-300);
         const double reach = std::min(side_met.x, side_met.y);
         sum += psf.within(degrees_between(point, point + reach * along));
     }
@@ -281,7 +307,8 @@ double light_within(const EyeScatter& psf, dvec2 point, dvec2 low, dvec2 high) {
 
 double light_from(const EyeScatter& psf, dvec2 to, dvec2 from, dvec2 half) {
     // Gauss-Legendre: exact for polynomials of degree 5 within each part.
-    constexpr std::array<double, 3> nodes{-0.7745966692414834, 0, 0.7745966692414834}, weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
+    constexpr std::array<double, 3> nodes{-0.7745966692414834, 0, 0.7745966692414834},
+        weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
     const dvec2 away = glm::abs(to - from) / half;
     const double distance = std::max(away.x, away.y);  // 1 at the edge
     const auto seen = [&](dvec2 p) { return psf(degrees_between(to, p)) * steradians_per_area(p); };
@@ -336,14 +363,22 @@ int scatter_strip(const ImageAngles& image, ivec2 nodes, int level, int most) {
 }
 
 ScatterFit fit_scatter(const EyeScatter& psf, const ImageAngles& image, ivec2 strip) {
-    ScatterFit fit{.image = image, .levels = scatter_levels(image), .reach = kTapReach, .strip = strip, .nodes = {}, .kernels = {}, .top = {}, .edge = {}};
+    ScatterFit fit{.image = image,
+                   .levels = scatter_levels(image),
+                   .reach = kTapReach,
+                   .strip = strip,
+                   .nodes = {},
+                   .kernels = {},
+                   .top = {},
+                   .edge = {}};
     // Odd, so that a symmetric picture has a node in its middle and needs only a quarter of them.
     const dvec2 span = image.high - image.low;
     fit.nodes = ivec2(glm::min(2.0 * glm::ceil(span / (2 * kNodeStep)) + 1.0, dvec2(kMostNodes)));
     const dvec2 corner = glm::max(glm::abs(image.low), glm::abs(image.high));
     fit.reach = std::atan(glm::length(corner)) < kNarrow ? kTapReach : kWideTapReach;
     const Fits fits = fit_nodes(psf, image, fit.levels, fit.reach, fit.nodes);
-    for (const std::vector<double>& at : fits) fit.kernels.insert(fit.kernels.end(), at.begin(), at.begin() + fit.taps() * fit.levels);
+    for (const std::vector<double>& at : fits)
+        fit.kernels.insert(fit.kernels.end(), at.begin(), at.begin() + fit.taps() * fit.levels);
     fit.top = top_matrix(psf, fit, fits);
     conserve_light(psf, fit);
     return fit;

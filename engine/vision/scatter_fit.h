@@ -104,12 +104,12 @@ struct EdgeLight {
 /// near the border, so that the sum over the picture is right.
 struct ScatterFit {
     ImageAngles image;
-    int levels = 1;                      ///< the top is this one
-    int reach = kTapReach;               ///< of the kernels
-    glm::ivec2 strip{1, 2};              ///< texels over which passes take taps as linear, at most (scatter_strip)
-    glm::ivec2 nodes{2};                 ///< places where kernels are given: columns, rows, evenly from edge to edge of
-                                         ///< the picture
-    std::vector<float> kernels;          ///< for each node, row by row, and each level: taps() weights
+    int levels = 1;              ///< the top is this one
+    int reach = kTapReach;       ///< of the kernels
+    glm::ivec2 strip{1, 2};      ///< texels over which passes take taps as linear, at most (scatter_strip)
+    glm::ivec2 nodes{2};         ///< places where kernels are given: columns, rows, evenly from edge to edge of
+                                 ///< the picture
+    std::vector<float> kernels;  ///< for each node, row by row, and each level: taps() weights
     /// For each texel of the top with kScatterReach around: the weights of all with kScatterMargin around.
     std::vector<float> top;
     EdgeLight edge;

@@ -21,13 +21,18 @@ double cones_log10(double l, double weber) {
 
 }  // namespace
 
-double cone_threshold(double luminance, ThresholdBreaks breaks) { return power_of_ten(cones_log10(std::log10(luminance), breaks.cones)); }
+double cone_threshold(double luminance, ThresholdBreaks breaks) {
+    return power_of_ten(cones_log10(std::log10(luminance), breaks.cones));
+}
 
-double rod_threshold(double luminance, ThresholdBreaks breaks) { return power_of_ten(rods_log10(std::log10(luminance), breaks.rods)); }
+double rod_threshold(double luminance, ThresholdBreaks breaks) {
+    return power_of_ten(rods_log10(std::log10(luminance), breaks.rods));
+}
 
 double human_threshold(double luminance, ThresholdBreaks breaks) {
     const double l = std::log10(luminance);
-    if (breaks == ThresholdBreaks::continuous()) return power_of_ten(std::min(cones_log10(l, breaks.cones), rods_log10(l, breaks.rods)));
+    if (breaks == ThresholdBreaks::continuous())
+        return power_of_ten(std::min(cones_log10(l, breaks.cones), rods_log10(l, breaks.rods)));
     if (luminance < 1.148e-4) return 1.38e-3;
     return power_of_ten(l < -0.0184 ? rods_log10(l, breaks.rods) : cones_log10(l, breaks.cones));
 }
@@ -45,7 +50,9 @@ double trolands(double luminance, double diameter) { return luminance * std::num
 
 double trolands(double luminance) { return trolands(luminance, pupil_moon_spencer(luminance)); }
 
-double scotopic_luminance(double x, double y, double z) { return x > 0 ? std::max(y * (1.33 * (1 + (y + z) / x) - 1.68), 0.0) : 0; }
+double scotopic_luminance(double x, double y, double z) {
+    return x > 0 ? std::max(y * (1.33 * (1 + (y + z) / x) - 1.68), 0.0) : 0;
+}
 
 double acuity(double luminance) { return 17.25 * std::atan(1.4 * std::log10(luminance) + 0.35) + 25.72; }
 

@@ -7,8 +7,8 @@ namespace vesper {
 /// Break points of the threshold curves. The published ones leave steps of 0.003 (cones) and 0.012 (rods) log units;
 /// the continuous ones do not.
 struct ThresholdBreaks {
-    double cones = 1.9;    ///< log10 L from which Weber's law holds
-    double rods = -1.44;   ///< likewise, log10 of scotopic L
+    double cones = 1.9;   ///< log10 L from which Weber's law holds
+    double rods = -1.44;  ///< likewise, log10 of scotopic L
 
     static constexpr ThresholdBreaks published() { return {}; }
     static constexpr ThresholdBreaks continuous() { return {1.91760, -1.205}; }

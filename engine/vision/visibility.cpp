@@ -13,7 +13,9 @@ struct Functions {
 
 Functions functions_of(double lb) {
     const double l = std::log10(lb);
-    if (lb >= 0.6) return {std::log10(4.1925 * std::pow(lb, 0.1556)) + 0.1684 * std::pow(lb, 0.5867), 0.05946 * std::pow(lb, 0.466)};
+    if (lb >= 0.6)
+        return {std::log10(4.1925 * std::pow(lb, 0.1556)) + 0.1684 * std::pow(lb, 0.5867),
+                0.05946 * std::pow(lb, 0.466)};
     if (lb > 0.00418) return {std::pow(10.0, -0.072 + 0.3372 * l + 0.0866 * l * l), std::pow(10.0, -1.256 + 0.319 * l)};
     return {std::pow(10.0, 0.028 + 0.173 * l), std::pow(10.0, -0.891 + 0.5275 * l + 0.0227 * l * l)};
 }

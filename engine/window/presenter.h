@@ -27,7 +27,8 @@ enum class Scaling : uint8_t {
     Whole,  ///< enlarged a whole number of times, without a filter; where it does not fit even once, as Fit
 };
 
-/// Where a picture lies in a window, px. `times` is 1 or more where pixels are repeated whole, 0 where they are filtered.
+/// Where a picture lies in a window, px. `times` is 1 or more where pixels are repeated whole, 0 where they are
+/// filtered.
 struct Placement {
     VkRect2D area{};
     uint32_t times = 0;
@@ -42,7 +43,7 @@ struct Overlay {
     };
     struct Batch {
         uint32_t first_index, indices;
-        VkRect2D clip;           ///< from an offset that is not negative
+        VkRect2D clip;  ///< from an offset that is not negative
     };
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;

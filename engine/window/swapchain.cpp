@@ -10,10 +10,12 @@ namespace {
 constexpr uint64_t kPatience = 200'000'000;
 
 std::optional<VkSurfaceFormatKHR> format_for(const std::vector<VkSurfaceFormatKHR>& offered, WindowCodes codes) {
-    const VkColorSpaceKHR space = codes == WindowCodes::Hdr10 ? VK_COLOR_SPACE_HDR10_ST2084_EXT : VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
-    const auto wanted = codes == WindowCodes::Sdr8
-                            ? std::array{VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_A8B8G8R8_UNORM_PACK32}
-                            : std::array{VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_A2R10G10B10_UNORM_PACK32, VK_FORMAT_UNDEFINED};
+    const VkColorSpaceKHR space =
+        codes == WindowCodes::Hdr10 ? VK_COLOR_SPACE_HDR10_ST2084_EXT : VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+    const auto wanted =
+        codes == WindowCodes::Sdr8
+            ? std::array{VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_A8B8G8R8_UNORM_PACK32}
+            : std::array{VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_A2R10G10B10_UNORM_PACK32, VK_FORMAT_UNDEFINED};
     for (const VkFormat format : wanted)
         for (const VkSurfaceFormatKHR& o : offered)
             if (o.format == format && o.colorSpace == space) return o;
@@ -21,7 +23,9 @@ std::optional<VkSurfaceFormatKHR> format_for(const std::vector<VkSurfaceFormatKH
 }
 
 VkPresentModeKHR mode_for(const std::vector<VkPresentModeKHR>& offered, Vsync vsync) {
-    const auto has = [&](VkPresentModeKHR mode) { return std::find(offered.begin(), offered.end(), mode) != offered.end(); };
+    const auto has = [&](VkPresentModeKHR mode) {
+        return std::find(offered.begin(), offered.end(), mode) != offered.end();
+    };
     if (vsync == Vsync::Off && has(VK_PRESENT_MODE_IMMEDIATE_KHR)) return VK_PRESENT_MODE_IMMEDIATE_KHR;
     if (vsync != Vsync::Wait && has(VK_PRESENT_MODE_MAILBOX_KHR)) return VK_PRESENT_MODE_MAILBOX_KHR;
     return VK_PRESENT_MODE_FIFO_KHR;  // always there
@@ -38,7 +42,8 @@ Owned<VkSemaphore, vkDestroySemaphore> make_semaphore(VkDevice device) {
     return {device, semaphore};
 }
 
-void change_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags2 before, VkAccessFlags2 after) {
+void change_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags2 before,
+                   VkAccessFlags2 after) {
     constexpr VkPipelineStageFlags2 drawing = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
     const VkImageMemoryBarrier2 barrier = image_barrier(image, {drawing, before}, {drawing, after}, from, to);
     pipeline_barrier(commands, {&barrier, 1});
@@ -46,7 +51,8 @@ void change_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, 
 
 }  // namespace
 
-Swapchain::Swapchain(Device& device, MakeSurface make_surface) : device_(device), make_surface_(std::move(make_surface)) {
+Swapchain::Swapchain(Device& device, MakeSurface make_surface)
+    : device_(device), make_surface_(std::move(make_surface)) {
     open_surface();
     for (Slot& slot : slots_) {
         slot.commands = CommandBuffer(device_);
@@ -61,15 +67,19 @@ void Swapchain::open_surface() {
     surface_ = make_surface_(device_.instance());
     const VkPhysicalDevice physical = device_.physical();
     VkBool32 supported = VK_FALSE;
-    check(vkGetPhysicalDeviceSurfaceSupportKHR(physical, device_.queue_family(), surface_, &supported), "asking for a window's device");
+    check(vkGetPhysicalDeviceSurfaceSupportKHR(physical, device_.queue_family(), surface_, &supported),
+          "asking for a window's device");
     if (!supported) throw Error(device_.name() + " cannot show pictures in this window");
     uint32_t count = 0;
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(physical, surface_, &count, nullptr), "asking for a window's formats");
     formats_.resize(count);
-    check(vkGetPhysicalDeviceSurfaceFormatsKHR(physical, surface_, &count, formats_.data()), "asking for a window's formats");
-    check(vkGetPhysicalDeviceSurfacePresentModesKHR(physical, surface_, &count, nullptr), "asking how a window shows pictures");
+    check(vkGetPhysicalDeviceSurfaceFormatsKHR(physical, surface_, &count, formats_.data()),
+          "asking for a window's formats");
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(physical, surface_, &count, nullptr),
+          "asking how a window shows pictures");
     modes_.resize(count);
-    check(vkGetPhysicalDeviceSurfacePresentModesKHR(physical, surface_, &count, modes_.data()), "asking how a window shows pictures");
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(physical, surface_, &count, modes_.data()),
+          "asking how a window shows pictures");
     stale_ = true;
 }
 
@@ -96,7 +106,8 @@ bool Swapchain::rebuild(const SwapchainSettings& settings) {
     if (extent.width == ~0u)
         extent = {std::clamp(settings.extent.width, able.minImageExtent.width, able.maxImageExtent.width),
                   std::clamp(settings.extent.height, able.minImageExtent.height, able.maxImageExtent.height)};
-    if (extent.width == 0 || extent.height == 0 || settings.extent.width == 0 || settings.extent.height == 0) return false;
+    if (extent.width == 0 || extent.height == 0 || settings.extent.width == 0 || settings.extent.height == 0)
+        return false;
     const auto format = format_for(formats_, settings.codes);
     if (!format) throw Error("this window does not show codes of " + std::string(name_of(settings.codes)));
 
@@ -104,8 +115,9 @@ bool Swapchain::rebuild(const SwapchainSettings& settings) {
     images_.clear();
     const uint32_t most = able.maxImageCount ? able.maxImageCount : ~0u;
     const VkPresentModeKHR mode = mode_for(modes_, settings.vsync);
-    const VkCompositeAlphaFlagBitsKHR alpha = able.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
-                                                                                                             : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    const VkCompositeAlphaFlagBitsKHR alpha = able.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                                                  ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                                                  : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
     const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
                                         .surface = surface_,
                                         .minImageCount = std::min(able.minImageCount + 1, most),
@@ -151,7 +163,8 @@ bool Swapchain::rebuild(const SwapchainSettings& settings) {
 
 void Swapchain::describe_light(const SwapchainSettings& settings) const {
     if (!device_.has_hdr_metadata()) return;
-    const auto set = reinterpret_cast<PFN_vkSetHdrMetadataEXT>(vkGetDeviceProcAddr(device_.handle(), "vkSetHdrMetadataEXT"));
+    const auto set =
+        reinterpret_cast<PFN_vkSetHdrMetadataEXT>(vkGetDeviceProcAddr(device_.handle(), "vkSetHdrMetadataEXT"));
     const VkHdrMetadataEXT light{.sType = VK_STRUCTURE_TYPE_HDR_METADATA_EXT,
                                  .displayPrimaryRed = {0.708f, 0.292f},  // Rec. 2020
                                  .displayPrimaryGreen = {0.170f, 0.797f},
@@ -167,15 +180,16 @@ void Swapchain::describe_light(const SwapchainSettings& settings) const {
 
 bool Swapchain::show(const SwapchainSettings& settings, const Draw& draw) {
     const SwapchainSettings& b = built_for_;
-    if (stale_ || settings.extent.width != b.extent.width || settings.extent.height != b.extent.height || settings.vsync != b.vsync ||
-        settings.codes != b.codes || settings.peak != b.peak || settings.black != b.black)
+    if (stale_ || settings.extent.width != b.extent.width || settings.extent.height != b.extent.height ||
+        settings.vsync != b.vsync || settings.codes != b.codes || settings.peak != b.peak || settings.black != b.black)
         if (!rebuild(settings)) return false;
 
     Slot& slot = slots_[next_slot_];
     const VkFence done = slot.done.get();
     check(vkWaitForFences(device_.handle(), 1, &done, VK_TRUE, UINT64_MAX), "waiting for a frame");
     uint32_t image = 0;
-    const VkResult acquired = vkAcquireNextImageKHR(device_.handle(), swapchain_.get(), kPatience, slot.acquired.get(), VK_NULL_HANDLE, &image);
+    const VkResult acquired = vkAcquireNextImageKHR(device_.handle(), swapchain_.get(), kPatience, slot.acquired.get(),
+                                                    VK_NULL_HANDLE, &image);
     if (acquired == VK_TIMEOUT || acquired == VK_NOT_READY) return false;
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR || acquired == VK_ERROR_SURFACE_LOST_KHR) {
         stale_ = true;
@@ -197,7 +211,8 @@ void Swapchain::record(const Slot& slot, const Image& image, const Draw& draw, u
     slot.commands.begin();
     change_layout(slot.commands, image.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, 0,
                   VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT);
-    draw(slot.commands, {image.view.get(), extent_, format_.format, format_.colorSpace == VK_COLOR_SPACE_HDR10_ST2084_EXT, index});
+    draw(slot.commands,
+         {image.view.get(), extent_, format_.format, format_.colorSpace == VK_COLOR_SPACE_HDR10_ST2084_EXT, index});
     change_layout(slot.commands, image.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
                   VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, 0);
     check(vkEndCommandBuffer(slot.commands), "recording");
@@ -211,7 +226,8 @@ VkResult Swapchain::present(const Slot& slot, uint32_t image) {
     const VkSemaphoreSubmitInfo signal{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
                                        .semaphore = drawn,
                                        .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
-    const VkCommandBufferSubmitInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = slot.commands};
+    const VkCommandBufferSubmitInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                             .commandBuffer = slot.commands};
     const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
                                .waitSemaphoreInfoCount = 1,
                                .pWaitSemaphoreInfos = &wait,
@@ -231,8 +247,11 @@ VkResult Swapchain::present(const Slot& slot, uint32_t image) {
 }
 
 std::string Swapchain::describe() const {
-    const char* mode = mode_ == VK_PRESENT_MODE_IMMEDIATE_KHR ? "immediate" : mode_ == VK_PRESENT_MODE_MAILBOX_KHR ? "mailbox" : "fifo";
-    return std::to_string(extent_.width) + "x" + std::to_string(extent_.height) + ", " + name_of(built_for_.codes) + ", " + mode;
+    const char* mode = mode_ == VK_PRESENT_MODE_IMMEDIATE_KHR ? "immediate"
+                       : mode_ == VK_PRESENT_MODE_MAILBOX_KHR ? "mailbox"
+                                                              : "fifo";
+    return std::to_string(extent_.width) + "x" + std::to_string(extent_.height) + ", " + name_of(built_for_.codes) +
+           ", " + mode;
 }
 
 }  // namespace vesper

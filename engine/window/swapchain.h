@@ -55,8 +55,9 @@ public:
 
     bool offers(WindowCodes) const;
 
-    /// Shows what `draw` draws: it begins and ends rendering into a colour attachment. False: nothing was shown, since the window
-    /// has no size, is hidden or has just changed. Throws Error, also when the device is lost or codes are not offered.
+    /// Shows what `draw` draws: it begins and ends rendering into a colour attachment. False: nothing was shown, since
+    /// the window has no size, is hidden or has just changed. Throws Error, also when the device is lost or codes are
+    /// not offered.
     bool show(const SwapchainSettings&, const Draw& draw);
 
     /// Size, format and presentation mode of the images, in words.

@@ -18,7 +18,8 @@ std::vector<double> up_to(int last) {
 // Of 0, 1 ... n the p-th percentile is n p / 100. 1e-12: a few roundings.
 TEST(BenchSamples, PercentilesLieBetweenOrderStatistics) {
     const std::vector<double> ramp = up_to(20);
-    for (const double percent : {0.0, 1.0, 5.0, 33.3, 50.0, 95.0, 99.0, 100.0}) EXPECT_NEAR(percentile(ramp, percent), 0.2 * percent, 1e-12) << percent;
+    for (const double percent : {0.0, 1.0, 5.0, 33.3, 50.0, 95.0, 99.0, 100.0})
+        EXPECT_NEAR(percentile(ramp, percent), 0.2 * percent, 1e-12) << percent;
     // R: quantile(c(1, 2, 4, 8), c(.05, .5, .95)) is 1.15, 3, 7.4.
     const std::vector<double> few{1, 2, 4, 8};
     EXPECT_NEAR(percentile(few, 5), 1.15, 1e-12);

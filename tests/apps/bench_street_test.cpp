@@ -40,11 +40,14 @@ TEST(BenchStreet, HasAsManyLampsAndTrianglesAsAskedFor) {
             EXPECT_GE(triangles_of(scene), triangles);
             // A patch has at most one row of cells more than it needs.
             const double pieces = double(scene.nodes.size() - lamps - 1);
-            EXPECT_LE(double(triangles_of(scene)), double(triangles) + 2 * pieces * (1 + std::sqrt(double(triangles) / (2 * pieces) + 1))) << lamps << " " << triangles;
+            EXPECT_LE(double(triangles_of(scene)),
+                      double(triangles) + 2 * pieces * (1 + std::sqrt(double(triangles) / (2 * pieces) + 1)))
+                << lamps << " " << triangles;
         }
 }
 
-// Each patch is as large as the street's wall or road, whatever it is cut into, and its front is where its normals point.
+// Each patch is as large as the street's wall or road, whatever it is cut into, and its front is where its normals
+// point.
 TEST(BenchStreet, PatchesCoverTheStreetAndFaceIt) {
     const Scene scene = lamp_street(10, 12345);
     ASSERT_EQ(scene.meshes.size(), 3u);
@@ -54,7 +57,8 @@ TEST(BenchStreet, PatchesCoverTheStreetAndFaceIt) {
         const Primitive& p = scene.meshes[i].primitives[0];
         double area = 0;
         for (size_t t = 0; t < p.indices.size(); t += 3) {
-            const glm::vec3 a = p.vertices[p.indices[t]].position, b = p.vertices[p.indices[t + 1]].position, c = p.vertices[p.indices[t + 2]].position;
+            const glm::vec3 a = p.vertices[p.indices[t]].position, b = p.vertices[p.indices[t + 1]].position,
+                            c = p.vertices[p.indices[t + 2]].position;
             const glm::vec3 twice = glm::cross(b - a, c - a);
             EXPECT_NEAR(glm::dot(twice, normals[i]), glm::length(twice), 1e-5);
             area += 0.5 * double(glm::length(twice));
@@ -85,10 +89,12 @@ TEST(BenchStreet, LampsStandAlongItAndShineDown) {
 
 // Whatever they are, they send as much light down as a point of 1,500 cd.
 TEST(BenchStreet, LampsCanBeOfAnotherKind) {
-    const Scene measured = lamp_street(64, 0, VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies"), points = lamp_street(64, 0, "point"), dark = lamp_street(64, 0, "none");
+    const Scene measured = lamp_street(64, 0, VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies"),
+                points = lamp_street(64, 0, "point"), dark = lamp_street(64, 0, "none");
     ASSERT_EQ(measured.distributions.size(), 1u);
     EXPECT_EQ(measured.lamps.at(0).kind, Lamp::Kind::Measured);
-    EXPECT_NEAR(double(measured.lamps[0].intensity) * luminous_flux(measured.distributions[0]), 2 * std::numbers::pi * 1500, 0.01);
+    EXPECT_NEAR(double(measured.lamps[0].intensity) * luminous_flux(measured.distributions[0]),
+                2 * std::numbers::pi * 1500, 0.01);
     EXPECT_EQ(points.lamps.at(0).kind, Lamp::Kind::Point);
     EXPECT_EQ(points.lamps[0].intensity, 1500);
     EXPECT_EQ(lamps_of(measured), 64u);
@@ -110,12 +116,15 @@ TEST(BenchScenes, TheNearestLampsStay) {
     EXPECT_THROW(keep_nearest_lamps(scene, {}, 7), Error);
 }
 
-// Where one channel's image ends the next begins: the direction of the right edge of one is that of the left edge of the other.
+// Where one channel's image ends the next begins: the direction of the right edge of one is that of the left edge of
+// the other.
 TEST(BenchChannels, StandSideBySide) {
     const View camera = View::symmetric({1600, 1000}, 0.6f, glm::mat4(1));
     ASSERT_EQ(channel_views(camera, 1).at(0).world_to_view, camera.world_to_view);
     const std::vector<View> views = channel_views(camera, 3);
-    const auto edge = [](const View& view, float tangent) { return glm::normalize(glm::vec3(glm::inverse(view.world_to_view) * glm::vec4(tangent, 0, -1, 0))); };
+    const auto edge = [](const View& view, float tangent) {
+        return glm::normalize(glm::vec3(glm::inverse(view.world_to_view) * glm::vec4(tangent, 0, -1, 0)));
+    };
     EXPECT_NEAR(glm::distance(edge(views[0], camera.tangent_high.x), edge(views[1], camera.tangent_low.x)), 0, 1e-6);
     EXPECT_NEAR(glm::distance(edge(views[1], camera.tangent_high.x), edge(views[2], camera.tangent_low.x)), 0, 1e-6);
     EXPECT_LT(edge(views[0], 0).x, 0) << "the first is on the left";

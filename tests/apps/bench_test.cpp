@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/image_file.h"
 #include "io/atomic_file.h"
+#include "io/image_file.h"
 #include "places.h"
 #include "result.h"
 #include "support/program.h"
@@ -25,19 +25,40 @@ protected:
 
 RunResult made_up_run(uint32_t lamps, double scale) {
     RunResult run;
-    run.settings = {.scene = "street", .tone_operator = "ward", .glare = "none", .width = 64, .height = 36, .channels = 2, .lamps = lamps, .triangles = 1ull << 40, .threshold = 0.001, .frames = 3, .laps = 2, .warm_up = 1};
+    run.settings = {.scene = "street",
+                    .tone_operator = "ward",
+                    .glare = "none",
+                    .width = 64,
+                    .height = 36,
+                    .channels = 2,
+                    .lamps = lamps,
+                    .triangles = 1ull << 40,
+                    .threshold = 0.001,
+                    .frames = 3,
+                    .laps = 2,
+                    .warm_up = 1};
     run.fps = 100 / scale;
     run.frame = {10 * scale, 9 * scale, 12 * scale};
     run.p5 = 8 * scale, run.p95 = 13 * scale, run.p99 = 14 * scale, run.low_fps = 70 / scale;
-    for (size_t i = 0; i < run.host.size(); ++i) run.host[i] = {double(i) * scale, double(i) * scale, double(i) * scale};
+    for (size_t i = 0; i < run.host.size(); ++i)
+        run.host[i] = {double(i) * scale, double(i) * scale, double(i) * scale};
     run.passes = {{"shade", {4 * scale, 3 * scale, 5 * scale}, 3e6, 1e6}, {"composite", {1, 1, 1}, 2e6, 2e6}};
-    run.host_bytes = 3 << 20, run.device_bytes = 5 << 20, run.pipelines = 7, run.pipelines_ms = 1.5, run.first_frame_ms = 2.25;
+    run.host_bytes = 3 << 20, run.device_bytes = 5 << 20, run.pipelines = 7, run.pipelines_ms = 1.5,
+    run.first_frame_ms = 2.25;
     run.starts = {{"cold", 4}, {"warm", 2 * scale}};
     return run;
 }
 
 BenchResult made_up(std::vector<uint32_t> lamps, double scale = 1) {
-    BenchResult result{.version = "1.2.3", .command = "--size=64x36", .device = "a \"device\"", .driver = "its driver", .host = "a processor", .threads = 2, .cpu = true, .copy_bandwidth = 8e9, .runs = {}};
+    BenchResult result{.version = "1.2.3",
+                       .command = "--size=64x36",
+                       .device = "a \"device\"",
+                       .driver = "its driver",
+                       .host = "a processor",
+                       .threads = 2,
+                       .cpu = true,
+                       .copy_bandwidth = 8e9,
+                       .runs = {}};
     for (const uint32_t count : lamps) result.runs.push_back(made_up_run(count, scale));
     return result;
 }
@@ -168,7 +189,9 @@ TEST_F(BenchProgram, RefusesWhatCannotBeRun) {
 // No lamps are none, and what was measured before a run failed is kept.
 TEST_F(BenchProgram, KeepsWhatItMeasuredBeforeAFailure) {
     put("a.csv", "");
-    EXPECT_NE(run("--scene street --lamps 0,8 --luminaire point,a.csv --triangles 0 --size 8x8 --frames 1 --laps 1 --warm-up 0 --no-start --json a.json"), 0);
+    EXPECT_NE(run("--scene street --lamps 0,8 --luminaire point,a.csv --triangles 0 --size 8x8 --frames 1 --laps 1 "
+                  "--warm-up 0 --no-start --json a.json"),
+              0);
     const BenchResult result = read_result((folder / "a.json").string());
     ASSERT_EQ(result.runs.size(), 2u) << said;
     EXPECT_EQ(result.runs[0].settings.lamps, 0u);
@@ -182,13 +205,17 @@ TEST_F(BenchProgram, PrintsTables) {
     ASSERT_EQ(run("--tables a.json"), 0) << said;
     EXPECT_NE(printed.find(" a\\|b.glb "), std::string::npos) << printed;
     EXPECT_NE(printed.find("\n| shade | 4.00 | 3.8 | 12 % |\n"), std::string::npos) << printed;
-    EXPECT_NE(printed.find("| whole frame, median (medians of the laps) | 10.0 ms (9.0 to 12.0) |"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("| whole frame, median (medians of the laps) | 10.0 ms (9.0 to 12.0) |"), std::string::npos)
+        << printed;
     EXPECT_NE(printed.find("## Growth"), std::string::npos) << printed;
 }
 
 // What was measured has to hang together; how fast it was is nobody's business here.
 TEST_F(BenchProgram, DrivesASmallStreet) {
-    ASSERT_EQ(run("--scene street --lamps 8 --triangles 500 --size 64x36 --channels 2 --frames 3 --laps 2 --warm-up 1 --operator reinhard --glare ldr --json a.json --picture a.png"), 0) << said;
+    ASSERT_EQ(run("--scene street --lamps 8 --triangles 500 --size 64x36 --channels 2 --frames 3 --laps 2 --warm-up 1 "
+                  "--operator reinhard --glare ldr --json a.json --picture a.png"),
+              0)
+        << said;
     EXPECT_EQ(said, "");
     EXPECT_TRUE(printed.starts_with("64x36 street reinhard: ")) << printed;
     EXPECT_NE(printed.substr(0, printed.find('\n')).find(" fps ("), std::string::npos) << printed;
@@ -208,11 +235,13 @@ TEST_F(BenchProgram, DrivesASmallStreet) {
     EXPECT_LE(1000 / r.low_fps, r.p99 * 1.5);
     EXPECT_LE(r.low_fps, r.fps);
     EXPECT_LE(r.frame.low, r.frame.high);
-    for (const Spread& part : r.host) EXPECT_LE(part.high, 1000 / r.low_fps) << "no part is longer than the longest frame";
+    for (const Spread& part : r.host)
+        EXPECT_LE(part.high, 1000 / r.low_fps) << "no part is longer than the longest frame";
     ASSERT_FALSE(r.passes.empty());
     for (const PassResult& pass : r.passes) EXPECT_GT(pass.bytes(), 0) << pass.name;
     // The composite reads the scene, 16 bytes a pixel, and writes codes of 4, for both channels.
-    const auto composite = std::find_if(r.passes.begin(), r.passes.end(), [](const PassResult& pass) { return pass.name == "composite"; });
+    const auto composite =
+        std::find_if(r.passes.begin(), r.passes.end(), [](const PassResult& pass) { return pass.name == "composite"; });
     ASSERT_NE(composite, r.passes.end());
     EXPECT_EQ(composite->bytes_written, 2 * 64 * 36 * 4);
     EXPECT_GE(composite->bytes_read, 2 * 64 * 36 * 16);
@@ -226,14 +255,18 @@ TEST_F(BenchProgram, DrivesASmallStreet) {
 }
 
 TEST_F(BenchProgram, DrawsGrowth) {
-    ASSERT_EQ(run("--matrix growth --lamps 2,4 --size 16x9,32x18 --operator linear --frames 2 --laps 1 --warm-up 0 --json growth/all.json"), 0) << said;
+    ASSERT_EQ(run("--matrix growth --lamps 2,4 --size 16x9,32x18 --operator linear --frames 2 --laps 1 --warm-up 0 "
+                  "--json growth/all.json"),
+              0)
+        << said;
     const BenchResult result = read_result((folder / "growth/all.json").string());
     ASSERT_EQ(result.runs.size(), 4u);
     EXPECT_TRUE(printed.starts_with("16x9 street linear: ")) << printed;
     EXPECT_EQ(result.runs[1].settings.width, 32u);
     EXPECT_EQ(result.runs[2].settings.lamps, 4u);
     EXPECT_TRUE(result.runs[0].starts.empty());
-    for (const char* plot : {"lamps.png", "passes.png", "pixels.png"}) EXPECT_EQ(decode_image(read_file(folder / "growth" / plot, 1u << 24), 2000).width, 1100u) << plot;
+    for (const char* plot : {"lamps.png", "passes.png", "pixels.png"})
+        EXPECT_EQ(decode_image(read_file(folder / "growth" / plot, 1u << 24), 2000).width, 1100u) << plot;
 }
 
 }  // namespace

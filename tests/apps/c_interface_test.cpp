@@ -16,9 +16,9 @@
 
 #include "io/atomic_file.h"
 #include "render/renderer.h"
+#include "render/tone_mapper.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"
-#include "render/tone_mapper.h"
 
 namespace vesper::test {
 namespace {
@@ -53,7 +53,8 @@ std::vector<float> night_values(uint32_t width, uint32_t height) {
 
 VesperPicture picture_of(const std::vector<float>& rgb, uint32_t width, uint32_t height) {
     VesperPicture picture = VESPER_INIT(VesperPicture);
-    picture.width = width, picture.height = height, picture.channels = 3, picture.values = rgb.data(), picture.scale = 1, picture.vertical_fov = 0.7f;
+    picture.width = width, picture.height = height, picture.channels = 3, picture.values = rgb.data(),
+    picture.scale = 1, picture.vertical_fov = 0.7f;
     return picture;
 }
 
@@ -78,7 +79,9 @@ TEST_F(CInterface, MapsAsTheEngineDoes) {
         ToneChainSettings same;
         same.tone_operator = Operator::Ward, same.histogram.bins = 64;
         same.display = known_displays().front().display, same.display.peak = 150;
-        const ToneMapped want = engine.map(same, {.extent = {width, height}, .values = rgb, .vertical_fov = double(0.7f)}, 0.5f, {.display_light = true});
+        const ToneMapped want =
+            engine.map(same, {.extent = {width, height}, .values = rgb, .vertical_fov = double(0.7f)}, 0.5f,
+                       {.display_light = true});
         EXPECT_EQ(codes, want.display);
         EXPECT_EQ(light, want.display_light);
         EXPECT_EQ(report.adaptation, want.curve.adaptation);
@@ -114,27 +117,45 @@ TEST_F(CInterface, EverySettingArrives) {
         {"age", [](auto& s) { s.age = 80; }, [](auto& e) { e.tone.observer.age = 80, e.scatter.eye.age = 80; }},
         {"low vision", [](auto& s) { s.low_vision = 10; }, [](auto& e) { e.tone.observer.low_vision = 10; }},
         {"rods", [](auto& s) { s.rods = 1; }, [](auto& e) { e.tone.observer.use_rods = true; }},
-        {"gaze", [](auto& s) { s.gaze[0] = 0.1f, s.gaze[1] = 0.9f; }, [](auto& e) { e.tone.gaze = {0.1f, 0.9f}; }},
-        {"average", [](auto& s) { s.adapt_to = VESPER_ADAPT_AVERAGE; }, [](auto& e) { e.tone.adapt_to = shared::kAdaptAverage; }},
-        {"texel", [](auto& s) { s.adapt_to = VESPER_ADAPT_TEXEL; }, [](auto& e) { e.tone.adapt_to = shared::kAdaptTexel; }},
+        {"gaze", [](auto& s) { s.gaze[0] = 0.1f, s.gaze[1] = 0.9f; },
+         [](auto& e) {
+             e.tone.gaze = {0.1f, 0.9f};
+         }},
+        {"average", [](auto& s) { s.adapt_to = VESPER_ADAPT_AVERAGE; },
+         [](auto& e) { e.tone.adapt_to = shared::kAdaptAverage; }},
+        {"texel", [](auto& s) { s.adapt_to = VESPER_ADAPT_TEXEL; },
+         [](auto& e) { e.tone.adapt_to = shared::kAdaptTexel; }},
         {"colour", [](auto& s) { s.colour_loss = 1; }, [](auto& e) { e.tone.colour_loss = true; }},
-        {"acuity", [](auto& s) { s.acuity_loss = 1; }, [](auto& e) { e.tone.acuity_loss = true; }, 0.02f},  // fine enough for what dim light loses
+        {"acuity", [](auto& s) { s.acuity_loss = 1; }, [](auto& e) { e.tone.acuity_loss = true; },
+         0.02f},  // fine enough for what dim light loses
         {"purkinje", [](auto& s) { s.purkinje = 1; }, [](auto& e) { e.tone.purkinje = true; }},
-        {"chromaticity", [](auto& s) { s.gamut = VESPER_GAMUT_CHROMATICITY; }, [](auto& e) { e.tone.gamut = shared::kGamutChromaticity; }},
+        {"chromaticity", [](auto& s) { s.gamut = VESPER_GAMUT_CHROMATICITY; },
+         [](auto& e) { e.tone.gamut = shared::kGamutChromaticity; }},
         {"clip", [](auto& s) { s.gamut = VESPER_GAMUT_CLIP; }, [](auto& e) { e.tone.gamut = shared::kGamutClip; }},
-        {"key", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.key = 0.5f; }, [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.operators.reinhard.key = 0.5f; }},
-        {"white", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.white = 50; }, [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.operators.reinhard.white = 50; }},
-        {"linear", [](auto& s) { s.tone_operator = VESPER_LINEAR, s.white = 50, s.black = 1; }, [](auto& e) { e.tone_operator = Operator::Linear, e.tone.operators.linear = {.low = 1, .high = 50}; }},
+        {"key", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.key = 0.5f; },
+         [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.operators.reinhard.key = 0.5f; }},
+        {"white", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.white = 50; },
+         [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.operators.reinhard.white = 50; }},
+        {"linear", [](auto& s) { s.tone_operator = VESPER_LINEAR, s.white = 50, s.black = 1; },
+         [](auto& e) { e.tone_operator = Operator::Linear, e.tone.operators.linear = {.low = 1, .high = 50}; }},
         {"gamma", [](auto& s) { s.display_gamma = 1.8f; }, [](auto& e) { e.display.gamma = 1.8f; }},
         {"reflection", [](auto& s) { s.display_reflection = 0.1f; }, [](auto& e) { e.display.reflection = 0.1f; }},
         {"ambient", [](auto& s) { s.display_ambient = 500; }, [](auto& e) { e.display.ambient = 500; }},
         {"profile", [](auto& s) { s.display = "projector"; }, [](auto& e) { e.display = find_display("projector"); }},
-        {"cie", [](auto& s) { s.glare = VESPER_GLARE_CIE, s.pigmentation = 1.2f; }, [](auto& e) { e.glare = Glare::Scatter, e.scatter.eye.pigmentation = double(1.2f); }},
-        {"ward's veil", [](auto& s) { s.glare = VESPER_GLARE_WARD; }, [](auto& e) { e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Ward; }},
+        {"cie", [](auto& s) { s.glare = VESPER_GLARE_CIE, s.pigmentation = 1.2f; },
+         [](auto& e) { e.glare = Glare::Scatter, e.scatter.eye.pigmentation = double(1.2f); }},
+        {"ward's veil", [](auto& s) { s.glare = VESPER_GLARE_WARD; },
+         [](auto& e) { e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Ward; }},
         {"spencer", [](auto& s) { s.glare = VESPER_GLARE_SPENCER, s.pupil = VESPER_PUPIL_SCOTOPIC; },
-         [](auto& e) { e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Spencer, e.scatter.state = SpencerState::Scotopic; }},
+         [](auto& e) {
+             e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Spencer,
+             e.scatter.state = SpencerState::Scotopic;
+         }},
         {"temporal", [](auto& s) { s.glare = VESPER_GLARE_TEMPORAL, s.eye_seed = 5, s.lashes = 1; },
-         [](auto& e) { e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Temporal, e.scatter.aperture = {5, true}; }},
+         [](auto& e) {
+             e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Temporal,
+             e.scatter.aperture = {5, true};
+         }},
         {"paper's glare", [](auto& s) { s.glare = VESPER_GLARE_LDR; }, [](auto& e) { e.glare = Glare::Ldr; }},
     };
     std::vector<uint8_t> codes(4 * width * height);
@@ -152,12 +173,16 @@ TEST_F(CInterface, EverySettingArrives) {
         vesper_tone_settings_defaults(&settings, sizeof settings);
         c.set(settings);
         ASSERT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK);
-        ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_OK) << c.name << ": " << error.message;
+        ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_OK)
+            << c.name << ": " << error.message;
         ToneChainSettings same;
         same.tone.observer.age = same.scatter.eye.age = 23, same.display = known_displays().front().display;
         c.same(same);
         engine.reset_adaptation();
-        const HostPicture shown{.extent = {width, height}, .values = rgb, .scale = picture.scale, .vertical_fov = double(picture.vertical_fov)};
+        const HostPicture shown{.extent = {width, height},
+                                .values = rgb,
+                                .scale = picture.scale,
+                                .vertical_fov = double(picture.vertical_fov)};
         EXPECT_TRUE(codes == engine.map(same, shown, 0).display) << c.name;
         EXPECT_TRUE(codes != plain.at(c.fov)) << c.name;
     }
@@ -193,7 +218,8 @@ TEST_F(CInterface, DefaultsKeepToTheSizeTheyAreGiven) {
     vesper_tone_settings_defaults(&settings, offsetof(VesperToneSettings, age));
     EXPECT_EQ(settings.size, offsetof(VesperToneSettings, age));
     EXPECT_EQ(settings.bins, 100u);
-    for (size_t i = offsetof(VesperToneSettings, age); i < sizeof settings; ++i) ASSERT_EQ(reinterpret_cast<unsigned char*>(&settings)[i], 0x55);
+    for (size_t i = offsetof(VesperToneSettings, age); i < sizeof settings; ++i)
+        ASSERT_EQ(reinterpret_cast<unsigned char*>(&settings)[i], 0x55);
     vesper_tone_settings_defaults(nullptr, 0);
     uint32_t version[3]{9, 9, 9};
     vesper_version(version);
@@ -274,7 +300,8 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     refuses([](auto&, auto& s, auto&, auto&) { s.age = kNan; });
     refuses([](auto&, auto& s, auto&, auto&) { s.gaze[1] = kNan; });
     refuses([](auto&, auto& s, auto&, auto&) { s.display_peak = -1; });
-    EXPECT_NE(refuses([](auto&, auto& s, auto&, auto&) { s.display = "no such display"; }).find("no such display"), std::string::npos);
+    EXPECT_NE(refuses([](auto&, auto& s, auto&, auto&) { s.display = "no such display"; }).find("no such display"),
+              std::string::npos);
     refuses([](auto&, auto&, auto& o, auto&) { o.size = 0; });
     refuses([](auto&, auto&, auto&, auto& seconds) { seconds = -1; });
     refuses([](auto&, auto&, auto&, auto& seconds) { seconds = kNan; });
@@ -286,7 +313,8 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     EXPECT_NE(std::string(error.message).find("/nothing.gltf"), std::string::npos);
     vesper_tone_mapper_destroy(mapper);
     vesper_version(nullptr);
-    vesper_tone_mapper_destroy(nullptr), vesper_renderer_destroy(nullptr), vesper_scene_destroy(nullptr), vesper_device_close(nullptr);
+    vesper_tone_mapper_destroy(nullptr), vesper_renderer_destroy(nullptr), vesper_scene_destroy(nullptr),
+        vesper_device_close(nullptr);
 }
 
 // Whatever a caller's names hold: one line of whole characters, cut off where it does not fit.
@@ -300,7 +328,8 @@ TEST_F(CInterface, MessagesAreALineOfWholeCharacters) {
     VesperView view = VESPER_INIT(VesperView);
     view.width = view.height = 8;
     const VesperOutputs nothing = VESPER_INIT(VesperOutputs);
-    for (const std::string& name : {accents, "x" + accents, std::string("two\nlines\r\x1b[31m"), std::string("no \xff UTF-8")}) {
+    for (const std::string& name :
+         {accents, "x" + accents, std::string("two\nlines\r\x1b[31m"), std::string("no \xff UTF-8")}) {
         view.camera = name.c_str();
         EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, &nothing, &error), VESPER_FAILED);
         EXPECT_EQ(one_line(error.message, sizeof error), error.message);
@@ -314,7 +343,8 @@ TEST_F(CInterface, MessagesAreALineOfWholeCharacters) {
     vesper_renderer_destroy(renderer), vesper_scene_destroy(scene);
 }
 
-// Fields are added at the end: a caller that knows more may say so, one with less than the first version has made a mistake.
+// Fields are added at the end: a caller that knows more may say so, one with less than the first version has made a
+// mistake.
 TEST_F(CInterface, SizesAreOfTheFirstVersionAtLeast) {
     VesperToneMapper* mapper = nullptr;
     ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK);
@@ -370,19 +400,24 @@ TEST_F(CInterface, NoEyeRemembersAnything) {
     std::vector<unsigned char> eye(vesper_eye_size());
     // Of any age that one can come to: a million seconds for each of a million pictures.
     ASSERT_EQ(vesper_tone_mapper_eye(mapper, eye.data(), &error), VESPER_OK);
-    for (const auto& [age, result] : {std::pair{1e12f, VESPER_OK}, {2e12f, VESPER_BAD_ARGUMENT}, {-1.0f, VESPER_BAD_ARGUMENT}, {NAN, VESPER_BAD_ARGUMENT}}) {
+    for (const auto& [age, result] : {std::pair{1e12f, VESPER_OK},
+                                      {2e12f, VESPER_BAD_ARGUMENT},
+                                      {-1.0f, VESPER_BAD_ARGUMENT},
+                                      {NAN, VESPER_BAD_ARGUMENT}}) {
         std::vector<unsigned char> aged = eye;
         std::memcpy(aged.data() + 3 * sizeof(uint32_t) + sizeof(float), &age, sizeof age);
         sum(aged);
         EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, aged.data(), aged.size(), &error), result) << age;
     }
     ASSERT_EQ(vesper_tone_mapper_eye(mapper, eye.data(), &error), VESPER_OK);
-    for (const float poison : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()})
+    for (const float poison : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(),
+                               std::numeric_limits<float>::max()})
         for (const size_t place : {size_t(12), eye.size() - 4}) {
             std::vector<unsigned char> bytes = eye;
             std::memcpy(&bytes[place], &poison, sizeof poison);
             sum(bytes);
-            EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, bytes.data(), bytes.size(), &error), VESPER_BAD_ARGUMENT) << poison << " at " << place;
+            EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, bytes.data(), bytes.size(), &error), VESPER_BAD_ARGUMENT)
+                << poison << " at " << place;
         }
     EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size(), &error), VESPER_OK);
     EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, eye.data(), eye.size() - 4, &error), VESPER_BAD_ARGUMENT);
@@ -397,8 +432,10 @@ TEST_F(CInterface, NoEyeRemembersAnything) {
 
 // 1 cd at 1 m on ground of reflectance 1 gives 1 / pi cd/m^2; moved 3 m up, a ninth.
 TEST_F(CInterface, LampsOfOnesOwnLightAndMove) {
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / ("c_interface_" + std::to_string(::getpid()) + ".gltf");
-    std::ofstream(file) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "ground", "mesh": 0}],
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("c_interface_" + std::to_string(::getpid()) + ".gltf");
+    std::ofstream(file)
+        << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "ground", "mesh": 0}],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2, "material": 0}]}], "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0}}],
  "buffers": [{"byteLength": 108, "uri": "data:application/octet-stream;base64,AACgwQAAAAAAAKBBAACgQQAAAAAAAKBBAACgQQAAAAAAAKDBAACgwQAAAAAAAKDBAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAABAAIAAAACAAMA"}],
  "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 48}, {"buffer": 0, "byteOffset": 96, "byteLength": 12}],
@@ -421,7 +458,8 @@ TEST_F(CInterface, LampsOfOnesOwnLightAndMove) {
     ASSERT_EQ(vesper_renderer_create(device, scene, &renderer, &error), VESPER_OK) << error.message;
 
     VesperView view = VESPER_INIT(VesperView);
-    view.width = view.height = 9, view.eye[1] = 0.5f, view.forward[1] = -2, view.up[2] = -3, view.vertical_fov = 0.02f, view.near_plane = 0.1f;
+    view.width = view.height = 9, view.eye[1] = 0.5f, view.forward[1] = -2, view.up[2] = -3, view.vertical_fov = 0.02f,
+    view.near_plane = 0.1f;
     std::vector<float> luminance(4 * 81);
     VesperOutputs outputs = VESPER_INIT(VesperOutputs);
     outputs.luminance = luminance.data();
@@ -435,7 +473,8 @@ TEST_F(CInterface, LampsOfOnesOwnLightAndMove) {
     EXPECT_EQ(vesper_renderer_place(renderer, node, flat, &error), VESPER_BAD_ARGUMENT);
     EXPECT_EQ(vesper_renderer_place(renderer, 7, up, &error), VESPER_BAD_ARGUMENT);
     view.up[2] = 0, view.up[1] = 1;
-    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, &outputs, &error), VESPER_BAD_ARGUMENT) << "up and forward are one line";
+    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, &outputs, &error), VESPER_BAD_ARGUMENT)
+        << "up and forward are one line";
     view.camera = "nobody";
     EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, &outputs, &error), VESPER_FAILED);
     vesper_renderer_destroy(renderer);

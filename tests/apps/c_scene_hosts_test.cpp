@@ -34,8 +34,10 @@ TEST(CSceneOnAHost, RendersIntoImages) {
     VesperView view = down();
     view.width = 33, view.height = 21, view.vertical_fov = 1.5f;
     const VkExtent2D extent{view.width, view.height};
-    ::Image shown = host->make_image(VK_FORMAT_B8G8R8A8_SRGB, extent, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-    const VesperImage to = described(shown, VK_FORMAT_B8G8R8A8_SRGB, extent, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    ::Image shown = host->make_image(VK_FORMAT_B8G8R8A8_SRGB, extent,
+                                     VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    const VesperImage to = described(shown, VK_FORMAT_B8G8R8A8_SRGB, extent, VK_IMAGE_LAYOUT_UNDEFINED,
+                                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     std::vector<uint8_t> codes(4 * 33 * 21);
     VesperOutputs outputs = VESPER_INIT(VesperOutputs);
     outputs.codes = codes.data();
@@ -69,7 +71,8 @@ TEST(CSceneOnAHost, RendersIntoImages) {
     for (size_t i = 0; i < codes.size(); i += 4) std::swap(codes[i], codes[i + 2]);
     EXPECT_EQ(got, codes);
     view.width = 34;
-    EXPECT_EQ(vesper_render_image(images, nullptr, &view, 0, &to, nullptr, &error), VESPER_BAD_ARGUMENT) << "another extent";
+    EXPECT_EQ(vesper_render_image(images, nullptr, &view, 0, &to, nullptr, &error), VESPER_BAD_ARGUMENT)
+        << "another extent";
     vesper_renderer_destroy(images), vesper_renderer_destroy(arrays);
     vesper_scene_destroy(scene);
     vesper_device_close(device);

@@ -1,5 +1,5 @@
-// Scenes made in memory through the C interface: light by the laws it follows, and what is added, hung on something, dimmed and removed.
-// SPDX-License-Identifier: MIT
+// Scenes made in memory through the C interface: light by the laws it follows, and what is added, hung on something,
+// dimmed and removed. SPDX-License-Identifier: MIT
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -85,7 +85,8 @@ TEST_F(CScene, EdgesMayLieToOneSide) {
     VesperView view = down();
     const float edges[4]{1.98f, 2.02f, -0.01f, 0.01f};
     std::copy(edges, edges + 4, view.edges);
-    EXPECT_NEAR(render(view)[4 * kMiddle] * kPi, 1 / std::pow(2.0f, 1.5f), 1e-3) << "cos / d^2, 1 m from below the lamp";
+    EXPECT_NEAR(render(view)[4 * kMiddle] * kPi, 1 / std::pow(2.0f, 1.5f), 1e-3)
+        << "cos / d^2, 1 m from below the lamp";
     const auto refused = [&](int edge, float value) {
         VesperView wrong = view;
         wrong.edges[edge] = value;
@@ -95,7 +96,8 @@ TEST_F(CScene, EdgesMayLieToOneSide) {
     refused(0, 2.02f), refused(3, -0.01f), refused(1, NAN), refused(2, -INFINITY);
 }
 
-// A car: a node with a body and a lamp on it, driven 3 m to the right; the lamp is where its own place in the car's frame says.
+// A car: a node with a body and a lamp on it, driven 3 m to the right; the lamp is where its own place in the car's
+// frame says.
 TEST_F(CScene, WhatHangsOnANodeMovesWithIt) {
     uint32_t car = 0, body = 0;
     expect(vesper_scene_add_node(scene, "car", VESPER_NONE, nullptr, &car, &error));
@@ -115,7 +117,8 @@ TEST_F(CScene, WhatHangsOnANodeMovesWithIt) {
     EXPECT_EQ(vesper_scene_attach(scene, 99, car, &error), VESPER_BAD_ARGUMENT);
 }
 
-// Where a node is put is exact, however far away it was, and so is what hangs on it: 1 m there, not the difference of large numbers.
+// Where a node is put is exact, however far away it was, and so is what hangs on it: 1 m there, not the difference of
+// large numbers.
 TEST_F(CScene, NodesComeBackFromFarAway) {
     const float c = std::cos(0.5f), s = std::sin(0.5f), far = 4e6f;
     const std::vector<float> away{c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, far, 0, far, 1};
@@ -174,7 +177,8 @@ TEST_F(CScene, ChangedLampFilesAreReadAnew) {
     const TempFolder folder;
     const auto written = [&](double candela) {
         Distribution even;
-        even.goniometry = Goniometry::CGamma, even.horizontal = {0}, even.vertical = {0, 90}, even.candela = {candela, candela};
+        even.goniometry = Goniometry::CGamma, even.horizontal = {0}, even.vertical = {0, 90},
+        even.candela = {candela, candela};
         return folder.write("x.ies", write_ies(even)).string();
     };
     const std::string file = written(100);
@@ -240,7 +244,8 @@ TEST_F(CScene, MaterialsAndSky) {
     expect(vesper_scene_add_node(scene, nullptr, mesh, at(0, 0.1f, 0).data(), &node, &error));
     EXPECT_EQ(render(down())[4 * kMiddle + 1], 7);
     expect(vesper_scene_remove(scene, node, &error));
-    EXPECT_EQ(vesper_scene_add_node(scene, nullptr, mesh, nullptr, &node, &error), VESPER_BAD_ARGUMENT) << "no node had it any more";
+    EXPECT_EQ(vesper_scene_add_node(scene, nullptr, mesh, nullptr, &node, &error), VESPER_BAD_ARGUMENT)
+        << "no node had it any more";
     expect(vesper_scene_add_material(scene, &painted, &material, &error));
     shape.material = material;
     expect(vesper_scene_add_mesh(scene, &shape, &mesh, &error));
@@ -327,10 +332,14 @@ TEST_F(CScene, RefusesWhatCannotBe) {
     EXPECT_EQ(vesper_scene_set_sky(scene, negative, light, &error), VESPER_BAD_ARGUMENT);
     EXPECT_EQ(vesper_scene_set_sky(scene, nullptr, light, &error), VESPER_BAD_ARGUMENT);
     EXPECT_EQ(vesper_scene_create(nullptr, &error), VESPER_BAD_ARGUMENT);
-    for (const VesperResult result : {vesper_scene_add_mesh(nullptr, nullptr, &made, &error), vesper_scene_add_material(nullptr, nullptr, &made, &error),
-                                      vesper_scene_add_node(nullptr, "", VESPER_NONE, nullptr, &made, &error), vesper_scene_add_lamp(nullptr, nullptr, nullptr, &error),
-                                      vesper_scene_attach(nullptr, 1, 0, &error), vesper_scene_remove(nullptr, 0, &error), vesper_renderer_dim(nullptr, 0, 1, &error),
-                                      vesper_renderer_finish(nullptr, nullptr, &error), vesper_renderer_reset(nullptr, &error), vesper_renderer_eye(nullptr, nullptr, &error)})
+    for (const VesperResult result :
+         {vesper_scene_add_mesh(nullptr, nullptr, &made, &error),
+          vesper_scene_add_material(nullptr, nullptr, &made, &error),
+          vesper_scene_add_node(nullptr, "", VESPER_NONE, nullptr, &made, &error),
+          vesper_scene_add_lamp(nullptr, nullptr, nullptr, &error), vesper_scene_attach(nullptr, 1, 0, &error),
+          vesper_scene_remove(nullptr, 0, &error), vesper_renderer_dim(nullptr, 0, 1, &error),
+          vesper_renderer_finish(nullptr, nullptr, &error), vesper_renderer_reset(nullptr, &error),
+          vesper_renderer_eye(nullptr, nullptr, &error)})
         EXPECT_EQ(result, VESPER_BAD_ARGUMENT);
     EXPECT_EQ(lux(), 0) << "none of that is in the scene";
     VesperView view = down();
@@ -343,7 +352,8 @@ TEST_F(CScene, RefusesWhatCannotBe) {
     EXPECT_EQ(vesper_renderer_dim(renderer, ground, 1, &error), VESPER_BAD_ARGUMENT) << "there is no lamp";
     // No host has images of a device that Vesper opened.
     VesperImage image = VESPER_INIT(VesperImage);
-    image.image = reinterpret_cast<VkImage>(uintptr_t{64}), image.format = VK_FORMAT_R8G8B8A8_UNORM, image.width = image.height = kSide;
+    image.image = reinterpret_cast<VkImage>(uintptr_t{64}), image.format = VK_FORMAT_R8G8B8A8_UNORM,
+    image.width = image.height = kSide;
     image.layout_after = VK_IMAGE_LAYOUT_GENERAL;
     view = down();
     EXPECT_EQ(vesper_render_image(renderer, nullptr, &view, 0, &image, nullptr, &error), VESPER_BAD_ARGUMENT);

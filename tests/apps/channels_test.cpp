@@ -30,8 +30,16 @@ Scene wall_scene(float ambient, float candela, Lamp::Kind kind) {
     wall.indices = {0, 1, 2, 0, 2, 3};
     scene.meshes.push_back({"wall", {wall}});
     scene.nodes.push_back({.name = "wall", .mesh = 0});
-    scene.lamps.push_back({.name = "lamp", .kind = kind, .intensity = candela, .inner_cone = 0.1f, .outer_cone = 0.2f, .opening = {.length = 0.3f, .width = 0.3f}});
-    scene.nodes.push_back({.name = "lamp", .translation = {-19.0f * std::tan(float(32 * kRadiansPerDegree)), 0, -19}, .rotation = glm::angleAxis(float(212 * kRadiansPerDegree), glm::vec3(0, 1, 0)), .lamp = 0});
+    scene.lamps.push_back({.name = "lamp",
+                           .kind = kind,
+                           .intensity = candela,
+                           .inner_cone = 0.1f,
+                           .outer_cone = 0.2f,
+                           .opening = {.length = 0.3f, .width = 0.3f}});
+    scene.nodes.push_back({.name = "lamp",
+                           .translation = {-19.0f * std::tan(float(32 * kRadiansPerDegree)), 0, -19},
+                           .rotation = glm::angleAxis(float(212 * kRadiansPerDegree), glm::vec3(0, 1, 0)),
+                           .lamp = 0});
     scene.ambient_illuminance = ambient;
     return scene;
 }
@@ -41,7 +49,12 @@ Channels three() {
     Channels channels;
     const double edge = std::tan(16 * kRadiansPerDegree);
     for (int i = -1; i <= 1; ++i)
-        channels.screens.push_back({.name = std::to_string(i), .extent = {kSide, kSide}, .left = std::atan((2 * i - 1) * edge), .right = std::atan((2 * i + 1) * edge), .bottom = -16 * kRadiansPerDegree, .top = 16 * kRadiansPerDegree});
+        channels.screens.push_back({.name = std::to_string(i),
+                                    .extent = {kSide, kSide},
+                                    .left = std::atan((2 * i - 1) * edge),
+                                    .right = std::atan((2 * i + 1) * edge),
+                                    .bottom = -16 * kRadiansPerDegree,
+                                    .top = 16 * kRadiansPerDegree});
     channels.gaze = 1;
     return channels;
 }
@@ -54,14 +67,17 @@ View whole() {
     return view;
 }
 
-double code(const ToneMapped& shown, uint32_t x, uint32_t y) { return shown.display[4 * (size_t(y) * shown.extent.width + x) + 1]; }
+double code(const ToneMapped& shown, uint32_t x, uint32_t y) {
+    return shown.display[4 * (size_t(y) * shown.extent.width + x) + 1];
+}
 
 // What jumps from one screen to the next, beyond how codes change beside the seam.
 double step_at(const ToneMapped& shown, uint32_t seam) {
     double worst = 0;
     for (uint32_t y = 0; y < kSide; ++y) {
         const double across = code(shown, seam, y) - code(shown, seam - 1, y);
-        const double beside = (code(shown, seam + 1, y) - code(shown, seam, y) + code(shown, seam - 1, y) - code(shown, seam - 2, y)) / 2;
+        const double beside =
+            (code(shown, seam + 1, y) - code(shown, seam, y) + code(shown, seam - 1, y) - code(shown, seam - 2, y)) / 2;
         worst = std::max(worst, std::abs(across - beside));
     }
     return worst;
@@ -73,21 +89,28 @@ struct Rig {
     Renderer renderer;
     ChannelRenderer wall{device};
     SceneFrame frame;
-    explicit Rig(Scene s) : scene(std::move(s)), renderer(device, scene), frame{.world = world_transforms(scene, 0), .dimming = {}, .ambient = {}, .tunnels = {}} {}
+    explicit Rig(Scene s)
+        : scene(std::move(s)),
+          renderer(device, scene),
+          frame{.world = world_transforms(scene, 0), .dimming = {}, .ambient = {}, .tunnels = {}} {}
 };
 
-// Without glare, three screens are the picture they are cut from: the only lamp is on the left one. Luminances differ by what
-// shading adds up over blocks (0.1 %), codes by one.
+// Without glare, three screens are the picture they are cut from: the only lamp is on the left one. Luminances differ
+// by what shading adds up over blocks (0.1 %), codes by one.
 TEST(Channels, AreThePictureTheyAreCutFrom) {
     Rig rig(wall_scene(0.5f, 300, Lamp::Kind::Point));
     RenderSettings settings;
-    const ChannelMosaic wall = rig.wall.render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic wall =
+        rig.wall.render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0,
+                        {.display = true, .scene = true});
     const Frame one = rig.renderer.render(settings, whole(), rig.frame, 0, {.display = true, .scene = true});
     ASSERT_EQ(wall.shown.display.size(), one.display.size());
     int far = 0;
-    for (size_t i = 0; i < one.display.size(); ++i) far += std::abs(int(one.display[i]) - int(wall.shown.display[i])) > 1;
+    for (size_t i = 0; i < one.display.size(); ++i)
+        far += std::abs(int(one.display[i]) - int(wall.shown.display[i])) > 1;
     EXPECT_LE(far, int(one.display.size() / 1000));
-    for (size_t i = 0; i < one.scene.size(); ++i) ASSERT_NEAR(wall.shown.scene[i], one.scene[i], 0.004 * one.scene[i] + 1e-6) << i;
+    for (size_t i = 0; i < one.scene.size(); ++i)
+        ASSERT_NEAR(wall.shown.scene[i], one.scene[i], 0.004 * one.scene[i] + 1e-6) << i;
     EXPECT_LE(step_at(wall.shown, kSide), 2);
     EXPECT_LE(step_at(wall.shown, 2 * kSide), 2);
 
@@ -95,30 +118,40 @@ TEST(Channels, AreThePictureTheyAreCutFrom) {
     ToneMapped alone = wall.shown;
     for (uint32_t i = 0; i < 3; ++i) {
         Renderer renderer(rig.device, rig.scene);
-        const Frame part = renderer.render(settings, channel_view(three().screens[i], View::symmetric({1, 1}, 1, glm::mat4(1))), rig.frame, 0, {.display = true});
-        for (uint32_t y = 0; y < kSide; ++y) std::copy_n(&part.display[4 * y * kSide], 4 * kSide, &alone.display[4 * (y * 3 * kSide + i * kSide)]);
+        const Frame part =
+            renderer.render(settings, channel_view(three().screens[i], View::symmetric({1, 1}, 1, glm::mat4(1))),
+                            rig.frame, 0, {.display = true});
+        for (uint32_t y = 0; y < kSide; ++y)
+            std::copy_n(&part.display[4 * y * kSide], 4 * kSide, &alone.display[4 * (y * 3 * kSide + i * kSide)]);
     }
     EXPECT_GT(step_at(alone, kSide), 8);
 }
 
-// The lamp dazzles: its light is scattered into the screens beside. Two pixels to either side of the seam the veil falls by what it does there, 5 %.
+// The lamp dazzles: its light is scattered into the screens beside. Two pixels to either side of the seam the veil
+// falls by what it does there, 5 %.
 TEST(Channels, GlareGoesOnAcrossTheSeam) {
     Rig rig(wall_scene(0.02f, 20000, Lamp::Kind::Spot));
     RenderSettings settings;
     settings.glare = Glare::Scatter;
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
-    const ChannelMosaic wall = rig.wall.render(rig.renderer, three(), settings, driver, rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic wall =
+        rig.wall.render(rig.renderer, three(), settings, driver, rig.frame, 0, {.display = true, .scene = true});
     RenderSettings clear = settings;
     clear.glare = Glare::None;
-    const ChannelMosaic without = rig.wall.render(rig.renderer, three(), clear, driver, rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic without =
+        rig.wall.render(rig.renderer, three(), clear, driver, rig.frame, 0, {.display = true, .scene = true});
     const auto veil = [&](uint32_t x) {
         const size_t at = 4 * (size_t(kSide / 2) * kSide + x % kSide);
         return double(wall.channels[x / kSide].retina[at + 1] - without.channels[x / kSide].scene[at + 1]);
     };
     // Luminance is that of the scene, whatever the eye scatters; 0.4 %: what shading adds up over blocks.
-    for (size_t i = 0; i < wall.shown.scene.size(); ++i) ASSERT_NEAR(wall.shown.scene[i], without.shown.scene[i], 0.004 * without.shown.scene[i] + 1e-6) << i;
+    for (size_t i = 0; i < wall.shown.scene.size(); ++i)
+        ASSERT_NEAR(wall.shown.scene[i], without.shown.scene[i], 0.004 * without.shown.scene[i] + 1e-6) << i;
     for (size_t c = 0; c < 3; ++c)
-        for (size_t i = 0; i < wall.channels[c].scene.size(); ++i) ASSERT_NEAR(wall.channels[c].scene[i], without.channels[c].scene[i], 0.004 * without.channels[c].scene[i] + 1e-6) << i;
+        for (size_t i = 0; i < wall.channels[c].scene.size(); ++i)
+            ASSERT_NEAR(wall.channels[c].scene[i], without.channels[c].scene[i],
+                        0.004 * without.channels[c].scene[i] + 1e-6)
+                << i;
     for (const uint32_t seam : {kSide, 2 * kSide}) {
         const double left = veil(seam - 2), right = veil(seam + 1);
         EXPECT_GT(right, 0.01);
@@ -152,7 +185,13 @@ Channels turned_screens() {
     Channels channels;
     for (int i = -1; i <= 1; ++i) {
         const uint32_t side = i == 0 ? 120 : kSide;
-        channels.screens.push_back({.name = std::to_string(i), .extent = {side, side}, .yaw = -48 * i * kRadiansPerDegree, .left = -24 * kRadiansPerDegree, .right = 24 * kRadiansPerDegree, .bottom = -16 * kRadiansPerDegree, .top = 16 * kRadiansPerDegree});
+        channels.screens.push_back({.name = std::to_string(i),
+                                    .extent = {side, side},
+                                    .yaw = -48 * i * kRadiansPerDegree,
+                                    .left = -24 * kRadiansPerDegree,
+                                    .right = 24 * kRadiansPerDegree,
+                                    .bottom = -16 * kRadiansPerDegree,
+                                    .top = 16 * kRadiansPerDegree});
     }
     channels.gaze = 1;
     return channels;
@@ -173,8 +212,9 @@ double seen_at(const ChannelMosaic& wall, size_t channel, int column, double par
     return std::lerp(at(first), at(first + 1), row - first);
 }
 
-// The only light is a lit surface on the left screen. At a seam the veils on either side, each continued by half a pixel, are one: within 1 %, and within 4 %
-// where the sign is 18 px from it, since each picture's own pyramid is good to 3 % there (docs/glare.md: 10 to 30 px).
+// The only light is a lit surface on the left screen. At a seam the veils on either side, each continued by half a
+// pixel, are one: within 1 %, and within 4 % where the sign is 18 px from it, since each picture's own pyramid is good
+// to 3 % there (docs/glare.md: 10 to 30 px).
 TEST(Channels, GlareOfLitSurfacesHasNoSeam) {
     struct Case {
         Channels channels;
@@ -183,26 +223,37 @@ TEST(Channels, GlareOfLitSurfacesHasNoSeam) {
     const Case cases[]{{three(), 30, 0.01}, {turned_screens(), 35, 0.04}, {turned_screens(), 60, 0.01}};
     for (const Case& c : cases) {
         Rig rig(sign_scene(c.degrees));
-        const ChannelMosaic wall = rig.wall.render(rig.renderer, c.channels, kScattering, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0, {.display = true, .scene = true});
+        const ChannelMosaic wall =
+            rig.wall.render(rig.renderer, c.channels, kScattering, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame,
+                            0, {.display = true, .scene = true});
         for (const size_t seam : {0u, 1u})
             for (const double part : {0.1, 0.3, 0.5, 0.77}) {
-                const auto to_edge = [&](size_t channel, int edge, int next) { return 1.5 * seen_at(wall, channel, edge, part) - 0.5 * seen_at(wall, channel, next, part); };
+                const auto to_edge = [&](size_t channel, int edge, int next) {
+                    return 1.5 * seen_at(wall, channel, edge, part) - 0.5 * seen_at(wall, channel, next, part);
+                };
                 const double left = to_edge(seam, -1, -2), right = to_edge(seam + 1, 0, 1);
                 EXPECT_GT(right, 0.002);
-                EXPECT_NEAR(right / left, 1, c.largest) << "seam " << seam << ", " << part << " of the height, sign at " << c.degrees;
+                EXPECT_NEAR(right / left, 1, c.largest)
+                    << "seam " << seam << ", " << part << " of the height, sign at " << c.degrees;
             }
-        EXPECT_EQ(wall.shown.display, rig.wall.render(rig.renderer, c.channels, kScattering, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0, {.display = true}).shown.display);
+        EXPECT_EQ(wall.shown.display,
+                  rig.wall
+                      .render(rig.renderer, c.channels, kScattering, View::symmetric({1, 1}, 1, glm::mat4(1)),
+                              rig.frame, 0, {.display = true})
+                      .shown.display);
     }
 }
 
-// The same against the definition: the sum over every pixel of the screen that has the sign, as it is without glare. 3 %: with how few pixels the sign is drawn
-// (1 % of its area), and the pyramid (1.5 %).
+// The same against the definition: the sum over every pixel of the screen that has the sign, as it is without glare. 3
+// %: with how few pixels the sign is drawn (1 % of its area), and the pyramid (1.5 %).
 TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
     Rig rig(sign_scene(35));
     const Channels channels = turned_screens();
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
     RenderSettings clear;
-    const ChannelMosaic seen = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true}), shown = rig.wall.render(rig.renderer, channels, clear, driver, rig.frame, 0, {.display = true});
+    const ChannelMosaic seen = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0,
+                                               {.display = true}),
+                        shown = rig.wall.render(rig.renderer, channels, clear, driver, rig.frame, 0, {.display = true});
     const auto towards = [&](size_t channel, glm::dvec2 pixels) {
         const View view = channel_view(channels.screens[channel], driver);
         return glm::transpose(glm::dmat3(view.world_to_view)) * reference::direction_of(angles_of(view), pixels);
@@ -217,10 +268,14 @@ TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
                 for (int x = 0; x < int(kSide); ++x) {
                     const glm::dvec2 pixel = glm::dvec2(x, y) + 0.5;
                     const double light = double(shown.channels[0].scene[4 * size_t(y * int(kSide) + x)]);
-                    const double theta = light > 0 ? reference::degrees_apart(towards(channel, glm::dvec2(at) + 0.5), towards(0, pixel)) : 0;
-                    if (light > 0) want += light * psf(theta) * reference::solid_angle(left, reference::direction_of(left, pixel));
+                    const double theta =
+                        light > 0 ? reference::degrees_apart(towards(channel, glm::dvec2(at) + 0.5), towards(0, pixel))
+                                  : 0;
+                    if (light > 0)
+                        want += light * psf(theta) * reference::solid_angle(left, reference::direction_of(left, pixel));
                 }
-            EXPECT_NEAR(seen.channels[channel].retina[4 * (size_t(at.y) * extent.width + size_t(at.x))] / want, 1, 0.03) << channel << ": " << at.x << ", " << at.y;
+            EXPECT_NEAR(seen.channels[channel].retina[4 * (size_t(at.y) * extent.width + size_t(at.x))] / want, 1, 0.03)
+                << channel << ": " << at.x << ", " << at.y;
         }
 }
 
@@ -229,7 +284,8 @@ TEST(Channels, LampsOfOtherScreensCountOnce) {
     Rig rig(wall_scene(0, 20000, Lamp::Kind::Spot));
     const Channels channels = turned_screens();
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
-    const ChannelMosaic wall = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true});
+    const ChannelMosaic wall =
+        rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true});
     const glm::dvec3 lamp(-19 * std::tan(32 * kRadiansPerDegree), 0, -19);
     const double distance = glm::length(lamp), lux = 20000 / (distance * distance);
     const EyeScatter psf = eye_scatter({});
@@ -249,8 +305,10 @@ TEST(Channels, OneScreenIsAView) {
     Channels one;
     one.screens.push_back(three().screens[0]);
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
-    const ChannelMosaic wall = rig.wall.render(rig.renderer, one, kScattering, driver, rig.frame, 0, {.display = true, .scene = true});
-    const Frame alone = rig.renderer.render(kScattering, channel_view(one.screens[0], driver), rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic wall =
+        rig.wall.render(rig.renderer, one, kScattering, driver, rig.frame, 0, {.display = true, .scene = true});
+    const Frame alone = rig.renderer.render(kScattering, channel_view(one.screens[0], driver), rig.frame, 0,
+                                            {.display = true, .scene = true});
     EXPECT_EQ(wall.shown.scene, alone.scene);
     EXPECT_EQ(wall.channels[0].scene, alone.scene);
     EXPECT_NE(wall.channels[0].retina, alone.scene);
@@ -262,7 +320,12 @@ TEST(Channels, NeedlesMoveWithTheOneEye) {
     Rig rig(wall_scene(0.02f, 20000, Lamp::Kind::Spot));
     RenderSettings settings = kScattering;
     settings.scatter.model = ScatterSettings::Model::Temporal;
-    const auto left = [&](float seconds) { return rig.wall.render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, seconds, {.display = true}).channels.front(); };
+    const auto left = [&](float seconds) {
+        return rig.wall
+            .render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, seconds,
+                    {.display = true})
+            .channels.front();
+    };
     const Frame first = left(0), later = left(0.4f), last = left(0.4f);
     EXPECT_GT(first.pupil, 2);
     EXPECT_NE(later.pupil, first.pupil);
@@ -280,9 +343,12 @@ TEST(Channels, TurnedScreensSeeWhereTheyLook) {
     };
     EXPECT_LT(glm::distance(ahead(90 * kRadiansPerDegree, 0), glm::vec3(-1, 0, 0)), 1e-6);
     EXPECT_LT(glm::distance(ahead(0, 90 * kRadiansPerDegree), glm::vec3(0, 1, 0)), 1e-6);
-    const ScreenChannel rolled{.name = "", .roll = 90 * kRadiansPerDegree, .left = -0.1, .right = 0.1, .bottom = -0.1, .top = 0.1};
+    const ScreenChannel rolled{
+        .name = "", .roll = 90 * kRadiansPerDegree, .left = -0.1, .right = 0.1, .bottom = -0.1, .top = 0.1};
     // Rolled clockwise, what is up in the picture lies to the right.
-    EXPECT_LT(glm::distance(glm::vec3(glm::inverse(channel_view(rolled, driver).world_to_view) * glm::vec4(0, 1, 0, 0)), glm::vec3(1, 0, 0)), 1e-6);
+    EXPECT_LT(glm::distance(glm::vec3(glm::inverse(channel_view(rolled, driver).world_to_view) * glm::vec4(0, 1, 0, 0)),
+                            glm::vec3(1, 0, 0)),
+              1e-6);
 }
 
 TEST(Channels, FilesAreReadOrRefused) {
@@ -292,13 +358,19 @@ TEST(Channels, FilesAreReadOrRefused) {
     EXPECT_EQ(screens.screens.size(), 3u);
     EXPECT_EQ(screens.gaze, 1u);
     const TempFolder folder;
-    for (const char* bad : {"{}", R"({"version": 1, "channels": []})", R"({"version": 1, "gaze": "x", "channels": [{"name": "a", "size_px": [8, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1}]})",
-                            R"({"version": 1, "channels": [{"name": "a", "size_px": [8, 8], "left_deg": 1, "right_deg": -1, "bottom_deg": -1, "top_deg": 1}]})",
-                            R"({"version": 1, "channels": [{"name": "a", "size_px": [0, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1}]})"})
+    for (
+        const char* bad :
+        {"{}", R"({"version": 1, "channels": []})",
+         R"({"version": 1, "gaze": "x", "channels": [{"name": "a", "size_px": [8, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1}]})",
+         R"({"version": 1, "channels": [{"name": "a", "size_px": [8, 8], "left_deg": 1, "right_deg": -1, "bottom_deg": -1, "top_deg": 1}]})",
+         R"({"version": 1, "channels": [{"name": "a", "size_px": [0, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1}]})"})
         EXPECT_THROW(read_channels(folder.write("bad.json", bad)), Error) << bad;
-    const std::string huge = R"({"name": "x", "size_px": [16384, 16384], "left_deg": -20, "right_deg": 20, "bottom_deg": -10, "top_deg": 10})";
-    const std::string one = R"({"name": "x", "size_px": [8, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1})";
-    EXPECT_THROW(read_channels(folder.write("twice.json", R"({"version": 1, "channels": [)" + one + ", " + one + "]}")), Error);
+    const std::string huge =
+        R"({"name": "x", "size_px": [16384, 16384], "left_deg": -20, "right_deg": 20, "bottom_deg": -10, "top_deg": 10})";
+    const std::string one =
+        R"({"name": "x", "size_px": [8, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1})";
+    EXPECT_THROW(read_channels(folder.write("twice.json", R"({"version": 1, "channels": [)" + one + ", " + one + "]}")),
+                 Error);
     EXPECT_THROW(read_channels(folder.write("huge.json", R"({"version": 1, "channels": [)" + huge + "]}")), Error);
 }
 

@@ -3,9 +3,9 @@
 
 #include "io/atomic_file.h"
 #include "io/image_file.h"
-#include "vision/display.h"
 #include "scene/display_file.h"
 #include "support/program.h"
+#include "vision/display.h"
 
 namespace vesper::test {
 namespace {
@@ -48,7 +48,8 @@ TEST_F(DisplayProgram, ATenBitPatternHasItsCodesIn16Bits) {
 TEST_F(DisplayProgram, MakesAProfileThatOtherCommandsTake) {
     std::string table = "code,cd_m2\n";
     const DisplayCurve curve(Display{.peak = 42, .black = 0.07f, .gamma = 2.4f});
-    for (const uint32_t code : {0u, 16u, 64u, 128u, 200u, 255u}) table += std::to_string(code) + "," + std::to_string(curve.emitted(code / 255.0)) + "\n";
+    for (const uint32_t code : {0u, 16u, 64u, 128u, 200u, 255u})
+        table += std::to_string(code) + "," + std::to_string(curve.emitted(code / 255.0)) + "\n";
     folder.write("m.csv", table);
     ASSERT_EQ(run("display fit m.csv -o wall.json --name wall --ambient 2"), 0) << said;
     EXPECT_NE(printed.find("gamma 2.4"), std::string::npos) << printed;

@@ -28,11 +28,12 @@ TEST(Keys, AreOnePerActionAndNoneTwice) {
 TEST(Controllers, AxesRunFromRestToFull) {
     const std::vector<float> axes{0.5f, -1, 1, NAN};
     EXPECT_DOUBLE_EQ((PedalAxis{.axis = 0, .rest = -1, .full = 1}).value(axes), 0.75);
-    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 0, .rest = 1, .full = -1}).value(axes), 0.25);  // pedals of many wheels rest at 1
+    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 0, .rest = 1, .full = -1}).value(axes),
+                     0.25);  // pedals of many wheels rest at 1
     EXPECT_DOUBLE_EQ((PedalAxis{.axis = 2, .rest = 0, .full = 0.5}).value(axes), 1);
-    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 3}).value(axes), 0);   // not a number
-    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 99}).value(axes), 0);  // no such axis
-    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 1}).value(axes), 1);   // left is positive
+    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 3}).value(axes), 0);     // not a number
+    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 99}).value(axes), 0);    // no such axis
+    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 1}).value(axes), 1);  // left is positive
     EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 2}).value(axes), -1);
     EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 0, .dead = 0.25, .exponent = 2}).value(axes), -1.0 / 9);
     EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 0, .dead = 0.5}).value(axes), 0);
@@ -49,7 +50,9 @@ protected:
 };
 
 TEST_F(ControllerFile, SaysWhatAxesAndButtonsMean) {
-    folder.write("c.json", R"({"controllers": [{"match": "g29", "steering": {"axis": 0, "dead": 0.01}, "throttle": {"axis": 2, "rest": 1, "full": -1},
+    folder.write(
+        "c.json",
+        R"({"controllers": [{"match": "g29", "steering": {"axis": 0, "dead": 0.01}, "throttle": {"axis": 2, "rest": 1, "full": -1},
         "brake": {"axis": 3, "rest": 1, "full": -1}, "buttons": [{"button": 4, "does": "indicate-right"}, {"button": 5, "does": "indicate-left"}]}]})");
     const auto mappings = read_controllers(folder / "c.json");
     ASSERT_EQ(mappings.size(), 1u);
@@ -70,12 +73,17 @@ TEST_F(ControllerFile, IsRefusedWithPlaceAndReason) {
     expect("{}", "c.json", "controllers");
     expect(R"({"controllers": [{"match": "x", "colour": 1}]})", "/controllers/0", "colour");
     expect(R"({"controllers": [{"steering": {"axis": 0}}]})", "/controllers/0", "match");
-    expect(R"({"controllers": [{"match": "x", "brake": {"axis": 1, "rest": 1}}]})", "/controllers/0/brake", "rest and full must differ");
+    expect(R"({"controllers": [{"match": "x", "brake": {"axis": 1, "rest": 1}}]})", "/controllers/0/brake",
+           "rest and full must differ");
     expect(R"({"controllers": [{"match": "x", "brake": {"axis": 1, "rest": 2}}]})", "/controllers/0/brake/rest", "");
     expect(R"({"controllers": [{"match": "x", "steering": {"axis": 64}}]})", "/controllers/0/steering/axis", "");
-    expect(R"({"controllers": [{"match": "x", "steering": {"axis": 0, "dead": 1}}]})", "/controllers/0/steering/dead", "");
-    expect(R"({"controllers": [{"match": "x", "buttons": [{"button": 0, "does": "fly"}]}]})", "/controllers/0/buttons/0/does", "autopilot");
-    expect(R"({"controllers": [{"match": "x", "buttons": [{"button": 0, "does": "pause"}, {"button": 0, "does": "beam"}]}]})", "/controllers/0/buttons/1", "already");
+    expect(R"({"controllers": [{"match": "x", "steering": {"axis": 0, "dead": 1}}]})", "/controllers/0/steering/dead",
+           "");
+    expect(R"({"controllers": [{"match": "x", "buttons": [{"button": 0, "does": "fly"}]}]})",
+           "/controllers/0/buttons/0/does", "autopilot");
+    expect(
+        R"({"controllers": [{"match": "x", "buttons": [{"button": 0, "does": "pause"}, {"button": 0, "does": "beam"}]}]})",
+        "/controllers/0/buttons/1", "already");
     EXPECT_TRUE(test::contains(test::complaint_of([&] { read_controllers(folder / "none.json"); }), "none.json"));
 }
 
@@ -84,7 +92,12 @@ ControllerState wheel(float turned, float throttle, bool button) {
 }
 
 std::vector<ControllerMapping> wheel_mapping() {
-    return {{.match = "G29", .gamepad = false, .steering = SteeringAxis{}, .throttle = PedalAxis{.axis = 2, .rest = 1, .full = -1}, .brake = {}, .buttons = {{0, Action::Pause}}}};
+    return {{.match = "G29",
+             .gamepad = false,
+             .steering = SteeringAxis{},
+             .throttle = PedalAxis{.axis = 2, .rest = 1, .full = -1},
+             .brake = {},
+             .buttons = {{0, Action::Pause}}}};
 }
 
 TEST(InputDevices, TakeTheWheelThatIsTurnedFurtherAndThePedalThatIsPressedHarder) {
@@ -145,8 +158,8 @@ TEST(KeyboardWheel, TurnsWhileHeldReturnsAndTurnsLessAtSpeed) {
     EXPECT_GT(before, -0.2);
 }
 
-// Panels of any place and size lie within any window, above the line of state where there is room for both; in a large one they are
-// as they are meant.
+// Panels of any place and size lie within any window, above the line of state where there is room for both; in a large
+// one they are as they are meant.
 TEST(Panels, StayInTheWindow) {
     const glm::vec2 large(1280, 800);
     const PanelPlace left = panel_place({8, 320}, {520, 260}, large), right = panel_place({-8, -8}, {420, 300}, large);

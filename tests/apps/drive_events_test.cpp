@@ -12,8 +12,14 @@ using Kind = DriveEvent::Kind;
 
 TEST(DriveEvents, ComeOutAsTheyWentIn) {
     std::vector<DriveEvent> wanted;
-    const auto add = [&](Kind kind, traffic::DriverInput input = {}, std::optional<glm::dvec4> pose = {}, const std::string& name = "", uint64_t place = 0) {
-        wanted.push_back({.kind = kind, .input = input, .pose = pose, .name = name, .value = name.empty() ? "" : name + " value", .place = place});
+    const auto add = [&](Kind kind, traffic::DriverInput input = {}, std::optional<glm::dvec4> pose = {},
+                         const std::string& name = "", uint64_t place = 0) {
+        wanted.push_back({.kind = kind,
+                          .input = input,
+                          .pose = pose,
+                          .name = name,
+                          .value = name.empty() ? "" : name + " value",
+                          .place = place});
     };
     add(Kind::Frame);
     add(Kind::Step);
@@ -64,7 +70,8 @@ TEST(DriveEvents, OfADayTakeFewMegabytes) {
     EXPECT_LT(taken() - before, 2 * events.size()) << "1 byte each, in a list that has room for twice as many";
     const size_t unknown = taken();
     DriveEvents driven;
-    for (size_t i = 0; i < kSteps; ++i) driven.push_back({.kind = Kind::Step, .pose = glm::dvec4(double(i)), .name = {}, .value = {}});
+    for (size_t i = 0; i < kSteps; ++i)
+        driven.push_back({.kind = Kind::Step, .pose = glm::dvec4(double(i)), .name = {}, .value = {}});
     EXPECT_LT(taken() - unknown, 36 * kSteps) << "33 bytes each, and some room";
 }
 

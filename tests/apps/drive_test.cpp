@@ -12,8 +12,8 @@
 #include "drive_file.h"
 #include "places.h"
 #include "playback.h"
-#include "session.h"
 #include "scene/scene_files.h"
+#include "session.h"
 
 namespace vesper::test {
 namespace {
@@ -26,10 +26,18 @@ std::vector<Frame> play(Session& session, const Events& events) {
     std::vector<Frame> frames;
     for (const DriveEvent& event : events) {
         switch (event.kind) {
-            case DriveEvent::Kind::Step: session.step(event.input); break;
-            case DriveEvent::Kind::Set: session.set(event.name, event.value); break;
-            case DriveEvent::Kind::Restart: session.restart(); break;
-            case DriveEvent::Kind::Frame: frames.push_back(session.render(kSize, {.display = true, .scene = true})); break;
+            case DriveEvent::Kind::Step:
+                session.step(event.input);
+                break;
+            case DriveEvent::Kind::Set:
+                session.set(event.name, event.value);
+                break;
+            case DriveEvent::Kind::Restart:
+                session.restart();
+                break;
+            case DriveEvent::Kind::Frame:
+                frames.push_back(session.render(kSize, {.display = true, .scene = true}));
+                break;
         }
     }
     return frames;
@@ -50,7 +58,8 @@ double road_luminance(const Frame& frame) {
 // Steering, pedals, lamps, cameras, operators and frames at uneven times, as a window makes them.
 std::vector<DriveEvent> adventure() {
     std::vector<DriveEvent> events;
-    const auto add = [&](DriveEvent::Kind kind, const traffic::DriverInput& input = {}, const std::string& name = "", const std::string& value = "") {
+    const auto add = [&](DriveEvent::Kind kind, const traffic::DriverInput& input = {}, const std::string& name = "",
+                         const std::string& value = "") {
         events.push_back({.kind = kind, .input = input, .pose = {}, .name = name, .value = value});
     };
     using EventKind = DriveEvent::Kind;
@@ -82,7 +91,8 @@ TEST(Drive, AReplayHasTheSameBytes) {
         // Recording begins in the middle, and the file has the drive from its start.
         driven = play(session, std::vector(events.begin(), events.begin() + 40));
         session.record(scratch / "drive.json");
-        for (Frame& frame : play(session, std::vector(events.begin() + 40, events.end()))) driven.push_back(std::move(frame));
+        for (Frame& frame : play(session, std::vector(events.begin() + 40, events.end())))
+            driven.push_back(std::move(frame));
         EXPECT_FALSE(std::filesystem::exists(scratch / "drive.json"));
         const Drive unfinished = read_drive(scratch / "drive.json.part");
         EXPECT_FALSE(unfinished.complete);
@@ -92,7 +102,10 @@ TEST(Drive, AReplayHasTheSameBytes) {
     const Drive drive = read_drive(scratch / "drive.json");
     EXPECT_TRUE(drive.complete);
     EXPECT_EQ(drive.start.seed, 3u);
-    Session session(device, {.scene = drive.start.scene, .seed = drive.start.seed, .time_step = drive.start.time_step, .settings = drive.start.settings});
+    Session session(device, {.scene = drive.start.scene,
+                             .seed = drive.start.seed,
+                             .time_step = drive.start.time_step,
+                             .settings = drive.start.settings});
     const std::vector<Frame> again = play(session, drive.events);
     ASSERT_EQ(again.size(), driven.size());
     for (size_t i = 0; i < again.size(); ++i) {
@@ -107,7 +120,8 @@ TEST(Drive, AReplayHasTheSameBytes) {
 TEST(Drive, ARecordingThatBreaksOffCanBeRead) {
     const TempFolder scratch;
     {
-        DriveRecorder recorder({.scene = kWorld, .run = {}, .scenario = {}, .seed = 1, .time_step = 1.0 / 60, .settings = {}});
+        DriveRecorder recorder(
+            {.scene = kWorld, .run = {}, .scenario = {}, .seed = 1, .time_step = 1.0 / 60, .settings = {}});
         recorder.open(scratch / "whole.json");
         for (const DriveEvent& event : adventure()) recorder.add(event);
         recorder.close();
@@ -121,8 +135,10 @@ TEST(Drive, ARecordingThatBreaksOffCanBeRead) {
         const auto lines = size_t(std::count(text.begin() + long(head), text.begin() + long(length), '\n'));
         EXPECT_GE(cut.events.size() + (length + 4 > text.size()), std::min(lines, whole)) << length;
     }
-    for (const char* bad : {"", "{", "[]", "{\"vesper_drive\":2,\"scene\":\"x\",\"events\":[]}", "{\"vesper_drive\":1,\"scene\":\"x\",\"events\":[{\"step\":{\"steering\":7},\"pose\":[0,0,0,0]}]}",
-                            "{\"vesper_drive\":1,\"scene\":\"x\",\"events\":[{\"jump\":1}]}"}) {
+    for (const char* bad :
+         {"", "{", "[]", "{\"vesper_drive\":2,\"scene\":\"x\",\"events\":[]}",
+          "{\"vesper_drive\":1,\"scene\":\"x\",\"events\":[{\"step\":{\"steering\":7},\"pose\":[0,0,0,0]}]}",
+          "{\"vesper_drive\":1,\"scene\":\"x\",\"events\":[{\"jump\":1}]}"}) {
         std::ofstream(scratch / "bad.json") << bad;
         EXPECT_THROW(read_drive(scratch / "bad.json"), Error) << bad;
     }
@@ -140,7 +156,12 @@ TEST(Drive, SettingsAreTheOptionsOfRender) {
     EXPECT_EQ(settings.sun(), -4.0);
     EXPECT_EQ(settings.free_camera().position, glm::dvec3(1, 2, 3));
     const auto before = settings.values();
-    for (const auto& [name, value] : std::map<std::string, std::string>{{"operator", "magic"}, {"age", "old"}, {"nothing", "1"}, {"lamp:x", "-1"}, {"display", "no such display"}, {"sun", "95"}})
+    for (const auto& [name, value] : std::map<std::string, std::string>{{"operator", "magic"},
+                                                                        {"age", "old"},
+                                                                        {"nothing", "1"},
+                                                                        {"lamp:x", "-1"},
+                                                                        {"display", "no such display"},
+                                                                        {"sun", "95"}})
         EXPECT_THROW(settings.set(name, value), Error) << name;
     EXPECT_EQ(settings.values(), before);
     settings.set("operator", "");
@@ -150,11 +171,19 @@ TEST(Drive, SettingsAreTheOptionsOfRender) {
 TEST(Drive, SettingsAreRefusedWithTheirPlace) {
     const TempFolder scratch;
     const auto refused = [&](const std::string& settings, const std::string& events) {
-        scratch.write("d.json", "{\"vesper_drive\":1,\"scene\":\"x.gltf\",\"settings\":{" + settings + "},\"events\":[" + events + "]}");
+        scratch.write("d.json", "{\"vesper_drive\":1,\"scene\":\"x.gltf\",\"settings\":{" + settings +
+                                    "},\"events\":[" + events + "]}");
         return complaint_of([&] { read_drive(scratch / "d.json"); });
     };
     EXPECT_EQ(refused("", R"({"set":{"age":"50"}})"), "");
-    for (const auto& [name, value] : std::map<std::string, std::string>{{"help", "1"}, {"help", ""}, {"age", "old"}, {"age=5 --fov", "1"}, {"free", "1,2,nan,0,0"}, {"free", "0,0,0,0,91"}, {"free", "1,1e308,0,0,0"}, {"lamp:x", "-1"}}) {
+    for (const auto& [name, value] : std::map<std::string, std::string>{{"help", "1"},
+                                                                        {"help", ""},
+                                                                        {"age", "old"},
+                                                                        {"age=5 --fov", "1"},
+                                                                        {"free", "1,2,nan,0,0"},
+                                                                        {"free", "0,0,0,0,91"},
+                                                                        {"free", "1,1e308,0,0,0"},
+                                                                        {"lamp:x", "-1"}}) {
         const std::string pair = "\"" + name + "\":\"" + value + "\"";
         const std::string event = refused("", "{\"frame\":true},{\"set\":{" + pair + "}}");
         EXPECT_TRUE(contains(event, "d.json: /events/1/set: ")) << event;
@@ -178,9 +207,14 @@ TEST(Drive, GivenSettingsWinOverRecordedOnes) {
     events.push_back({.kind = DriveEvent::Kind::Set, .pose = {}, .name = "age", .value = "70"});
     DriveEvents elsewhere = events;
     events.push_back({.kind = DriveEvent::Kind::Step, .input = {.throttle = 1}, .pose = {}, .name = {}, .value = {}});
-    elsewhere.push_back({.kind = DriveEvent::Kind::Step, .input = {.throttle = 1}, .pose = glm::dvec4(1, 2, 3, 4), .name = {}, .value = {}});
+    elsewhere.push_back({.kind = DriveEvent::Kind::Step,
+                         .input = {.throttle = 1},
+                         .pose = glm::dvec4(1, 2, 3, 4),
+                         .name = {},
+                         .value = {}});
     Playback playback(events, given);
-    while (playback.next(session)) {}
+    while (playback.next(session)) {
+    }
     EXPECT_EQ(session.settings().values().at("operator"), "grave");
     EXPECT_EQ(session.settings().values().at("age"), "70");
     EXPECT_FALSE(playback.strayed());
@@ -190,14 +224,18 @@ TEST(Drive, GivenSettingsWinOverRecordedOnes) {
     EXPECT_EQ(session.world().steps(), 0u);
     EXPECT_EQ(playback.next(session), DriveEvent::Kind::Set);
     Playback other(elsewhere);
-    while (other.next(session)) {}
+    while (other.next(session)) {
+    }
     EXPECT_TRUE(other.strayed());
     EXPECT_EQ(session.settings().values().at("operator"), "ward");
 }
 
 TEST(Drive, LampsThatAreNotThereAreRefused) {
     Device device({.select = ""});
-    EXPECT_TRUE(contains(complaint_of([&] { Session(device, {.scene = kWorld, .settings = {{"lamp:strete lamp", "0"}}}); }), "--lamp strete lamp: the scene has no lamp of that name; it has arcade lantern"));
+    EXPECT_TRUE(contains(complaint_of([&] {
+                             Session(device, {.scene = kWorld, .settings = {{"lamp:strete lamp", "0"}}});
+                         }),
+                         "--lamp strete lamp: the scene has no lamp of that name; it has arcade lantern"));
     Session session(device, {.scene = kWorld, .settings = {}});
     EXPECT_THROW(session.set("lamp:strete lamp", "0"), Error);
     EXPECT_TRUE(session.settings().values().empty());
@@ -210,7 +248,9 @@ TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
     const Outputs outputs{.display = false, .scene = true};
     std::vector<std::string> lamps;
     for (const LampGroup& group : session.scenery().lamp_groups()) lamps.push_back(group.name);
-    for (const char* name : {"street lamp", "low beam", "high beam", "brake lamp", "tunnel lamp", "left front indicator"}) EXPECT_TRUE(std::find(lamps.begin(), lamps.end(), name) != lamps.end()) << name;
+    for (const char* name :
+         {"street lamp", "low beam", "high beam", "brake lamp", "tunnel lamp", "left front indicator"})
+        EXPECT_TRUE(std::find(lamps.begin(), lamps.end(), name) != lamps.end()) << name;
     for (const std::string& lamp : lamps)
         if (lamp != "low beam" && lamp != "high beam") session.set("lamp:" + lamp, "0");
     session.step({.beam = traffic::Beam::Low});

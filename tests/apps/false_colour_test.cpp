@@ -18,7 +18,8 @@ TEST(FalseColour, GetsLighterWithLuminance) {
     double before = -1;
     for (double position = 0; position <= 1; position += 1.0 / 256) {
         const CanvasColour c = map_colour(position);
-        const double lightness = 0.212639 * std::pow(c.r, 2.2) + 0.715169 * std::pow(c.g, 2.2) + 0.072192 * std::pow(c.b, 2.2);
+        const double lightness =
+            0.212639 * std::pow(c.r, 2.2) + 0.715169 * std::pow(c.g, 2.2) + 0.072192 * std::pow(c.b, 2.2);
         EXPECT_GT(lightness, before - 1e-4) << position;
         before = lightness;
     }

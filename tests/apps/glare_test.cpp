@@ -7,14 +7,13 @@
 
 #include "base/angle.h"
 #include "io/hdr_image.h"
-#include "vision/glare.h"
 #include "places.h"
 #include "support/exr_files.h"
 #include "support/program.h"
+#include "vision/glare.h"
 
 namespace vesper::test {
 namespace {
-
 
 class GlareProgram : public ProgramTest {
 protected:
@@ -39,12 +38,14 @@ protected:
     }
     /// A lamp of 20 cd, ten metres ahead and `aside` metres to the right.
     void write_lamp(double aside) {
-        write("lamp.gltf", R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],)"
-                           R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":20}]}},)"
-                           R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],)"
-                           R"("nodes":[{"name":"eye","camera":0},{"name":"lamp, old","translation":[)" + std::to_string(aside) +
-                               R"(,0,-10],"extensions":{"KHR_lights_punctual":{"light":0}}}],)"
-                               R"("extras":{"vesper":{"version":1,"openings":[{"light":0,"width_m":0.1,"height_m":0.1}]}}})");
+        write("lamp.gltf",
+              R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],)"
+              R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":20}]}},)"
+              R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],)"
+              R"("nodes":[{"name":"eye","camera":0},{"name":"lamp, old","translation":[)" +
+                  std::to_string(aside) +
+                  R"(,0,-10],"extensions":{"KHR_lights_punctual":{"light":0}}}],)"
+                  R"("extras":{"vesper":{"version":1,"openings":[{"light":0,"width_m":0.1,"height_m":0.1}]}}})");
     }
 };
 
@@ -52,13 +53,21 @@ protected:
 TEST_F(GlareProgram, ALampElsewhereVeilsABlackPicture) {
     write_layout(folder / "black.exr", {64, 40, std::vector<float>(size_t{3} * 64 * 40, 0), 0, {}}, {});
     write("lamps.csv", "azimuth,elevation,lux\n# beside and below\n10, 0, 5\n0,-40,1\r\n\n");
-    ASSERT_EQ(run("tonemap black.exr --fov 8 --glare cie --age 60 --iris 1 --lamps lamps.csv --operator linear --linear-max 10 --display-peak 100 --display-black 0.001 -o out.exr"), 0) << said;
+    ASSERT_EQ(run("tonemap black.exr --fov 8 --glare cie --age 60 --iris 1 --lamps lamps.csv --operator linear "
+                  "--linear-max 10 --display-peak 100 --display-black 0.001 -o out.exr"),
+              0)
+        << said;
     const HdrImage shown = read_hdr_image(folder / "out.exr");
     const EyeScatter psf([](double theta) { return cie_total_glare(theta, {60, 1}); });
     for (const int column : {3, 32, 60}) {
-        const double x = (column + 0.5 - 32) / 20 * std::tan(4 / kDegreesPerRadian), y = (20.5 - 20) / 20 * std::tan(4 / kDegreesPerRadian);
-        const double theta = std::acos((x * std::sin(10 / kDegreesPerRadian) + std::cos(10 / kDegreesPerRadian)) / std::sqrt(1 + x * x + y * y)) * kDegreesPerRadian;
-        const double other = std::acos((y * std::sin(40 / kDegreesPerRadian) + std::cos(40 / kDegreesPerRadian)) / std::sqrt(1 + x * x + y * y)) * kDegreesPerRadian;
+        const double x = (column + 0.5 - 32) / 20 * std::tan(4 / kDegreesPerRadian),
+                     y = (20.5 - 20) / 20 * std::tan(4 / kDegreesPerRadian);
+        const double theta = std::acos((x * std::sin(10 / kDegreesPerRadian) + std::cos(10 / kDegreesPerRadian)) /
+                                       std::sqrt(1 + x * x + y * y)) *
+                             kDegreesPerRadian;
+        const double other = std::acos((y * std::sin(40 / kDegreesPerRadian) + std::cos(40 / kDegreesPerRadian)) /
+                                       std::sqrt(1 + x * x + y * y)) *
+                             kDegreesPerRadian;
         const double veil = 5 * psf(theta) + psf(other);
         // 7 %: the pyramid's own error; most of it is less.
         EXPECT_NEAR(shown.rgb[size_t(3 * (20 * 64 + column))] / (0.001 + 99.999 * veil / 10), 1, 0.07) << column;
@@ -66,7 +75,8 @@ TEST_F(GlareProgram, ALampElsewhereVeilsABlackPicture) {
     EXPECT_EQ(header("out.exr", "vesper:glare"), "cie");
     EXPECT_EQ(header("out.exr", "vesper:glare:age"), "60");
     const double e = 5 * std::cos(10 / kDegreesPerRadian), below = std::cos(40 / kDegreesPerRadian);
-    EXPECT_NEAR(std::stod(header("out.exr", "vesper:glare:veil")), e * cie_general_glare(10, {60, 1}) + below * cie_general_glare(40, {60, 1}), 1e-6);
+    EXPECT_NEAR(std::stod(header("out.exr", "vesper:glare:veil")),
+                e * cie_general_glare(10, {60, 1}) + below * cie_general_glare(40, {60, 1}), 1e-6);
 }
 
 // Other columns or units than there are would be read as what they are not.
@@ -74,22 +84,33 @@ TEST_F(GlareProgram, HeadingsOfLampListsAreRead) {
     write_layout(folder / "black.exr", {16, 10, std::vector<float>(size_t{3} * 16 * 10, 0), 0, {}}, {});
     const auto veil = [&](const std::string& text) {
         write("lamps.csv", text);
-        return run("tonemap black.exr --scale 1 --fov 8 --glare cie --lamps lamps.csv -o out.exr") == 0 ? header("out.exr", "vesper:glare:veil") : said;
+        return run("tonemap black.exr --scale 1 --fov 8 --glare cie --lamps lamps.csv -o out.exr") == 0
+                   ? header("out.exr", "vesper:glare:veil")
+                   : said;
     };
     const std::string wanted = veil("20,0,5\n");
-    for (const char* good : {"azimuth,elevation,lx\n20,0,5\n", "azimuth [deg]; elevation [deg]; E_v [lx]\n20;0;5,0\n", "# lamps\nto the right\tup\tilluminance\n20\t0\t5\n", "azimuth,elevation,illuminance\ndeg,deg,lx\n20,0,5\n",
-                             "lamp azimuth, lamp elevation, light intensity (lux)\n20, 0,\t5\n", "20,0\t0\t5,0\n", "\"20\",\"0\",\"5\"\n"})
+    for (const char* good :
+         {"azimuth,elevation,lx\n20,0,5\n", "azimuth [deg]; elevation [deg]; E_v [lx]\n20;0;5,0\n",
+          "# lamps\nto the right\tup\tilluminance\n20\t0\t5\n", "azimuth,elevation,illuminance\ndeg,deg,lx\n20,0,5\n",
+          "lamp azimuth, lamp elevation, light intensity (lux)\n20, 0,\t5\n", "20,0\t0\t5,0\n", "\"20\",\"0\",\"5\"\n"})
         EXPECT_NEAR(std::stod("0" + veil(good)), std::stod("0" + wanted), 1e-6) << good << said;
-    for (const char* bad : {"lx,azimuth,elevation\n5,20,0\n", "azimuth_rad,elevation_rad,lx\n1,0,5\n", "azimuthRad,elevation,lx\n1,0,5\n", "azimuth,elevation,cd\n20,0,5\n", "azimuth,elevation,E_mlx\n20,0,5\n", "left,up,lx\n20,0,5\n",
-                            "azimuth,down,lx\n20,0,5\n", "el,az,lx\n20,0,5\n", "a,b,c\n20,0,5\n", "frame,lamp,azimuth,elevation\n0,x,20,0\n"})
+    for (const char* bad : {"lx,azimuth,elevation\n5,20,0\n", "azimuth_rad,elevation_rad,lx\n1,0,5\n",
+                            "azimuthRad,elevation,lx\n1,0,5\n", "azimuth,elevation,cd\n20,0,5\n",
+                            "azimuth,elevation,E_mlx\n20,0,5\n", "left,up,lx\n20,0,5\n", "azimuth,down,lx\n20,0,5\n",
+                            "el,az,lx\n20,0,5\n", "a,b,c\n20,0,5\n", "frame,lamp,azimuth,elevation\n0,x,20,0\n"})
         EXPECT_NE(veil(bad).find("lamps.csv: line 1: "), std::string::npos) << bad << said;
-    for (const char* bad : {"20,0,x\n", "20,0,5\na,b,c\n", "20;0,5\n", "20\xc2\xb0,0\xc2\xb0,5 lx\n10,0,1\n", "20 deg,0 deg,5 lx\n", "20..0,0..0,5..0\n"}) EXPECT_NE(veil(bad).find("lamps.csv: line "), std::string::npos) << bad << said;
+    for (const char* bad : {"20,0,x\n", "20,0,5\na,b,c\n", "20;0,5\n", "20\xc2\xb0,0\xc2\xb0,5 lx\n10,0,1\n",
+                            "20 deg,0 deg,5 lx\n", "20..0,0..0,5..0\n"})
+        EXPECT_NE(veil(bad).find("lamps.csv: line "), std::string::npos) << bad << said;
 }
 
 TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {
     for (const double aside : {0.5, 12.0}) {
         write_lamp(aside);
-        ASSERT_EQ(run("render lamp.gltf --size 80x50 --glare cie --log log.csv --glare-sources lamps.csv --target 0.45,0.4,0.1,0.2 -o a.exr -o a.png"), 0) << said;
+        ASSERT_EQ(run("render lamp.gltf --size 80x50 --glare cie --log log.csv --glare-sources lamps.csv --target "
+                      "0.45,0.4,0.1,0.2 -o a.exr -o a.png"),
+                  0)
+            << said;
         const double square = 100 + aside * aside;
         EXPECT_EQ(cell("lamps.csv", "lamp", 1), "lamp  old") << "no comma of its own";
         EXPECT_NEAR(std::stod(cell("lamps.csv", "candela", 1)), 20, 1e-4);
@@ -97,7 +118,8 @@ TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {
         EXPECT_NEAR(std::stod(cell("lamps.csv", "azimuth", 1)), std::atan(aside / 10) * kDegreesPerRadian, 1e-3);
         EXPECT_EQ(cell("lamps.csv", "inside", 1), aside < 1 ? "1.000" : "0.000");
         // Seen or not, the veil is that of the lamp.
-        const double theta = std::atan(aside / 10) * kDegreesPerRadian, want = 20 / square * std::cos(theta / kDegreesPerRadian) * cie_general_glare(theta, {23, 0.5});
+        const double theta = std::atan(aside / 10) * kDegreesPerRadian,
+                     want = 20 / square * std::cos(theta / kDegreesPerRadian) * cie_general_glare(theta, {23, 0.5});
         // 5 %: a pixel is 0.57 degrees, and the light is taken to come from its middle.
         EXPECT_NEAR(std::stod(cell("log.csv", "veil", 1)) / want, 1, 0.05) << aside;
         EXPECT_EQ(header("a.exr", "vesper:glare:veil").substr(0, 6), cell("log.csv", "veil", 1).substr(0, 6));
@@ -107,10 +129,12 @@ TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {
 
 TEST_F(GlareProgram, EveryModelRuns) {
     write_lamp(0.3);
-    for (const char* glare : {"none", "ldr", "cie", "spencer", "spencer --pupil scotopic", "cie --age 70 --iris 0", "temporal", "temporal --lashes --eye-seed 7"})
+    for (const char* glare : {"none", "ldr", "cie", "spencer", "spencer --pupil scotopic", "cie --age 70 --iris 0",
+                              "temporal", "temporal --lashes --eye-seed 7"})
         EXPECT_EQ(run("render lamp.gltf --size 33x21 -o a.png --glare " + std::string(glare)), 0) << said;
     ASSERT_EQ(run("render lamp.gltf --size 33x21 --plan --glare cie"), 0) << said;
-    for (const char* pass : {"scatter up 1", "scatter top", "scatter down 0"}) EXPECT_NE(printed.find(pass), std::string::npos) << pass;
+    for (const char* pass : {"scatter up 1", "scatter top", "scatter down 0"})
+        EXPECT_NE(printed.find(pass), std::string::npos) << pass;
 }
 
 TEST_F(GlareProgram, TemporalGlareIsTheSameForTheSameSeedAndTimes) {
@@ -121,7 +145,9 @@ TEST_F(GlareProgram, TemporalGlareIsTheSameForTheSameSeedAndTimes) {
     ASSERT_EQ(run(render + "--replay log.csv --frames 2 --start 0.15 -o c.%04d.png"), 0) << said;
     ASSERT_EQ(run(render + "--eye-seed 2 -o d.png"), 0) << said;
     for (const char* frame : {"0000", "0001", "0002", "0003"})
-        EXPECT_EQ(read_text(folder / ("a." + std::string(frame) + ".png")), read_text(folder / ("b." + std::string(frame) + ".png"))) << frame;
+        EXPECT_EQ(read_text(folder / ("a." + std::string(frame) + ".png")),
+                  read_text(folder / ("b." + std::string(frame) + ".png")))
+            << frame;
     EXPECT_EQ(read_text(folder / "c.0000.png"), read_text(folder / "a.0002.png")) << "from the log";
     EXPECT_EQ(read_text(folder / "c.0001.png"), read_text(folder / "a.0003.png"));
     EXPECT_NE(read_text(folder / "a.0000.png"), read_text(folder / "a.0003.png")) << "it moves";
@@ -144,7 +170,8 @@ TEST_F(GlareProgram, RefusesInOneLine) {
     write("far.csv", "0,95,1\n");
     write("dark.csv", "0,5,-1\n");
     expect_refused("render lamp.gltf -o a.png --glare cie --operator ldr", {"ldr"});
-    for (const char* name : {"words.csv", "four.csv", "far.csv", "dark.csv"}) expect_refused("render lamp.gltf -o a.png --glare cie --lamps " + std::string(name), {name, "line 1"});
+    for (const char* name : {"words.csv", "four.csv", "far.csv", "dark.csv"})
+        expect_refused("render lamp.gltf -o a.png --glare cie --lamps " + std::string(name), {name, "line 1"});
     expect_refused("render lamp.gltf -o a.png --glare cie --lamps two.csv", {"two.csv", "line 2"});
     expect_refused("render lamp.gltf -o a.png --lamps none.csv", {"none.csv"});
     expect_refused("render lamp.gltf --log two.csv --lamps two.csv", {"two.csv"});
@@ -152,11 +179,13 @@ TEST_F(GlareProgram, RefusesInOneLine) {
 
 // The worked road example: TI of 15.0 % (lane 2, R3), calculated and off a picture.
 TEST_F(GlareProgram, ThresholdIncrementOfTheRoadIsThatOfItsPicture) {
-    ASSERT_EQ(run("road '" VESPER_SOURCE_DIR "/data/road/worked-example.json' --render a.png --json a.json"), 0) << said;
+    ASSERT_EQ(run("road '" VESPER_SOURCE_DIR "/data/road/worked-example.json' --render a.png --json a.json"), 0)
+        << said;
     const auto json = nlohmann::json::parse(read_text(folder / "a.json"));
     double worst = 0, seen = 0;
     for (const auto& observer : json["observers"]) {
-        const double calculated = observer["threshold_increment_percent"], rendered = observer["rendered"]["threshold_increment_percent"];
+        const double calculated = observer["threshold_increment_percent"],
+                     rendered = observer["rendered"]["threshold_increment_percent"];
         EXPECT_NEAR(rendered, calculated, 1);
         worst = std::max(worst, calculated), seen = std::max(seen, rendered);
     }

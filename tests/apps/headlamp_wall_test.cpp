@@ -29,7 +29,8 @@ Scene headlamp_and_wall() {
     }
     plane.indices = {0, 1, 2, 0, 2, 3};
     scene.meshes.push_back({"wall", {plane}});
-    scene.distributions.push_back(read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry/low-beam.csv"));
+    scene.distributions.push_back(
+        read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry/low-beam.csv"));
     scene.lamps.push_back({.name = "low beam", .kind = Lamp::Kind::Measured, .intensity = 1, .distribution = 0});
     scene.nodes.resize(2);
     scene.nodes[0].mesh = 0, scene.nodes[1].lamp = 0;
@@ -41,10 +42,11 @@ struct Point {
     double h, v, low, high;  // deg right and up; cd
 };
 // UN R112, 6.2.4, class B, right-hand traffic.
-constexpr Point kPoints[] = {{"B50L", -3.43, 0.57, 0, 350},   {"BR", 2.5, 1, 0, 1750},        {"75R", 1.15, -0.57, 10100, 1e9},
-                             {"75L", -3.43, -0.57, 0, 10600}, {"50L", -3.43, -0.86, 0, 13200}, {"50R", 1.72, -0.86, 10100, 1e9},
-                             {"50V", 0, -0.86, 5100, 1e9},    {"25L", -9, -1.72, 1700, 1e9},  {"25R", 9, -1.72, 1700, 1e9},
-                             {"P7", -8, 0, 65, 1e9},          {"P8", -4, 0, 125, 1e9}};
+constexpr Point kPoints[] = {
+    {"B50L", -3.43, 0.57, 0, 350},   {"BR", 2.5, 1, 0, 1750},         {"75R", 1.15, -0.57, 10100, 1e9},
+    {"75L", -3.43, -0.57, 0, 10600}, {"50L", -3.43, -0.86, 0, 13200}, {"50R", 1.72, -0.86, 10100, 1e9},
+    {"50V", 0, -0.86, 5100, 1e9},    {"25L", -9, -1.72, 1700, 1e9},   {"25R", 9, -1.72, 1700, 1e9},
+    {"P7", -8, 0, 65, 1e9},          {"P8", -4, 0, 125, 1e9}};
 
 TEST(HeadlampOnAWall, MeetsTheRegulationInTheRenderedImage) {
     Device device(DeviceOptions{});

@@ -145,9 +145,9 @@ TEST(HelpPages, AnOptionIsWhereItWasDeclared) {
                       flag = "  --last                    A flag\n", indent(28, ' ');
     EXPECT_EQ(program.help(), head + help + all + "  --plain INT               Said at once\n" + flag +
                                   "\nMore options with --help-all: Rare things.\n");
-    EXPECT_EQ(program.help(true),
-              head + help + all + "  --plain INT:INT in [1 - 7]\n" + indent + "Said at once\n" + indent +
-                  "and at length\n" + flag + "\nRare things:\n  --rare INT:{1,2}          Seldom needed\n");
+    EXPECT_EQ(program.help(true), head + help + all + "  --plain INT:INT in [1 - 7]\n" + indent + "Said at once\n" +
+                                      indent + "and at length\n" + flag +
+                                      "\nRare things:\n  --rare INT:{1,2}          Seldom needed\n");
 }
 
 }  // namespace

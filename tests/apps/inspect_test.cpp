@@ -26,8 +26,8 @@ protected:
     std::string printed, said;
 
     int inspect(const std::string& arguments, const std::string& environment = "") {
-        const std::string command = "cd " + folder.path().string() + " && " + environment + " " VESPER_PROGRAM " inspect " + arguments +
-                                    " >out.txt 2>err.txt";
+        const std::string command = "cd " + folder.path().string() + " && " + environment +
+                                    " " VESPER_PROGRAM " inspect " + arguments + " >out.txt 2>err.txt";
         const int status = std::system(command.c_str());
         printed = read_text(folder / "out.txt");
         said = read_text(folder / "err.txt");
@@ -55,10 +55,11 @@ TEST_F(Inspect, AScene) {
     EXPECT_EQ(day["kind"], "scene");
     EXPECT_GT(day["triangles"].get<int>(), 100000);
     EXPECT_FALSE(day["implausible"].empty());
-    folder.write("p.json", R"({"version": 1, "lamps": [{"name": "lantern", "nodes": "street_lamp_*/light", "type": "point",
+    folder.write("p.json",
+                 R"({"version": 1, "lamps": [{"name": "lantern", "nodes": "street_lamp_*/light", "type": "point",
         "intensity_cd": 1000, "colour_temperature_K": 2700}]})");
-    ASSERT_EQ(std::system((std::string(VESPER_PROGRAM) + " convert " + kData + "rivoli/rivoli.gltf -p " + (folder / "p.json").string() +
-                           " -o " + (folder / "n.gltf").string() + " >/dev/null 2>&1")
+    ASSERT_EQ(std::system((std::string(VESPER_PROGRAM) + " convert " + kData + "rivoli/rivoli.gltf -p " +
+                           (folder / "p.json").string() + " -o " + (folder / "n.gltf").string() + " >/dev/null 2>&1")
                               .c_str()),
               0);
     ASSERT_EQ(inspect("n.gltf --json b.json"), 0) << said;
@@ -77,12 +78,14 @@ TEST_F(Inspect, NamesAreShownAsText) {
     const std::string name = "a\x1b[31m\nb";
     GltfFile file;
     file.root["materials"] = {{{"name", name}}};
-    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}}}, {"material", 0}}, {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}}}, {"material", 0}},
+              {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     file.root["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
     file.root["nodes"].push_back({{"camera", 0}});
     file.root["cameras"] = {{{"type", "perspective"}, {"name", name}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
     file.root["extensionsUsed"] = {"KHR_lights_punctual"};
-    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", name}}, {{"type", "directional"}, {"name", name}}};
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", name}},
+                                                                {{"type", "directional"}, {"name", name}}};
     folder.write("a.gltf", file.text());
     ASSERT_EQ(inspect("a.gltf --json a.json"), 0) << said;
     EXPECT_EQ(printed.find('\x1b'), std::string::npos) << printed;
@@ -96,12 +99,14 @@ TEST_F(Inspect, ASourceThatIsAPicture) {
     write_exr(folder / "sign.exr", image);
     GltfFile file;
     file.root["materials"] = {{{"name", "sign"}}};
-    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}, {"TEXCOORD_0", file.vec2({0, 0, 1, 0, 0, 1})}}}, {"material", 0}});
+    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}, {"TEXCOORD_0", file.vec2({0, 0, 1, 0, 0, 1})}}},
+               {"material", 0}});
     folder.write("a.gltf", file.text());
     folder.write("p.json", R"({"version": 1, "emitters": [{"materials": "sign", "image": "sign.exr", "scale": 2}]})");
     const std::string convert = std::string(VESPER_PROGRAM) + " convert a.gltf -p p.json -o n.glb >convert.txt 2>&1";
     ASSERT_EQ(std::system(("cd " + folder.path().string() + " && " + convert).c_str()), 0);
-    EXPECT_TRUE(contains(read_text(folder / "convert.txt"), "picture 'sign.exr' of 2 x 1 px, 800 cd/m^2 in the mean, 1400 at most"));
+    EXPECT_TRUE(contains(read_text(folder / "convert.txt"),
+                         "picture 'sign.exr' of 2 x 1 px, 800 cd/m^2 in the mean, 1400 at most"));
     ASSERT_EQ(inspect("n.glb --json a.json"), 0) << said;
     EXPECT_TRUE(prints("1400  sign.exr, mean 800")) << printed;
     const auto sign = json("a.json")["materials"].at(0);
@@ -112,7 +117,9 @@ TEST_F(Inspect, ASourceThatIsAPicture) {
 
 TEST_F(Inspect, ALuminaire) {
     ASSERT_EQ(inspect(kData + "road/luminaire.ldt -o a.png --json a.json"), 0) << said;
-    EXPECT_TRUE(prints("8803.1 lm, 88.0 % of the lamps' 10000 lm") && prints("4255 cd at C 15, gamma 65") && prints("G*2")) << printed;
+    EXPECT_TRUE(prints("8803.1 lm, 88.0 % of the lamps' 10000 lm") && prints("4255 cd at C 15, gamma 65") &&
+                prints("G*2"))
+        << printed;
     EXPECT_NEAR(json("a.json")["output_ratio"].get<double>(), 0.8803, 1e-4);
     const Image drawn = picture("a.png");
     EXPECT_EQ(drawn.width, 1360u);
@@ -155,13 +162,14 @@ TEST_F(Inspect, APicture) {
     const Image drawn = picture("b.png");
     const auto pixel = [&](uint32_t x, uint32_t y) { return &drawn.rgba[4 * (size_t{y} * drawn.width + x)]; };
     EXPECT_GT(pixel(16 + 480, 200)[1], pixel(16 + 160, 200)[1] + 50);
-    EXPECT_TRUE(pixel(20, 44)[0] == 0 && pixel(20, 44)[1] == 0);           // a pixel of 0
+    EXPECT_TRUE(pixel(20, 44)[0] == 0 && pixel(20, 44)[1] == 0);                // a pixel of 0
     EXPECT_TRUE(pixel(16 + 40, 44)[0] == 255 && pixel(16 + 40, 44)[2] == 255);  // one that is no number
 }
 
 TEST_F(Inspect, DrawsWithoutFonts) {
     write_picture(1);
-    folder.write("fonts.conf", "<?xml version=\"1.0\"?><!DOCTYPE fontconfig SYSTEM \"fonts.dtd\"><fontconfig></fontconfig>");
+    folder.write("fonts.conf",
+                 "<?xml version=\"1.0\"?><!DOCTYPE fontconfig SYSTEM \"fonts.dtd\"><fontconfig></fontconfig>");
     ASSERT_EQ(inspect("a.exr -o a.png", "FONTCONFIG_FILE=" + (folder / "fonts.conf").string()), 0) << said;
     EXPECT_GT(picture("a.png").width, 600u);
 }
@@ -172,9 +180,10 @@ TEST_F(Inspect, RefusesInOneLine) {
     folder.write("bad.gltf", "{");
     folder.write("a.txt", "text");
     for (const char* arguments :
-         {"", "none.gltf", "none.exr", "none.csv", "bad.exr", "bad.gltf", "a.txt", "a.exr --probe 40,0", "a.exr --probe 1,2,3", "a.exr --probe x",
-          "a.exr --probe=-1,0", "a.exr -o a.jpg", "a.exr -o none/a.png", "a.exr --json none/a.json", "a.exr --low 5 --high 1 -o a.png",
-          "a.exr --low nan -o a.png", "'" VESPER_SOURCE_DIR "/data/road/R3.csv' -o a.png",
+         {"", "none.gltf", "none.exr", "none.csv", "bad.exr", "bad.gltf", "a.txt", "a.exr --probe 40,0",
+          "a.exr --probe 1,2,3", "a.exr --probe x", "a.exr --probe=-1,0", "a.exr -o a.jpg", "a.exr -o none/a.png",
+          "a.exr --json none/a.json", "a.exr --low 5 --high 1 -o a.png", "a.exr --low nan -o a.png",
+          "'" VESPER_SOURCE_DIR "/data/road/R3.csv' -o a.png",
           "'" VESPER_SOURCE_DIR "/data/road/luminaire.ldt' --probe 1,1",
           "'" VESPER_SOURCE_DIR "/data/road/luminaire.ldt' --contours"}) {
         EXPECT_EQ(inspect(arguments), 2) << arguments;

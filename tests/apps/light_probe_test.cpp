@@ -29,7 +29,8 @@ Scene ground() {
 
 /// An eye 3 m above the ground that looks straight down: up in the picture is -Z.
 View from_above(VkExtent2D extent, glm::vec3 eye) {
-    return View::symmetric(extent, std::numbers::pi_v<float> / 2, glm::lookAt(eye, eye - glm::vec3(0, 1, 0), glm::vec3(0, 0, -1)));
+    return View::symmetric(extent, std::numbers::pi_v<float> / 2,
+                           glm::lookAt(eye, eye - glm::vec3(0, 1, 0), glm::vec3(0, 0, -1)));
 }
 
 TEST(LightProbe, FindsTheSurfaceBehindAPixel) {
@@ -46,8 +47,8 @@ TEST(LightProbe, FindsTheSurfaceBehindAPixel) {
     const auto corner = surface_at(scene, frame, view, {8, 0});
     ASSERT_TRUE(corner);
     EXPECT_NEAR(glm::length(corner->position - glm::dvec3(2 + 8.0 / 3, 0, 1 - 8.0 / 3)), 0, 1e-5);
-    EXPECT_FALSE(surface_at(scene, frame, from_above({9, 9}, {40, 3, 0}), {4, 4}));   // beside it
-    EXPECT_FALSE(surface_at(scene, frame, from_above({9, 9}, {0, -1, 0}), {4, 4}));   // below it
+    EXPECT_FALSE(surface_at(scene, frame, from_above({9, 9}, {40, 3, 0}), {4, 4}));     // beside it
+    EXPECT_FALSE(surface_at(scene, frame, from_above({9, 9}, {0, -1, 0}), {4, 4}));     // below it
     EXPECT_FALSE(surface_at(scene, frame, from_above({1, 1}, {0, 0.05f, 0}), {0, 0}));  // nearer than is drawn
 }
 
@@ -65,15 +66,17 @@ TEST(LightProbe, SeesTheFrontOfSurfacesAndBothSidesOfDoubleSidedOnes) {
 TEST(LightProbe, IlluminanceIsCandelaCosineOverDistanceSquared) {
     Scene scene = ground();
     SceneFrame frame{.world = world_transforms(scene, 0)};
-    const SurfacePoint below{.position = {0, 0, 0}}, aside{.position = {5, 0, 0}}, facing_away{.position = {0, 0, 0}, .normal = {0, -1, 0}};
-    EXPECT_NEAR(lamp_illuminance(scene, frame, below), 40, 1e-5);                                // 1000 / 25
+    const SurfacePoint below{.position = {0, 0, 0}}, aside{.position = {5, 0, 0}},
+        facing_away{.position = {0, 0, 0}, .normal = {0, -1, 0}};
+    EXPECT_NEAR(lamp_illuminance(scene, frame, below), 40, 1e-5);  // 1000 / 25
     EXPECT_NEAR(lamp_illuminance(scene, frame, aside), 1000 / 50.0 * std::sqrt(0.5), 1e-5);
     EXPECT_EQ(lamp_illuminance(scene, frame, facing_away), 0);
     frame.dimming = {1, 0.25f};
     EXPECT_NEAR(lamp_illuminance(scene, frame, below), 10, 1e-5);
     // A directional light of 100 lx from 60 degrees above the horizon, dimmed not at all.
     scene.lamps.push_back({.name = "moon", .kind = Lamp::Kind::Directional, .intensity = 100});
-    scene.nodes.push_back({.name = "moon", .rotation = glm::angleAxis(-std::numbers::pi_v<float> / 3, glm::vec3(1, 0, 0)), .lamp = 1});
+    scene.nodes.push_back(
+        {.name = "moon", .rotation = glm::angleAxis(-std::numbers::pi_v<float> / 3, glm::vec3(1, 0, 0)), .lamp = 1});
     frame = {.world = world_transforms(scene, 0), .dimming = {1, 0, 1}};
     EXPECT_NEAR(lamp_illuminance(scene, frame, below), 100 * std::sin(std::numbers::pi / 3), 1e-3);
 }

@@ -15,7 +15,8 @@ constexpr uint32_t kTexels = 16, kZoom = 3;  // texels; pixels per texel
 HdrImage picture() {
     HdrImage image{.width = kTexels, .height = kTexels, .white_luminance = 1};
     for (uint32_t i = 0; i < kTexels * kTexels; ++i)
-        for (int c = 0; c < 3; ++c) image.rgb.push_back(std::pow(10.0f, -3 + 11.0f * float(i * 77 % 256) / 255 - 0.1f * float(c)));
+        for (int c = 0; c < 3; ++c)
+            image.rgb.push_back(std::pow(10.0f, -3 + 11.0f * float(i * 77 % 256) / 255 - 0.1f * float(c)));
     return image;
 }
 
@@ -28,7 +29,8 @@ GltfFile square() {
                                {"emissiveTexture", {{"index", 0}}},
                                {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}}}};
     file.show({{"attributes",
-                {{"POSITION", file.vec3({-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1})}, {"TEXCOORD_0", file.vec2({0, 1, 1, 1, 1, 0, 0, 0})}}},
+                {{"POSITION", file.vec3({-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1})},
+                 {"TEXCOORD_0", file.vec2({0, 1, 1, 1, 1, 0, 0, 0})}}},
                {"indices", file.indices({0, 1, 2, 0, 2, 3})},
                {"material", 0}});
     return file;
@@ -48,14 +50,16 @@ TEST(LuminousPicture, APixelShowsTheLuminanceOfThePicture) {
     write_exr(folder / "sign.exr", image);
     const auto input = folder.write("in.gltf", square().text());
     for (const double scale : {1.0, 0.5}) {
-        const nlohmann::json photometry = {{"version", 1}, {"emitters", {{{"materials", "sign"}, {"image", "sign.exr"}, {"scale", scale}}}}};
+        const nlohmann::json photometry = {
+            {"version", 1}, {"emitters", {{{"materials", "sign"}, {"image", "sign.exr"}, {"scale", scale}}}}};
         convert(input, folder.write("p.json", photometry.dump()), folder / "out.glb");
         const std::vector<float> scene = rendered(folder / "out.glb", {kTexels * kZoom, kTexels * kZoom});
         for (uint32_t y = 0; y < kTexels * kZoom; ++y)
             for (uint32_t x = 0; x < kTexels * kZoom; ++x)
                 for (size_t c = 0; c < 3; ++c) {
                     const double want = scale * double(image.rgb[3 * size_t(y / kZoom * kTexels + x / kZoom) + c]);
-                    ASSERT_NEAR(double(scene[4 * (size_t(y) * kTexels * kZoom + x) + c]), want, 1e-6 * want) << x << ", " << y;
+                    ASSERT_NEAR(double(scene[4 * (size_t(y) * kTexels * kZoom + x) + c]), want, 1e-6 * want)
+                        << x << ", " << y;
                 }
         // From far away the mean is seen: one pixel for every 4 x 4 texels.
         const std::vector<float> small = rendered(folder / "out.glb", {kTexels / 4, kTexels / 4});

@@ -1,4 +1,5 @@
-// Damaged and invalid files of others, given to the program: a result, or one line that names the file. SPDX-License-Identifier: MIT
+// Damaged and invalid files of others, given to the program: a result, or one line that names the file.
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <filesystem>
 
@@ -28,7 +29,8 @@ protected:
             if (code == 0) continue;
             ++refused;
             EXPECT_EQ(code, 2) << file;
-            EXPECT_TRUE(said.starts_with("vesper: ") && std::count(said.begin(), said.end(), '\n') == 1) << file << ": " << said;
+            EXPECT_TRUE(said.starts_with("vesper: ") && std::count(said.begin(), said.end(), '\n') == 1)
+                << file << ": " << said;
             EXPECT_NE(said.find(entry.path().filename().string().substr(0, 40)), std::string::npos) << said;
             EXPECT_LT(said.size(), 1000u) << file;
         }
@@ -46,14 +48,17 @@ TEST_F(MalformedFiles, ScenesOfTheValidator) {
 }
 
 TEST_F(MalformedFiles, PicturesOfHighDynamicRange) {
-    const auto [files, refused] = give("malformed", [](const fs::path& path, const std::string& file) { return path.extension() != ".md" ? "tonemap " + file + " -o x.png" : ""; });
+    const auto [files, refused] = give("malformed", [](const fs::path& path, const std::string& file) {
+        return path.extension() != ".md" ? "tonemap " + file + " -o x.png" : "";
+    });
     if (files == 0) GTEST_SKIP() << "the shared set is not here";
     EXPECT_GT(refused, 80u);
     RecordProperty("refused", std::to_string(refused) + " of " + std::to_string(files));
 }
 
 TEST_F(MalformedFiles, Photographs) {
-    const auto [files, refused] = give("malformed/image", [](const fs::path&, const std::string& file) { return "inspect " + file; });
+    const auto [files, refused] =
+        give("malformed/image", [](const fs::path&, const std::string& file) { return "inspect " + file; });
     if (files == 0) GTEST_SKIP() << "the shared set is not here";
     EXPECT_EQ(refused, files);
 }
@@ -62,7 +67,8 @@ TEST_F(MalformedFiles, LimitsFollowTheEnvironment) {
     const std::string inspect = "inspect " VESPER_SOURCE_DIR "/data/rivoli/rivoli.gltf";
     EXPECT_EQ(run(inspect, "VESPER_LIMITS=2.5"), 0) << said;
     expect_refused(inspect, {"rivoli.gltf", "more than 32000 values"}, "VESPER_LIMITS=0.001");
-    for (const char* wrong : {"0", "17", "nan", "many", "2x"}) expect_refused(inspect, {"VESPER_LIMITS", "0.001 to 16"}, "VESPER_LIMITS=" + std::string(wrong));
+    for (const char* wrong : {"0", "17", "nan", "many", "2x"})
+        expect_refused(inspect, {"VESPER_LIMITS", "0.001 to 16"}, "VESPER_LIMITS=" + std::string(wrong));
 }
 
 }  // namespace

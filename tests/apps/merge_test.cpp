@@ -67,8 +67,8 @@ TEST_F(MergeProgram, MergesJpegsByTheirExif) {
 
 TEST_F(MergeProgram, ScalesToAMeasuredLuminance) {
     const float* p = scene.rgb.data() + 3 * (30 * 96 + 20);
-    const double known =
-        0.212639 * static_cast<double>(p[0]) + 0.715169 * static_cast<double>(p[1]) + 0.072192 * static_cast<double>(p[2]);
+    const double known = 0.212639 * static_cast<double>(p[0]) + 0.715169 * static_cast<double>(p[1]) +
+                         0.072192 * static_cast<double>(p[2]);
     const std::string files =
         "q0.png q1.png q2.png q3.png q4.png q5.png q6.png q7.png --exposures 1/200,1/50,0.08,.32,1.28,5.12,20.48,81.92 "
         "--curve srgb ";

@@ -26,13 +26,14 @@ Scene night_street() {
     return scene;
 }
 
-// Two frames half a second apart: operators that remember go on from the first. One pixel of ten thousand may be more than a
-// code off, where float and double fall on either side of a bin's edge.
+// Two frames half a second apart: operators that remember go on from the first. One pixel of ten thousand may be more
+// than a code off, where float and double fall on either side of a bin's edge.
 TEST(NightStreet, EveryOperatorEqualsTheReference) {
     const Scene scene = night_street();
     const VkExtent2D extent{1680, 1050};
     std::string complaints;
-    Device device({.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
+    Device device(
+        {.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
     Renderer renderer(device, scene);
     for (const OperatorInfo& op : operators()) {
         if (op.tone_operator == Operator::Ldr) continue;  // shows no luminance
@@ -42,9 +43,11 @@ TEST(NightStreet, EveryOperatorEqualsTheReference) {
         shared::EyeState eye{};
         for (const float seconds : {0.0f, 0.5f}) {
             const SceneFrame moment{world_transforms(scene, double(seconds))};
-            const Frame got = renderer.render(settings, camera_view(scene, moment, "driver", extent), moment, seconds, {.display = true, .scene = true});
+            const Frame got = renderer.render(settings, camera_view(scene, moment, "driver", extent), moment, seconds,
+                                              {.display = true, .scene = true});
             const auto* texels = reinterpret_cast<const glm::vec4*>(got.scene.data());
-            const auto want = reference_codes({texels, got.scene.size() / 4}, extent, settings, op.form, got.foveal_level, seconds, eye);
+            const auto want = reference_codes({texels, got.scene.size() / 4}, extent, settings, op.form,
+                                              got.foveal_level, seconds, eye);
             EXPECT_LE(pixels_off(got.display, want), want.size() / 10000) << op.name << " after " << seconds << " s";
             eye = got.eye;
             if (!op.remembers) break;

@@ -1,5 +1,5 @@
-// A device and images of the host's through the C interface: the same bytes as through arrays, nothing borrowed destroyed, nothing said by
-// the validation layer. SPDX-License-Identifier: MIT
+// A device and images of the host's through the C interface: the same bytes as through arrays, nothing borrowed
+// destroyed, nothing said by the validation layer. SPDX-License-Identifier: MIT
 #include "support/host_device.h"
 
 #include <chrono>
@@ -11,7 +11,8 @@
 namespace vesper::test {
 namespace {
 
-constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kCopied = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                        kCopied = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
 constexpr float kScale = 50;
 
 // Frame by frame another picture, in units of kScale cd/m^2.
@@ -42,7 +43,8 @@ protected:
     void make_images(VkExtent2D size, VkFormat codes) {
         for (::Image* image : {&picture, &shown}) host->destroy(*image);
         extent = size, format = codes;
-        picture = host->make_image(VK_FORMAT_R32G32B32A32_SFLOAT, size, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+        picture = host->make_image(VK_FORMAT_R32G32B32A32_SFLOAT, size,
+                                   VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
         shown = host->make_image(codes, size, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     }
     VesperResult map_image(const VesperHandover* handover = nullptr) {
@@ -53,13 +55,15 @@ protected:
         return vesper_tone_map_image(mapper, &settings, &given, 0.1f, &to, handover, &error);
     }
     void draw(unsigned frame) {
-        host->submit([&](VkCommandBuffer commands) { draw_pixels(commands, picture, extent, street(extent, frame)); }, ++time);
+        host->submit([&](VkCommandBuffer commands) { draw_pixels(commands, picture, extent, street(extent, frame)); },
+                     ++time);
     }
     std::vector<uint8_t> read() { return host->read(shown, extent, ++time); }
     std::vector<uint8_t> map_array(VesperToneMapper* other, unsigned frame) {
         const std::vector<float> rgb = street(extent, frame);
         VesperPicture given = VESPER_INIT(VesperPicture);
-        given.width = extent.width, given.height = extent.height, given.channels = 3, given.values = rgb.data(), given.scale = kScale, given.vertical_fov = 0.7f;
+        given.width = extent.width, given.height = extent.height, given.channels = 3, given.values = rgb.data(),
+        given.scale = kScale, given.vertical_fov = 0.7f;
         std::vector<uint8_t> codes(size_t{4} * extent.width * extent.height);
         VesperOutputs outputs = VESPER_INIT(VesperOutputs);
         outputs.codes = codes.data();
@@ -130,7 +134,8 @@ TEST_F(OwnDevice, TenBitsBeginWithEither) {
         std::memcpy(made.data(), bytes.data(), bytes.size());
         return made;
     };
-    const std::vector<uint32_t> red = words(VK_FORMAT_A2B10G10R10_UNORM_PACK32), blue = words(VK_FORMAT_A2R10G10B10_UNORM_PACK32);
+    const std::vector<uint32_t> red = words(VK_FORMAT_A2B10G10R10_UNORM_PACK32),
+                                blue = words(VK_FORMAT_A2R10G10B10_UNORM_PACK32);
     bool coloured = false;
     for (size_t i = 0; i < red.size(); ++i) {
         EXPECT_EQ(blue[i], (red[i] & 0xc00ffc00u) | (red[i] & 0x3ffu) << 20 | (red[i] >> 20 & 0x3ffu));
@@ -147,13 +152,17 @@ TEST_F(OwnDevice, WaitsAndSignals) {
     check(vkCreateSemaphore(host.device(), &info, nullptr, &binary), "making a semaphore");
     for (unsigned frame = 0; frame < 5; ++frame) {
         draw(frame);
-        VkSemaphoreSubmitInfo waits[2]{{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}, {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}}, signals[2]{waits[0], waits[0]};
+        VkSemaphoreSubmitInfo waits[2]{{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO},
+                                       {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}},
+            signals[2]{waits[0], waits[0]};
         waits[0].semaphore = signals[0].semaphore = host->timeline();
         waits[0].value = time, signals[0].value = ++time;
         waits[1].semaphore = signals[1].semaphore = binary;
-        for (VkSemaphoreSubmitInfo* one : {&waits[0], &waits[1], &signals[0], &signals[1]}) one->stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        for (VkSemaphoreSubmitInfo* one : {&waits[0], &waits[1], &signals[0], &signals[1]})
+            one->stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         VesperHandover handover = VESPER_INIT(VesperHandover);
-        handover.wait_count = frame > 0 ? 2 : 1, handover.waits = waits;  // the binary one has been signalled by the frame before
+        handover.wait_count = frame > 0 ? 2 : 1,
+        handover.waits = waits;  // the binary one has been signalled by the frame before
         handover.signal_count = 2, handover.signals = signals;
         ASSERT_EQ(map_image(&handover), VESPER_OK) << error.message;
     }
@@ -173,7 +182,8 @@ TEST_F(OwnDevice, WaitsAndSignals) {
     vkDestroySemaphore(host.device(), binary, nullptr);
 }
 
-// What a picture brought is kept until it is asked for, whatever waits for it before; a call that is refused does not even wait.
+// What a picture brought is kept until it is asked for, whatever waits for it before; a call that is refused does not
+// even wait.
 TEST_F(OwnDevice, ReportsStayUntilTheyAreAskedFor) {
     make_images({16, 16}, VK_FORMAT_R8G8B8A8_UNORM);
     VesperFrameReport report = VESPER_INIT(VesperFrameReport);
@@ -182,15 +192,18 @@ TEST_F(OwnDevice, ReportsStayUntilTheyAreAskedFor) {
         return report.adaptation;
     };
     const std::vector<uint8_t> rested = eye_of(mapper);
-    const std::function<void()> waits[] = {[&] { eye_of(mapper); }, [&] { EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, rested.data(), rested.size(), &error), VESPER_OK); },
-                                           [&] { EXPECT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK); }, [&] { map_array(mapper, 3); },
-                                           [&] {
-                                               const float grey[3]{1, 1, 1};
-                                               VesperPicture given = VESPER_INIT(VesperPicture);
-                                               given.width = given.height = 1, given.channels = 3, given.values = grey, given.scale = 1, given.vertical_fov = 0.7f;
-                                               const VesperOutputs outputs = VESPER_INIT(VesperOutputs);
-                                               EXPECT_EQ(vesper_tone_map(mapper, &settings, &given, -1, &outputs, &error), VESPER_BAD_ARGUMENT);
-                                           }};
+    const std::function<void()> waits[] = {
+        [&] { eye_of(mapper); },
+        [&] { EXPECT_EQ(vesper_tone_mapper_set_eye(mapper, rested.data(), rested.size(), &error), VESPER_OK); },
+        [&] { EXPECT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK); }, [&] { map_array(mapper, 3); },
+        [&] {
+            const float grey[3]{1, 1, 1};
+            VesperPicture given = VESPER_INIT(VesperPicture);
+            given.width = given.height = 1, given.channels = 3, given.values = grey, given.scale = 1,
+            given.vertical_fov = 0.7f;
+            const VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+            EXPECT_EQ(vesper_tone_map(mapper, &settings, &given, -1, &outputs, &error), VESPER_BAD_ARGUMENT);
+        }};
     for (const auto& wait : waits) {
         draw(0);
         ASSERT_EQ(map_image(), VESPER_OK) << error.message;
@@ -224,7 +237,10 @@ TEST_F(OwnDevice, TimesAreTheDevices) {
 TEST_F(OwnDevice, ChangesUnderWay) {
     make_images({64, 48}, VK_FORMAT_R8G8B8A8_UNORM);
     draw(0);
-    for (const auto& [glare, op] : {std::pair{VESPER_GLARE_NONE, VESPER_WARD}, {VESPER_GLARE_CIE, VESPER_IRAWAN}, {VESPER_GLARE_WARD, VESPER_PATTANAIK}, {VESPER_GLARE_SPENCER, VESPER_GRAVE},
+    for (const auto& [glare, op] : {std::pair{VESPER_GLARE_NONE, VESPER_WARD},
+                                    {VESPER_GLARE_CIE, VESPER_IRAWAN},
+                                    {VESPER_GLARE_WARD, VESPER_PATTANAIK},
+                                    {VESPER_GLARE_SPENCER, VESPER_GRAVE},
                                     {VESPER_GLARE_LDR, VESPER_DURAND}}) {
         settings.glare = glare, settings.tone_operator = op;
         for (int again = 0; again < 2; ++again) ASSERT_EQ(map_image(), VESPER_OK) << error.message;
@@ -261,7 +277,9 @@ TEST_F(OwnDevice, TheQueueIsLocked) {
     VesperHostDevice lent = host.lent();
     lent.user = &turns;
     lent.lock_queue = [](void* user) { static_cast<Turns*>(user)->mutex.lock(), ++static_cast<Turns*>(user)->locked; };
-    lent.unlock_queue = [](void* user) { ++static_cast<Turns*>(user)->unlocked, static_cast<Turns*>(user)->mutex.unlock(); };
+    lent.unlock_queue = [](void* user) {
+        ++static_cast<Turns*>(user)->unlocked, static_cast<Turns*>(user)->mutex.unlock();
+    };
     VesperDevice* shared = nullptr;
     ASSERT_EQ(vesper_device_borrow(&lent, &shared, &error), VESPER_OK) << error.message;
     VesperToneMapper* turn = nullptr;
@@ -295,7 +313,8 @@ TEST_F(OwnDevice, RefusesWhatCannotBe) {
         VesperHandover handover = VESPER_INIT(VesperHandover);
         change(f, t, given, handover);
         error = {};
-        EXPECT_EQ(vesper_tone_map_image(mapper, &settings, &given, 0, &t, &handover, &error), VESPER_BAD_ARGUMENT) << words;
+        EXPECT_EQ(vesper_tone_map_image(mapper, &settings, &given, 0, &t, &handover, &error), VESPER_BAD_ARGUMENT)
+            << words;
         EXPECT_NE(std::string(error.message).find(words), std::string::npos) << error.message;
     };
     refuses("without its size", [](auto& f, auto&, auto&, auto&) { f.size = 4; });
@@ -310,7 +329,8 @@ TEST_F(OwnDevice, RefusesWhatCannotBe) {
     refuses("layout after", [](auto& f, auto&, auto&, auto&) { f.layout_after = VK_IMAGE_LAYOUT_UNDEFINED; });
     refuses("layout after", [](auto&, auto& t, auto&, auto&) { t.layout_after = VK_IMAGE_LAYOUT_PREINITIALIZED; });
     refuses("no such layout", [](auto& f, auto&, auto&, auto&) { f.layout_before = VkImageLayout(12345); });
-    refuses("no such layout", [](auto&, auto& t, auto&, auto&) { t.layout_before = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL; });
+    refuses("no such layout",
+            [](auto&, auto& t, auto&, auto&) { t.layout_before = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL; });
     refuses("no such layout", [](auto&, auto& t, auto&, auto&) { t.layout_after = VkImageLayout(9); });
     refuses("layout before", [](auto& f, auto&, auto&, auto&) { f.layout_before = VK_IMAGE_LAYOUT_UNDEFINED; });
     refuses("extent", [](auto&, auto& t, auto&, auto&) { t.width = 9; });
@@ -327,7 +347,8 @@ TEST_F(OwnDevice, RefusesWhatCannotBe) {
 }
 
 /// What is said of a device that was made otherwise than Vesper asked.
-std::string complaint(const std::function<void(HostFeatures&, VkDeviceCreateInfo&)>& made, const std::function<void(VesperHostDevice&)>& told = {}) {
+std::string complaint(const std::function<void(HostFeatures&, VkDeviceCreateInfo&)>& made,
+                      const std::function<void(VesperHostDevice&)>& told = {}) {
     const HostDevice host(made);
     VesperHostDevice lent = host.lent();
     if (told) told(lent);
@@ -338,16 +359,22 @@ std::string complaint(const std::function<void(HostFeatures&, VkDeviceCreateInfo
     return error.message;
 }
 
-void expect_words(const std::string& message, std::initializer_list<const char*> words, std::initializer_list<const char*> not_these = {}) {
+void expect_words(const std::string& message, std::initializer_list<const char*> words,
+                  std::initializer_list<const char*> not_these = {}) {
     for (const char* word : words) EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
     for (const char* word : not_these) EXPECT_EQ(message.find(word), std::string::npos) << word << " in: " << message;
 }
 
 TEST(BorrowedDevice, EverythingMissingIsNamed) {
-    expect_words(complaint([](HostFeatures& f, auto&) { f.f13.synchronization2 = f.f12.scalarBlockLayout = VK_FALSE; f.f12.timelineSemaphore = VK_TRUE; }),
+    expect_words(complaint([](HostFeatures& f, auto&) {
+                     f.f13.synchronization2 = f.f12.scalarBlockLayout = VK_FALSE;
+                     f.f12.timelineSemaphore = VK_TRUE;
+                 }),
                  {"synchronization2", "scalarBlockLayout"}, {"maintenance4", "independentBlend", "push_descriptor"});
-    expect_words(complaint([](auto&, VkDeviceCreateInfo& info) { info.enabledExtensionCount = 0; }), {"VK_KHR_push_descriptor"}, {"synchronization2"});
-    expect_words(complaint({}, [](VesperHostDevice& lent) { lent.api_version = VK_API_VERSION_1_1; }), {"Vulkan 1.3", "1.1"}, {"synchronization2"});
+    expect_words(complaint([](auto&, VkDeviceCreateInfo& info) { info.enabledExtensionCount = 0; }),
+                 {"VK_KHR_push_descriptor"}, {"synchronization2"});
+    expect_words(complaint({}, [](VesperHostDevice& lent) { lent.api_version = VK_API_VERSION_1_1; }),
+                 {"Vulkan 1.3", "1.1"}, {"synchronization2"});
     expect_words(complaint({}, [](VesperHostDevice& lent) { lent.queue_family = 7; }), {"family 7"});
     expect_words(complaint({}, [](VesperHostDevice& lent) { lent.size = 8; }), {"size"});
     expect_words(complaint({}, [](VesperHostDevice& lent) { lent.queue = VK_NULL_HANDLE; }), {"queue"});
@@ -357,16 +384,23 @@ TEST(BorrowedDevice, EverythingMissingIsNamed) {
     EXPECT_EQ(vesper_device_borrow(nullptr, nullptr, &error), VESPER_BAD_ARGUMENT);
 }
 
-// Features of a version may stand in the structures of the extensions they come from, and core ones in pEnabledFeatures.
+// Features of a version may stand in the structures of the extensions they come from, and core ones in
+// pEnabledFeatures.
 TEST(BorrowedDevice, FeaturesMayBeAskedForInEitherWay) {
-    VkPhysicalDeviceSynchronization2Features sync{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, nullptr, VK_TRUE};
-    VkPhysicalDeviceDynamicRenderingFeatures rendering{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, &sync, VK_TRUE};
-    VkPhysicalDeviceMaintenance4Features maintenance{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES, &rendering, VK_TRUE};
-    VkPhysicalDeviceScalarBlockLayoutFeatures layout{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES, &maintenance, VK_TRUE};
-    VkPhysicalDeviceTimelineSemaphoreFeatures timeline{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES, &layout, VK_TRUE};
+    VkPhysicalDeviceSynchronization2Features sync{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, nullptr,
+                                                  VK_TRUE};
+    VkPhysicalDeviceDynamicRenderingFeatures rendering{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES,
+                                                       &sync, VK_TRUE};
+    VkPhysicalDeviceMaintenance4Features maintenance{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
+                                                     &rendering, VK_TRUE};
+    VkPhysicalDeviceScalarBlockLayoutFeatures layout{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES,
+                                                     &maintenance, VK_TRUE};
+    VkPhysicalDeviceTimelineSemaphoreFeatures timeline{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES,
+                                                       &layout, VK_TRUE};
     VkPhysicalDeviceFeatures core{};
     core.independentBlend = VK_TRUE;
-    const HostDevice host([&](HostFeatures&, VkDeviceCreateInfo& info) { info.pNext = &timeline, info.pEnabledFeatures = &core; });
+    const HostDevice host(
+        [&](HostFeatures&, VkDeviceCreateInfo& info) { info.pNext = &timeline, info.pEnabledFeatures = &core; });
     const VesperHostDevice lent = host.lent();
     VesperDevice* device = nullptr;
     VesperError error;

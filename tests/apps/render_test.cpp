@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 
 class Program : public testing::Test {
 protected:
-    fs::path folder = fs::temp_directory_path() / ("vesper-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" + std::to_string(::getpid()));
+    fs::path folder = fs::temp_directory_path() /
+                      ("vesper-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
+                       std::to_string(::getpid()));
     void SetUp() override {
         fs::remove_all(folder);
         fs::create_directories(folder);
@@ -33,7 +35,8 @@ protected:
     }
     /// Runs `vesper render empty.gltf <arguments>`; what it said is in `said`.
     int render(const std::string& arguments) {
-        const std::string command = "cd " + folder.string() + " && " VESPER_PROGRAM " render empty.gltf --size 16x8 " + arguments + " >out.txt 2>err.txt";
+        const std::string command = "cd " + folder.string() + " && " VESPER_PROGRAM " render empty.gltf --size 16x8 " +
+                                    arguments + " >out.txt 2>err.txt";
         const int status = std::system(command.c_str());
         said = text_of(folder / "err.txt");
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -77,7 +80,8 @@ TEST_F(Program, DrawsLampsThatHaveAnOpening) {
             << (opening ? R"({"light":0,"width_m":0.1,"height_m":0.1})" : "") << "]}}}";
         ASSERT_EQ(render("--plan"), 0) << said;
         EXPECT_EQ(text_of(folder / "out.txt").find("\nluminaires\n") != std::string::npos, opening);
-        for (const char* tone : {"ward", "ldr"}) EXPECT_EQ(render("-o a.png --operator " + std::string(tone)), 0) << said;
+        for (const char* tone : {"ward", "ldr"})
+            EXPECT_EQ(render("-o a.png --operator " + std::string(tone)), 0) << said;
     }
 }
 
@@ -105,7 +109,8 @@ TEST_F(Program, LogsTheEyeAndReplaysItToTheLastBit) {
     EXPECT_NE(header.find("vesper:options"), std::string::npos);
     EXPECT_NE(header.find("--frames 6 --dt 0.05"), std::string::npos);
     EXPECT_EQ(header.find("a%d.exr"), std::string::npos);
-    for (const char* name : {"vesper:eye:cone_pigment", "vesper:eye:nodes", "vesper:toneCurve"}) EXPECT_NE(header.find(name), std::string::npos) << name;
+    for (const char* name : {"vesper:eye:cone_pigment", "vesper:eye:nodes", "vesper:toneCurve"})
+        EXPECT_NE(header.find(name), std::string::npos) << name;
     for (const char* bad : {"", "frame\n1\n"}) {
         std::ofstream(folder / "bad.csv") << bad;
         expect_refused("--replay bad.csv -o c.png");
@@ -136,8 +141,9 @@ TEST_F(Program, HasThePresetOfThePaper) {
 TEST_F(Program, NeverReplacesWhatItReadsOrWrites) {
     ASSERT_EQ(render("-o a.png --log log.csv"), 0) << said;
     const std::string scene = text_of(folder / "empty.gltf"), log = text_of(folder / "log.csv");
-    for (const char* arguments : {"-o a.png --log empty.gltf", "-o a.png --stats-json ./empty.gltf", "-o a.png --replay log.csv --log log.csv",
-                                  "-o a.png --log ./a.png", "-o a.png -o a.png", "-o a.png --log b --stats-json b"})
+    for (const char* arguments :
+         {"-o a.png --log empty.gltf", "-o a.png --stats-json ./empty.gltf", "-o a.png --replay log.csv --log log.csv",
+          "-o a.png --log ./a.png", "-o a.png -o a.png", "-o a.png --log b --stats-json b"})
         expect_refused(arguments);
     EXPECT_EQ(text_of(folder / "empty.gltf"), scene);
     EXPECT_EQ(text_of(folder / "log.csv"), log);
@@ -147,13 +153,16 @@ TEST_F(Program, NeverReplacesWhatItReadsOrWrites) {
 TEST_F(Program, SparesFilesOfScenesAndKeepsLogs) {
     const std::string bytes(36, '\0');
     std::ofstream(folder / "s.bin", std::ios::binary) << bytes;
-    std::ofstream(folder / "s.gltf") << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    std::ofstream(folder / "s.gltf")
+        << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
 "buffers":[{"byteLength":36,"uri":"s.bin"}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[0,0,0]}]})";
     fs::create_symlink("s.bin", folder / "1.png");
     for (const char* arguments : {"-o a.png --log s.bin", "--stats-json s.bin", "--frames 2 -o %d.png"}) {
-        const std::string command = "cd " + folder.string() + " && " VESPER_PROGRAM " render s.gltf --size 16x8 " + arguments + " >out.txt 2>err.txt";
+        const std::string command = "cd " + folder.string() + " && " VESPER_PROGRAM " render s.gltf --size 16x8 " +
+                                    arguments + " >out.txt 2>err.txt";
         EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2) << arguments;
-        EXPECT_NE(text_of(folder / "err.txt").find("would replace what is read"), std::string::npos) << arguments << text_of(folder / "err.txt");
+        EXPECT_NE(text_of(folder / "err.txt").find("would replace what is read"), std::string::npos)
+            << arguments << text_of(folder / "err.txt");
     }
     EXPECT_EQ(text_of(folder / "s.bin"), bytes);
 
@@ -169,10 +178,29 @@ TEST_F(Program, SparesFilesOfScenesAndKeepsLogs) {
 }
 
 TEST_F(Program, RefusesWhatCannotBeInOneLine) {
-    for (const char* arguments : {"", "-o a.tiff", "-o none/a.png", "-o a.png --stats-json none/a.json", "-o a.png --operator foo", "-o a.exr --operator ldr",
-                                  "-o a.png --threshold nan", "-o a.png --dt nan", "-o a.png --frames 0", "-o a.png --frames 2 -o b%99d.png",
-                                  "-o a.png --operator ldr --target .1,.1,.2,.2", "-o a.png --linear-min 5 --linear-max 1", "-o a.png --display-peak 1 --display-black 5", "-o a.png --camera nope",
-                                  "-o a.png --foveal-level 14", "-o a.png --gaze 0.5", "-o a.png --gaze 2,0", "-o a.png --age 0", "-o a.png --smoothing -1", "-o a.png --adapt-to sun", "-o a.png --nonsense", "-o a.png --size 0x5", "-o a.png --device nowhere"})
+    for (const char* arguments : {"",
+                                  "-o a.tiff",
+                                  "-o none/a.png",
+                                  "-o a.png --stats-json none/a.json",
+                                  "-o a.png --operator foo",
+                                  "-o a.exr --operator ldr",
+                                  "-o a.png --threshold nan",
+                                  "-o a.png --dt nan",
+                                  "-o a.png --frames 0",
+                                  "-o a.png --frames 2 -o b%99d.png",
+                                  "-o a.png --operator ldr --target .1,.1,.2,.2",
+                                  "-o a.png --linear-min 5 --linear-max 1",
+                                  "-o a.png --display-peak 1 --display-black 5",
+                                  "-o a.png --camera nope",
+                                  "-o a.png --foveal-level 14",
+                                  "-o a.png --gaze 0.5",
+                                  "-o a.png --gaze 2,0",
+                                  "-o a.png --age 0",
+                                  "-o a.png --smoothing -1",
+                                  "-o a.png --adapt-to sun",
+                                  "-o a.png --nonsense",
+                                  "-o a.png --size 0x5",
+                                  "-o a.png --device nowhere"})
         expect_refused(arguments);
     EXPECT_FALSE(fs::exists(folder / "a.png"));
     EXPECT_EQ(render(""), 2);

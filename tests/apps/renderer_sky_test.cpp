@@ -8,11 +8,12 @@ namespace vesper::test {
 namespace {
 
 // A white sign of class RA2 stands 100 m ahead under a uniform sky of 2 cd/m^2, lit by two lamps of 500 cd each, half a
-// degree from the eye as the sign sees them: 12.5 cd/m^2 would come back of white. Its base colour is 0.5: half of that, and
-// 1 cd/m^2 of the sky.
+// degree from the eye as the sign sees them: 12.5 cd/m^2 would come back of white. Its base colour is 0.5: half of
+// that, and 1 cd/m^2 of the sky.
 TEST(RendererSky, ASignUnderThePictureOfASky) {
     std::string complaints;
-    Device device({.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
+    Device device(
+        {.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
     Scene scene;
     scene.environment = Environment{64, 32, std::vector<float>(64 * 32 * 3, 2)};
     scene.retroreflectors = {retroreflective_class("RA1"), retroreflective_class("RA2")};
@@ -32,7 +33,8 @@ TEST(RendererSky, ASignUnderThePictureOfASky) {
     Renderer renderer(device, scene);
     const View view = View::symmetric({33, 33}, 0.4f, glm::mat4(1));
     const auto at = [&](const RenderSettings& settings, int x, int y) {
-        const Frame frame = renderer.render(settings, view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
+        const Frame frame =
+            renderer.render(settings, view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
         return frame.scene[size_t(y * 33 + x) * 4 + 1];
     };
     // 0.016: what 0.1 lx gives a matt surface of 0.5.

@@ -9,9 +9,9 @@
 #include "base/error.h"
 #include "places.h"
 #include "road_world.h"
-#include "support/complaints.h"
 #include "roads/opendrive.h"
 #include "scenery.h"
+#include "support/complaints.h"
 #include "support/program.h"
 
 namespace vesper::test {
@@ -20,13 +20,14 @@ namespace {
 const std::string kRoads = std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.xodr";
 
 // Two entities: one drives towards y, slows down and is gone after 2 s; one stands from 1 s on.
-const char* kRun = "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_rot\n"
-                   "0.0, 0, Car, 10.0, 0.0, 0.0, 1.5707963, 0, 0, 10, 0, 0\n"
-                   "1.0, 0, Car, 10.0, 10.0, 0.0, 1.5707963, 0, 0, 10, 0, 0\n"
-                   "1.0, 1, Pedestrian, 20.0, 5.0, 0.1, 0, 0, 0, 0, 0, 0\n"
-                   "2.0, 0, Car, 10.0, 16.0, 0.0, 1.7707963, 0, 0, 2, 0, 0\n"
-                   "2.0, 1, Pedestrian, 20.0, 5.0, 0.1, 0, 0, 0, 0, 0, 0\n"
-                   "4.0, 1, Pedestrian, 20.0, 5.0, 0.1, 0, 0, 0, 0, 0, 0\n";
+const char* kRun =
+    "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_rot\n"
+    "0.0, 0, Car, 10.0, 0.0, 0.0, 1.5707963, 0, 0, 10, 0, 0\n"
+    "1.0, 0, Car, 10.0, 10.0, 0.0, 1.5707963, 0, 0, 10, 0, 0\n"
+    "1.0, 1, Pedestrian, 20.0, 5.0, 0.1, 0, 0, 0, 0, 0, 0\n"
+    "2.0, 0, Car, 10.0, 16.0, 0.0, 1.7707963, 0, 0, 2, 0, 0\n"
+    "2.0, 1, Pedestrian, 20.0, 5.0, 0.1, 0, 0, 0, 0, 0, 0\n"
+    "4.0, 1, Pedestrian, 20.0, 5.0, 0.1, 0, 0, 0, 0, 0, 0\n";
 
 TEST(RoadDrive, ARunIsWhereItWasRecorded) {
     const TempFolder folder;
@@ -71,11 +72,14 @@ TEST(RoadDrive, PlainBodiesHaveTheirLamps) {
     const Scenery scenery(kRoads, folder.write("run.csv", kRun));
     std::vector<std::string> names;
     for (const LampGroup& group : scenery.lamp_groups()) names.push_back(group.name);
-    for (const char* name : {"low beam", "high beam", "tail lamp", "brake lamp", "left front indicator", "right rear indicator"}) EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
+    for (const char* name :
+         {"low beam", "high beam", "tail lamp", "brake lamp", "left front indicator", "right rear indicator"})
+        EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
     EXPECT_THROW(Scenery(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json", folder / "run.csv"), Error);
 }
 
-// The driver's car has what the one in data/rivoli has: lamps of every kind, the beams as measured, its eye behind the bonnet.
+// The driver's car has what the one in data/rivoli has: lamps of every kind, the beams as measured, its eye behind the
+// bonnet.
 TEST(RoadDrive, TheDriversCarHasAllItsLamps) {
     const RoadWorld made = road_world(kRoads, {}, {});
     ASSERT_EQ(made.world.world.driver_node, "car_ego");
@@ -95,10 +99,18 @@ TEST(RoadDrive, TheDriversCarHasAllItsLamps) {
         if (light.name.ends_with("beam")) {
             EXPECT_EQ(light.kind, Lamp::Kind::Measured) << light.name;
         }
-        const bool rear = light.name.find("rear") != light.name.npos || light.name == "tail lamp" || light.name == "brake lamp";
+        const bool rear =
+            light.name.find("rear") != light.name.npos || light.name == "tail lamp" || light.name == "brake lamp";
         EXPECT_EQ(node.translation.z > 0, rear) << light.name;
     }
-    const std::map<std::string, int> wanted{{"low beam", 2}, {"high beam", 2}, {"tail lamp", 2}, {"brake lamp", 2}, {"left front indicator", 1}, {"left rear indicator", 1}, {"right front indicator", 1}, {"right rear indicator", 1}};
+    const std::map<std::string, int> wanted{{"low beam", 2},
+                                            {"high beam", 2},
+                                            {"tail lamp", 2},
+                                            {"brake lamp", 2},
+                                            {"left front indicator", 1},
+                                            {"left rear indicator", 1},
+                                            {"right front indicator", 1},
+                                            {"right rear indicator", 1}};
     EXPECT_EQ(lamps, wanted);
 }
 
@@ -107,30 +119,51 @@ TEST(RoadDrive, ARunOfOtherRoadsIsRefused) {
     const TempFolder folder;
     const auto straight = [](double off, double until) {  // 20 places, those before `until` beside the road
         std::string rows = "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_rot\n";
-        for (int i = 0; i < 20; ++i) rows += std::to_string(i * 0.1) + ", 0, Car, " + std::to_string(i < until ? off : 1.5) + ", " + std::to_string(10.0 * i) + ", 0, 1.5708, 0, 0, 10, 0, 0\n";
+        for (int i = 0; i < 20; ++i)
+            rows += std::to_string(i * 0.1) + ", 0, Car, " + std::to_string(i < until ? off : 1.5) + ", " +
+                    std::to_string(10.0 * i) + ", 0, 1.5708, 0, 0, 10, 0, 0\n";
         return rows;
     };
     const auto notes = [&](double off, double until) {
-        const std::vector<std::string> all = road_world(kRoads, folder.write("run.csv", straight(off, until)), {}).notes;
-        return size_t(std::count_if(all.begin(), all.end(), [](const std::string& note) { return contains(note, "off the roads"); }));
+        const std::vector<std::string> all =
+            road_world(kRoads, folder.write("run.csv", straight(off, until)), {}).notes;
+        return size_t(std::count_if(all.begin(), all.end(),
+                                    [](const std::string& note) { return contains(note, "off the roads"); }));
     };
     EXPECT_EQ(notes(1.5, 20), 0u);
     EXPECT_EQ(notes(300, 1), 0u);
     EXPECT_EQ(notes(300, 3), 1u);
     const std::string complaint = complaint_of([&] { notes(300, 12); });
-    EXPECT_TRUE(contains(complaint, "run.csv: 60 % of the places of its vehicles lie more than 3 m off the roads of ")) << complaint;
+    EXPECT_TRUE(contains(complaint, "run.csv: 60 % of the places of its vehicles lie more than 3 m off the roads of "))
+        << complaint;
     EXPECT_TRUE(contains(complaint, "rivoli.xodr")) << complaint;
 }
 
 TEST(RoadDrive, StatesOfTrafficLights) {
     using Mode = SignalLens::Mode;
     constexpr Mode O = Mode::Off, I = Mode::On, F = Mode::Flashing;
-    const std::vector<std::pair<const char*, std::vector<Mode>>> known{
-        {"off;off;on", {O, O, I}}, {"off; flashing ;on", {O, F, I}}, {"ON;Off;OFF", {I, O, O}}, {"red", {I, O, O}}, {"Red", {I, O, O}}, {"stop", {I, O, O}}, {"GREEN", {O, O, I}}, {"amber", {O, I, O}},
-        {"redyellow", {I, I, O}}, {"red-yellow", {I, I, O}}, {"RED_AMBER", {I, I, O}}, {"yellow flashing", {O, F, O}}, {"Flashing Yellow", {O, F, O}}, {"blinking,red", {F, O, O}}, {"green on", {O, O, I}}, {"off", {O, O, O}}, {"OFF", {O, O, O}}};
+    const std::vector<std::pair<const char*, std::vector<Mode>>> known{{"off;off;on", {O, O, I}},
+                                                                       {"off; flashing ;on", {O, F, I}},
+                                                                       {"ON;Off;OFF", {I, O, O}},
+                                                                       {"red", {I, O, O}},
+                                                                       {"Red", {I, O, O}},
+                                                                       {"stop", {I, O, O}},
+                                                                       {"GREEN", {O, O, I}},
+                                                                       {"amber", {O, I, O}},
+                                                                       {"redyellow", {I, I, O}},
+                                                                       {"red-yellow", {I, I, O}},
+                                                                       {"RED_AMBER", {I, I, O}},
+                                                                       {"yellow flashing", {O, F, O}},
+                                                                       {"Flashing Yellow", {O, F, O}},
+                                                                       {"blinking,red", {F, O, O}},
+                                                                       {"green on", {O, O, I}},
+                                                                       {"off", {O, O, O}},
+                                                                       {"OFF", {O, O, O}}};
     for (const auto& [state, shown] : known) EXPECT_EQ(lenses_in(state, {"red", "yellow", "green"}), shown) << state;
     // Words that are none, or say nothing of these lenses, among them what once looked like a colour.
-    for (const char* state : {"", " ", ";", "on", "flashing", "on;off", "on;off;off;off", "red;off;off", "red;yellow", "red off", "infrared", "reddish", "evergreen", "purple", "red purple", "on;off;perhaps", "on on red"})
+    for (const char* state :
+         {"", " ", ";", "on", "flashing", "on;off", "on;off;off;off", "red;off;off", "red;yellow", "red off",
+          "infrared", "reddish", "evergreen", "purple", "red purple", "on;off;perhaps", "on on red"})
         EXPECT_EQ(lenses_in(state, {"red", "yellow", "green"}), std::nullopt) << state;
     EXPECT_EQ(lenses_in("on;off", {"red", "green"}), (std::vector{I, O}));
     EXPECT_EQ(lenses_in("yellow", {"red", "green"}), std::nullopt) << "has none";
@@ -153,10 +186,14 @@ TEST(RoadDrive, UnknownStatesOfTrafficLightsAreNoted) {
         node.name = std::string("signal_7/") + colour, node.lamp = 0;
     }
     roads::EsminiRun run;
-    run.signals = {{1, "7", "Green", "s.xosc:3"}, {2, "7", "purple", "s.xosc:4"}, {3, "7", "purple", "s.xosc:5"}, {4, "8", "red", "s.xosc:6"}};
+    run.signals = {{1, "7", "Green", "s.xosc:3"},
+                   {2, "7", "purple", "s.xosc:4"},
+                   {3, "7", "purple", "s.xosc:5"},
+                   {4, "8", "red", "s.xosc:6"}};
     std::vector<std::string> notes;
     const std::vector<SignalLens> lenses = lenses_of(scene, network, run, notes);
-    EXPECT_EQ(notes, (std::vector<std::string>{"s.xosc:4: 'purple' is no state of traffic light 7: it stays as it is", "s.xosc:6: there is no traffic light 8 in the roads"}));
+    EXPECT_EQ(notes, (std::vector<std::string>{"s.xosc:4: 'purple' is no state of traffic light 7: it stays as it is",
+                                               "s.xosc:6: there is no traffic light 8 in the roads"}));
     ASSERT_EQ(lenses.size(), 3u);
     for (const double seconds : {0.5, 1.5, 2.5, 9.0})
         for (size_t i = 0; i < 3; ++i) EXPECT_EQ(lenses[i].shines(seconds), i == (seconds < 1 ? 0u : 2u)) << seconds;
@@ -167,7 +204,8 @@ TEST(RoadDrive, ARunSwitchesItsTrafficLights) {
     const std::filesystem::path shared = std::string(VESPER_SHARED_DATA) + "/scenario";
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";
     const std::filesystem::path roads = shared / "esmini/xodr/fabriksgatan_traffic_lights.xodr";
-    const Scenery scenery(roads, shared / "esmini-output/traffic_lights.csv", shared / "esmini/xosc/traffic_lights.xosc");
+    const Scenery scenery(roads, shared / "esmini-output/traffic_lights.csv",
+                          shared / "esmini/xosc/traffic_lights.xosc");
     const traffic::World world(scenery.world(), 1);
     const auto lit = [&](double seconds) {
         std::map<std::string, int> count;
@@ -178,7 +216,7 @@ TEST(RoadDrive, ARunSwitchesItsTrafficLights) {
         }
         return std::vector<int>{count["red signal"], count["yellow signal"], count["green signal"]};
     };
-    EXPECT_EQ(lit(1), (std::vector<int>{2, 0, 1}));   // red for two people on foot
+    EXPECT_EQ(lit(1), (std::vector<int>{2, 0, 1}));  // red for two people on foot
     EXPECT_EQ(lit(5), (std::vector<int>{2, 1, 0}));
     EXPECT_EQ(lit(8), (std::vector<int>{3, 0, 0}));
     EXPECT_EQ(lit(12), (std::vector<int>{1, 0, 2}));  // people walk
@@ -196,9 +234,15 @@ protected:
 TEST_F(RoadDriveProgram, ReplaysARunToTheBit) {
     folder.write("run.csv", kRun);
     const std::string common = "--headless --size 64x40 ";
-    ASSERT_EQ(run(common + kRoads + " --scenario run.csv --autopilot --seconds 0.5 --fps 10 --record d.json --video a%d.png"), 0) << said;
+    ASSERT_EQ(
+        run(common + kRoads + " --scenario run.csv --autopilot --seconds 0.5 --fps 10 --record d.json --video a%d.png"),
+        0)
+        << said;
     ASSERT_EQ(run(common + "--replay d.json --video b%d.png"), 0) << said;
-    for (int i = 0; i < 6; ++i) EXPECT_EQ(read_text(folder / ("a" + std::to_string(i) + ".png")), read_text(folder / ("b" + std::to_string(i) + ".png"))) << i;
+    for (int i = 0; i < 6; ++i)
+        EXPECT_EQ(read_text(folder / ("a" + std::to_string(i) + ".png")),
+                  read_text(folder / ("b" + std::to_string(i) + ".png")))
+            << i;
     expect_refused(common + kRoads + " --scenario no.csv --video a%d.png", {"no.csv"});
     expect_refused(common + kRoads + " --storyboard no.xosc --video a%d.png", {"--scenario"});
 }

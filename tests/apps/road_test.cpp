@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 class Road : public testing::Test {
 protected:
     fs::path folder = fs::temp_directory_path() /
-                      ("vesper-road-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" + std::to_string(::getpid()));
+                      ("vesper-road-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+                       "-" + std::to_string(::getpid()));
     void SetUp() override {
         fs::remove_all(folder);
         fs::create_directories(folder);
@@ -35,7 +36,8 @@ protected:
         std::ifstream in(folder / file, std::ios::binary);
         return {std::istreambuf_iterator<char>(in), {}};
     }
-    int run(const std::string& arguments, const std::string& layout = VESPER_SOURCE_DIR "/data/road/worked-example.json") {
+    int run(const std::string& arguments,
+            const std::string& layout = VESPER_SOURCE_DIR "/data/road/worked-example.json") {
         const std::string command = "cd '" + folder.string() + "' && '" VESPER_PROGRAM "' road '" + layout + "' " +
                                     arguments + " >out.txt 2>err.txt";
         const int status = std::system(command.c_str());
@@ -101,9 +103,11 @@ Differences differences_in(const std::string& text) {
 
 // What the layout names, or an option, is as little replaced as the layout.
 TEST_F(Road, NeverReplacesWhatItReads) {
-    for (const char* file : {"worked-example.json", "luminaire.ldt", "R3.csv"}) fs::copy_file(fs::path(VESPER_SOURCE_DIR "/data/road") / file, folder / file);
+    for (const char* file : {"worked-example.json", "luminaire.ldt", "R3.csv"})
+        fs::copy_file(fs::path(VESPER_SOURCE_DIR "/data/road") / file, folder / file);
     const std::string luminaire = text_of("luminaire.ldt"), table = text_of("R3.csv");
-    for (const char* arguments : {"--csv luminaire.ldt", "--json luminaire.ldt", "--r-table R3.csv --csv R3.csv", "--luminaire luminaire.ldt --csv ./luminaire.ldt"}) {
+    for (const char* arguments : {"--csv luminaire.ldt", "--json luminaire.ldt", "--r-table R3.csv --csv R3.csv",
+                                  "--luminaire luminaire.ldt --csv ./luminaire.ldt"}) {
         EXPECT_EQ(run(arguments, "worked-example.json"), 2) << arguments;
         EXPECT_NE(text_of("err.txt").find("would replace what is read"), std::string::npos) << text_of("err.txt");
     }
@@ -113,7 +117,9 @@ TEST_F(Road, NeverReplacesWhatItReads) {
 
 // A report that does not get to its file is no success.
 TEST_F(Road, SaysWhereItCannotPrint) {
-    const std::string command = std::string(VESPER_PROGRAM " road " VESPER_SOURCE_DIR "/data/road/worked-example.json >/dev/full 2>'") + folder.string() + "/err.txt'";
+    const std::string command =
+        std::string(VESPER_PROGRAM " road " VESPER_SOURCE_DIR "/data/road/worked-example.json >/dev/full 2>'") +
+        folder.string() + "/err.txt'";
     const int status = std::system(command.c_str());
     EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2);
     EXPECT_EQ(text_of("err.txt"), "vesper: standard output: No space left on device\n");
@@ -146,7 +152,8 @@ TEST_F(Road, OtherRoadsAgreeToo) {
         // Lamps beyond the edge of the table, and so dim that a street would leave them out.
         R"("carriageway": {"width_m": 10.5, "lanes": 3}, "surface": {"reflection_table": "R1"}, "luminaires": {"arrangement": "right", "spacing_m": 16, "height_m": 5, "overhang_m": 0, "flux_factor": 0.001,)"};
     for (const char* road : roads) {
-        std::ofstream(folder / "r.json") << R"({"version": 1, "name": "made", )" << road << "\"file\": \"" << luminaire << "\"}}";
+        std::ofstream(folder / "r.json") << R"({"version": 1, "name": "made", )" << road << "\"file\": \"" << luminaire
+                                         << "\"}}";
         ASSERT_EQ(run("--render a.png --json a.json", "r.json"), 0) << text_of("err.txt");
         const Differences found = differences_in(text_of("a.json"));
         EXPECT_LT(found.point, 0.5) << road;
@@ -155,7 +162,8 @@ TEST_F(Road, OtherRoadsAgreeToo) {
     }
 }
 
-// R3 with four times as much at beta 20 as one degree to either side: near a lamp that is 5 cm of road, and is read within 0.05 %.
+// R3 with four times as much at beta 20 as one degree to either side: near a lamp that is 5 cm of road, and is read
+// within 0.05 %.
 TEST_F(Road, APictureSeesASpikeOfTheTable) {
     std::ifstream in(VESPER_SOURCE_DIR "/data/road/R3.csv");
     std::ofstream table(folder / "spike.csv");
@@ -163,44 +171,59 @@ TEST_F(Road, APictureSeesASpikeOfTheTable) {
         if (line.starts_with("#")) continue;
         std::vector<std::string> fields(1);
         for (const char c : line)
-            if (c == ',') fields.emplace_back(); else if (c != '\r') fields.back() += c;
+            if (c == ',')
+                fields.emplace_back();
+            else if (c != '\r')
+                fields.back() += c;
         for (size_t i = 0; i < fields.size(); ++i) {
             const bool heading = fields[0].starts_with("tan");
             const std::string value = fields[i];
             table << (i > 0 ? "," : "");
-            if (i != 6) table << value;  // beta 20
-            else if (heading) table << "19,20,21";
-            else if (value.empty()) table << ",,";
-            else table << value << "," << 4 * std::stod(value) << "," << value;
+            if (i != 6)
+                table << value;  // beta 20
+            else if (heading)
+                table << "19,20,21";
+            else if (value.empty())
+                table << ",,";
+            else
+                table << value << "," << 4 * std::stod(value) << "," << value;
         }
         table << "\n";
     }
     table.close();
-    std::ofstream(folder / "r.json") << R"({"version": 1, "name": "made", "carriageway": {"width_m": 10.5, "lanes": 3}, "surface": {"reflection_table": "spike.csv"},
-        "luminaires": {"arrangement": "staggered", "spacing_m": 50, "height_m": 12, "file": ")" VESPER_SOURCE_DIR R"(/data/road/luminaire.ldt"}})";
+    std::ofstream(folder / "r.json")
+        << R"({"version": 1, "name": "made", "carriageway": {"width_m": 10.5, "lanes": 3}, "surface": {"reflection_table": "spike.csv"},
+        "luminaires": {"arrangement": "staggered", "spacing_m": 50, "height_m": 12, "file": ")" VESPER_SOURCE_DIR
+           R"(/data/road/luminaire.ldt"}})";
     ASSERT_EQ(run("--render a.png --json a.json", "r.json"), 0) << text_of("err.txt");
     const Differences found = differences_in(text_of("a.json"));
     EXPECT_LT(found.point, 0.5);
     EXPECT_LT(found.average, 0.1);
 }
 
-// Seen against a wet road, lamps are no brighter than its average times a hundred; under narrow beams the road itself is.
+// Seen against a wet road, lamps are no brighter than its average times a hundred; under narrow beams the road itself
+// is.
 TEST_F(Road, GlareIsOfLampsAlone) {
     for (const char* table : {"W4", "R3"}) {
-        std::ofstream(folder / "r.json") << R"({"version": 1, "name": "made", "carriageway": {"width_m": 7, "lanes": 2}, "surface": {"reflection_table": ")" << table << R"("},
-            "luminaires": {"arrangement": "staggered", "spacing_m": 25, "height_m": 6, "overhang_m": 1, "file": ")" VESPER_SOURCE_DIR R"(/data/road/luminaire.ldt"}})";
+        std::ofstream(folder / "r.json")
+            << R"({"version": 1, "name": "made", "carriageway": {"width_m": 7, "lanes": 2}, "surface": {"reflection_table": ")"
+            << table
+            << R"("},
+            "luminaires": {"arrangement": "staggered", "spacing_m": 25, "height_m": 6, "overhang_m": 1, "file": ")" VESPER_SOURCE_DIR
+               R"(/data/road/luminaire.ldt"}})";
         ASSERT_EQ(run("--render a.png --json a.json", "r.json"), 0) << text_of("err.txt");
         for (const auto& observer : nlohmann::json::parse(text_of("a.json"))["observers"]) {
-            const double calculated = observer["threshold_increment_percent"], read = observer["rendered"]["threshold_increment_percent"];
+            const double calculated = observer["threshold_increment_percent"],
+                         read = observer["rendered"]["threshold_increment_percent"];
             EXPECT_NEAR(read / calculated, 1, 0.01) << table;
         }
     }
 }
 
 TEST_F(Road, RefusesInOneLine) {
-    for (const char* arguments : {"--r-table R9", "--q0 0", "--spacing 1", "--class P1", "--luminaire none.ies",
-                                  "--csv none/a.csv", "--height x", "--render a.jpg", "--render none/a.png",
-                                  "--device cpu", "--render a.png --device nowhere"}) {
+    for (const char* arguments :
+         {"--r-table R9", "--q0 0", "--spacing 1", "--class P1", "--luminaire none.ies", "--csv none/a.csv",
+          "--height x", "--render a.jpg", "--render none/a.png", "--device cpu", "--render a.png --device nowhere"}) {
         EXPECT_EQ(run(arguments), 2) << arguments;
         const std::string said = text_of("err.txt");
         EXPECT_TRUE(said.starts_with("vesper: ")) << said;

@@ -38,10 +38,16 @@ TEST_F(Roads, LampsAreChosen) {
     EXPECT_EQ(lamps("none.glb"), 0u);
     EXPECT_GT(lamps("many.glb"), 36u);
     // Where the file has its own, only those who ask for a spacing get more.
-    std::ofstream(folder / "own.xodr") << "<OpenDRIVE><road id=\"1\" length=\"200\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry>"
-                                          "</planView><lanes><laneSection s=\"0\"><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"4\"/></lane></right></laneSection>"
-                                          "</lanes><objects><object id=\"1\" type=\"streetLamp\" s=\"40\" t=\"3\" height=\"8\"/></objects></road></OpenDRIVE>";
-    ASSERT_EQ(run("convert own.xodr --luminaire " VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies --lamp-overhang 2 -o own.glb"), 0) << said;
+    std::ofstream(folder / "own.xodr") << "<OpenDRIVE><road id=\"1\" length=\"200\"><planView><geometry s=\"0\" "
+                                          "x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry>"
+                                          "</planView><lanes><laneSection s=\"0\"><right><lane id=\"-1\" "
+                                          "type=\"driving\"><width sOffset=\"0\" a=\"4\"/></lane></right></laneSection>"
+                                          "</lanes><objects><object id=\"1\" type=\"streetLamp\" s=\"40\" t=\"3\" "
+                                          "height=\"8\"/></objects></road></OpenDRIVE>";
+    ASSERT_EQ(run("convert own.xodr --luminaire " VESPER_SOURCE_DIR
+                  "/data/photometry/street-lamp.ies --lamp-overhang 2 -o own.glb"),
+              0)
+        << said;
     ASSERT_EQ(run("convert own.xodr --lamp-spacing 40 -o rows.glb"), 0) << said;
     EXPECT_EQ(lamps("own.glb"), 1u);
     EXPECT_EQ(lamps("rows.glb"), 6u);
@@ -51,9 +57,12 @@ TEST_F(Roads, BadInputEndsInOneLine) {
     std::ofstream(folder / "bad.xodr") << "<OpenDRIVE>\n<road id=\"1\" length=\"5\"/>\n</OpenDRIVE>";
     expect_refused("convert bad.xodr", {"bad.xodr:2: road: road '1' has no planView"});
     EXPECT_FALSE(exists("bad.gltf"));
-    std::ofstream(folder / "long.xodr") << "<OpenDRIVE><road id=\"1\" length=\"301000\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"301000\"><line/></geometry>"
-                                           "</planView><lanes><laneSection s=\"0\"><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"4\"/></lane></right></laneSection>"
-                                           "</lanes></road></OpenDRIVE>";
+    std::ofstream(folder / "long.xodr")
+        << "<OpenDRIVE><road id=\"1\" length=\"301000\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
+           "length=\"301000\"><line/></geometry>"
+           "</planView><lanes><laneSection s=\"0\"><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" "
+           "a=\"4\"/></lane></right></laneSection>"
+           "</lanes></road></OpenDRIVE>";
     expect_refused("convert long.xodr", {"long.xodr: the network has 301 km of roads"});
     expect_refused("convert none.xodr", {"none.xodr"});
     expect_refused("convert " + kStreet + " -p a.json", {"--photometry has no meaning"});

@@ -73,12 +73,14 @@ TEST(Scenery, LampsBelowTheCameraOfASceneGoWithTheCar) {
     const DriveSettings settings;
     const auto eye = [&] {
         return glm::dmat4(
-            scenery.view(scenery.frame(world.actors(), 0, settings), world.actors(), settings, kScenerySize).world_to_view);
+            scenery.view(scenery.frame(world.actors(), 0, settings), world.actors(), settings, kScenerySize)
+                .world_to_view);
     };
-    // To the driver's eye, which looks level, all that is below the camera stands as the file has it, at the start and when the car
-    // has turned. The view is of floats: 30 m to 2e-6.
+    // To the driver's eye, which looks level, all that is below the camera stands as the file has it, at the start and
+    // when the car has turned. The view is of floats: 30 m to 2e-6.
     const glm::dvec3 place(rest[node_of(scenery.scene(), "eye")][3]);
-    const glm::dmat4 level = glm::inverse(glm::rotate(glm::translate(glm::dmat4(1), place), glm::radians(90.0), {0, 1, 0}));
+    const glm::dmat4 level =
+        glm::inverse(glm::rotate(glm::translate(glm::dmat4(1), place), glm::radians(90.0), {0, 1, 0}));
     const auto expect_along = [&] {
         const SceneFrame frame = scenery.frame(world.actors(), 0, settings);
         for (const char* name : {"eye", "left", "right", "mount", "roof lamp"}) {
@@ -164,9 +166,8 @@ TEST(Scenery, TheFrontOfANodeLeads) {
 
 TEST(Scenery, AFrontIsThatOfANode) {
     const TempFolder folder;
-    const auto file = folder.write(
-        "w.json",
-        R"({"version": 1, "scene": "s.gltf", "driver": {"lane": "a", "front": "+z"},
+    const auto file = folder.write("w.json",
+                                   R"({"version": 1, "scene": "s.gltf", "driver": {"lane": "a", "front": "+z"},
             "lanes": [{"name": "a", "points": [[0, 0, 0], [0, 0, 9]]}]})");
     EXPECT_TRUE(contains(complaint_of([&] { Scenery scenery(file); }), "w.json: /driver/front: of which node?"));
 }

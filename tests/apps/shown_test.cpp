@@ -15,12 +15,15 @@ TEST(Shown, IsTheLuminanceOfAGreyPixel) {
         for (const uint32_t tone : kEveryTone) {
             shared::ToneCurve curve = crooked_curve_of(tone, display);
             // Grey stays grey, since a display cannot show white's luminance in another colour.
-            if ((tone & shared::kToneForm) == shared::kToneRods) curve.block[1] = glm::vec4(0.2f), curve.block[3].y = 0.96f, curve.block[4].z = 1.05f;
+            if ((tone & shared::kToneForm) == shared::kToneRods)
+                curve.block[1] = glm::vec4(0.2f), curve.block[3].y = 0.96f, curve.block[4].z = 1.05f;
             const double low = double(display.low()), high = double(display.high());
             for (double exponent = -5; exponent <= 8; exponent += 0.13) {
                 const double luminance = std::pow(10, exponent);
-                const double want = low + (high - low) * reference::luminance(reference::displayed(glm::dvec3(luminance), tone, curve, low, high));
-                EXPECT_NEAR(shown_luminance(curve, tone, luminance, display) / want, 1, 1e-5) << "tone " << tone << ", " << luminance << " cd/m^2";
+                const double want = low + (high - low) * reference::luminance(reference::displayed(
+                                                             glm::dvec3(luminance), tone, curve, low, high));
+                EXPECT_NEAR(shown_luminance(curve, tone, luminance, display) / want, 1, 1e-5)
+                    << "tone " << tone << ", " << luminance << " cd/m^2";
             }
         }
 }

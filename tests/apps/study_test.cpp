@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "io/atomic_file.h"
+#include "render/passes/operators.h"
 #include "support/exr_files.h"
 #include "support/program.h"
 
@@ -35,8 +36,10 @@ protected:
         const auto cells = [](const std::string& text) {
             std::vector<std::string> found(1);
             for (const char c : text)
-                if (c == ',') found.emplace_back();
-                else found.back() += c;
+                if (c == ',')
+                    found.emplace_back();
+                else
+                    found.back() += c;
             return found;
         };
         const std::vector<std::string> columns = cells(line);
@@ -63,7 +66,8 @@ protected:
             EXPECT_GT(decode_image(read_file(file, 1u << 28), 32768).width, 0u);
         }
         EXPECT_GT(pictures, 2u);
-        for (const auto& entry : fs::directory_iterator((folder / page).parent_path())) EXPECT_FALSE(entry.path().filename().string().starts_with(".vesper"));
+        for (const auto& entry : fs::directory_iterator((folder / page).parent_path()))
+            EXPECT_FALSE(entry.path().filename().string().starts_with(".vesper"));
     }
 };
 
@@ -73,7 +77,8 @@ TEST_F(StudyProgram, MoreBinsComeNearerToTheFinest) {
     EXPECT_EQ(said, "");
     EXPECT_NE(printed.find("Fewest bins from which on"), std::string::npos) << printed;
     EXPECT_NE(printed.find("The default of 100 bins with shared votes is"), std::string::npos) << printed;
-    const auto rows = csv("out/bins.csv", "picture,operator,votes,bins,curve_codes,largest_codes,percentile99_codes,mean_codes");
+    const auto rows =
+        csv("out/bins.csv", "picture,operator,votes,bins,curve_codes,largest_codes,percentile99_codes,mean_codes");
     ASSERT_EQ(rows.size(), 3u * 2 * 13) << "operators with a histogram, kinds of votes, bins";
     std::map<std::string, std::map<int, double>> curve;
     for (Row row : rows) {
@@ -98,13 +103,17 @@ TEST_F(StudyProgram, MoreBinsComeNearerToTheFinest) {
 // tone-mapping.md, 2.6.
 TEST_F(StudyProgram, TheTunnelIsThatOfTheReference) {
     ASSERT_EQ(run("study adaptation -o tunnel"), 0) << said;
-    const std::map<double, double> in{{0.05, 17.2}, {0.2, 7.49}, {1, 5.68}, {5, 3.37}, {10, 2.26}, {20, 1.56}, {60, 1.19}, {300, 1.02}};
+    const std::map<double, double> in{{0.05, 17.2}, {0.2, 7.49}, {1, 5.68},  {5, 3.37},
+                                      {10, 2.26},   {20, 1.56},  {60, 1.19}, {300, 1.02}};
     const std::map<double, double> out{{0.02, 6.1}, {0.1, 2.7}, {0.5, 1.7}, {2, 1.44}, {10, 0.96}, {60, 0.92}};
-    const std::map<double, double> sigma{{0.05, 4204}, {0.2, 1772}, {1, 1317}, {5, 737.8}, {10, 459.0}, {20, 281.1}, {60, 184.3}, {300, 135.9}};
+    const std::map<double, double> sigma{{0.05, 4204}, {0.2, 1772}, {1, 1317},   {5, 737.8},
+                                         {10, 459.0},  {20, 281.1}, {60, 184.3}, {300, 135.9}};
     size_t checked = 0;
     std::map<std::string, int> lines;
-    for (Row row : csv("tunnel/adaptation.csv", "operator,step,seconds,luminance,pigment,sigma,threshold,threshold_ratio,shown")) {
-        const double seconds = std::stod(row["seconds"]), ratio = std::stod(row["threshold_ratio"]), shown = std::stod(row["shown"]);
+    for (Row row : csv("tunnel/adaptation.csv",
+                       "operator,step,seconds,luminance,pigment,sigma,threshold,threshold_ratio,shown")) {
+        const double seconds = std::stod(row["seconds"]), ratio = std::stod(row["threshold_ratio"]),
+                     shown = std::stod(row["shown"]);
         ++lines[row["operator"]];
         EXPECT_GT(shown, 0);
         EXPECT_LT(shown, 101);
@@ -128,7 +137,9 @@ TEST_F(StudyProgram, TheTunnelIsThatOfTheReference) {
 TEST_F(StudyProgram, LevelsAreComparedToTheFinest) {
     write_layout(folder / "street.exr", street(), {.white_luminance = 1});
     ASSERT_EQ(run("study mip street.exr -o out/ --operator irawan"), 0) << said;
-    const auto rows = csv("out/mip.csv", "picture,operator,level,degrees,adaptation,curve_codes,largest_codes,percentile99_codes,mean_codes");
+    const auto rows =
+        csv("out/mip.csv",
+            "picture,operator,level,degrees,adaptation,curve_codes,largest_codes,percentile99_codes,mean_codes");
     ASSERT_EQ(rows.size(), 7u) << "160 px have seven";
     double degrees = 0;
     for (Row row : rows) {
@@ -149,7 +160,9 @@ TEST_F(StudyProgram, LevelsAreComparedToTheFinest) {
 TEST_F(StudyProgram, OperatorsShowContrastAndVisibility) {
     write_layout(folder / "street.exr", street(), {.white_luminance = 1});
     ASSERT_EQ(run("study operators street.exr -o out --contrast 0.5"), 0) << said;
-    auto rows = csv("out/operators.csv", "picture,operator,range_scene,range_shown,contrast_scene,contrast_shown,vl_scene,vl_shown,visible_scene,visible_shown,lost,gained");
+    auto rows = csv("out/operators.csv",
+                    "picture,operator,range_scene,range_shown,contrast_scene,contrast_shown,vl_scene,vl_shown,visible_"
+                    "scene,visible_shown,lost,gained");
     ASSERT_EQ(rows.size(), operators().size() - 1) << "all but ldr";
     for (Row row : rows) {
         EXPECT_EQ(row["contrast_scene"], "0.5");
@@ -160,7 +173,8 @@ TEST_F(StudyProgram, OperatorsShowContrastAndVisibility) {
             EXPECT_GE(std::stod(row[share]), 0);
             EXPECT_LE(std::stod(row[share]), 1);
         }
-        EXPECT_NEAR(std::stod(row["visible_scene"]) - std::stod(row["lost"]) + std::stod(row["gained"]), std::stod(row["visible_shown"]), 2e-4);
+        EXPECT_NEAR(std::stod(row["visible_scene"]) - std::stod(row["lost"]) + std::stod(row["gained"]),
+                    std::stod(row["visible_shown"]), 2e-4);
         EXPECT_LT(std::stod(row["contrast_shown"]), 1) << row["operator"];
     }
     expect_page("out/operators.html");
@@ -177,9 +191,26 @@ TEST_F(StudyProgram, RefusesInOneLine) {
     for (float& value : black.rgb) value = 0;
     write_layout(folder / "black.exr", black, {.white_luminance = 1});
     folder.write("text.hdr", "no picture");
-    for (const char* arguments : {"", "nothing -o x", "bins -o x", "bins a.exr", "bins none.exr -o x", "bins a.exr b/a.exr -o x", "bins text.hdr -o x", "bins black.exr -o x", "bins a.exr -o none/x",
-                                  "bins a.exr -o a.exr", "bins a.exr -o x --operator reinhard", "bins a.exr -o x --scale 0", "bins a.exr -o x --scale fog", "bins a.exr -o x --size 5", "bins a.exr -o x --device nowhere",
-                                  "adaptation", "adaptation -o x --outside 0", "adaptation -o x --seconds -1", "adaptation -o x --operator ward", "adaptation a.exr -o x"})
+    for (const char* arguments : {"",
+                                  "nothing -o x",
+                                  "bins -o x",
+                                  "bins a.exr",
+                                  "bins none.exr -o x",
+                                  "bins a.exr b/a.exr -o x",
+                                  "bins text.hdr -o x",
+                                  "bins black.exr -o x",
+                                  "bins a.exr -o none/x",
+                                  "bins a.exr -o a.exr",
+                                  "bins a.exr -o x --operator reinhard",
+                                  "bins a.exr -o x --scale 0",
+                                  "bins a.exr -o x --scale fog",
+                                  "bins a.exr -o x --size 5",
+                                  "bins a.exr -o x --device nowhere",
+                                  "adaptation",
+                                  "adaptation -o x --outside 0",
+                                  "adaptation -o x --seconds -1",
+                                  "adaptation -o x --operator ward",
+                                  "adaptation a.exr -o x"})
         expect_refused(std::string("study ") + arguments);
     expect_refused("study bins a.exr -o x --operator reinhard", {"reinhard", "histogram"});
     expect_refused("study bins black.exr -o x", {"black.exr", "no light"});

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "io/hdr_image.h"
+#include "render/tone_mapper.h"
 #include "support/reference_chain.h"
 #include "support/shared_data.h"
-#include "render/tone_mapper.h"
 
 namespace vesper::test {
 namespace {
@@ -31,13 +31,17 @@ TEST(ToneMapperShared, EveryPictureEqualsTheReference) {
             EXPECT_EQ(file.filename(), "Trunks.exr") << error.what();
             continue;
         }
-        // As if white were 93 cd/m^2, in float as the device has it: 100 would put drawn pictures of one luminance exactly on
-        // the edge of two bins, where rounding decides for all their pixels at once.
+        // As if white were 93 cd/m^2, in float as the device has it: 100 would put drawn pictures of one luminance
+        // exactly on the edge of two bins, where rounding decides for all their pixels at once.
         const float scale = image.white_luminance > 0 ? float(image.white_luminance) : 93;
         std::vector<glm::vec4> pixels;
-        for (size_t i = 0; i < image.rgb.size(); i += 3) pixels.emplace_back(scale * image.rgb[i], scale * image.rgb[i + 1], scale * image.rgb[i + 2], 1);
+        for (size_t i = 0; i < image.rgb.size(); i += 3)
+            pixels.emplace_back(scale * image.rgb[i], scale * image.rgb[i + 1], scale * image.rgb[i + 2], 1);
         const VkExtent2D extent{image.width, image.height};
-        for (const auto& [wanted, tone] : {std::pair{Operator::Irawan, shared::kToneCurve}, {Operator::Ward, shared::kToneCurve}, {Operator::Pattanaik, shared::kToneColour}, {Operator::Reinhard, shared::kToneReinhard}}) {
+        for (const auto& [wanted, tone] : {std::pair{Operator::Irawan, shared::kToneCurve},
+                                           {Operator::Ward, shared::kToneCurve},
+                                           {Operator::Pattanaik, shared::kToneColour},
+                                           {Operator::Reinhard, shared::kToneReinhard}}) {
             ToneChainSettings settings;
             settings.tone_operator = wanted;
             mapper.reset_adaptation();

@@ -12,10 +12,12 @@ namespace {
 class ToneMapperTest : public testing::Test {
 protected:
     std::string complaints;
-    Device device{{.select = "", .validation = true, .on_message = [this](const std::string& m) { complaints += m + "\n"; }}};
+    Device device{
+        {.select = "", .validation = true, .on_message = [this](const std::string& m) { complaints += m + "\n"; }}};
     ToneMapper mapper{device};
 
-    ToneMapped map(const std::vector<glm::vec4>& pixels, VkExtent2D extent, const ToneChainSettings& settings = {}, float seconds = 0, Outputs outputs = {}) {
+    ToneMapped map(const std::vector<glm::vec4>& pixels, VkExtent2D extent, const ToneChainSettings& settings = {},
+                   float seconds = 0, Outputs outputs = {}) {
         const std::span<const float> rgba(&pixels.front().x, pixels.size() * 4);
         return mapper.map(settings, {.extent = extent, .values = rgba, .channels = 4}, seconds, outputs);
     }
@@ -65,12 +67,13 @@ TEST_F(ToneMapperTest, GivesWhatIsAskedFor) {
 
 TEST_F(ToneMapperTest, ScalesToCandela) {
     const std::vector<float> rgb{1, 2, 3, 0.5f, 0.5f, 0.5f};
-    const ToneMapped got = mapper.map({}, {.extent = {2, 1}, .values = rgb, .scale = 100}, 0, {.display = false, .scene = true});
+    const ToneMapped got =
+        mapper.map({}, {.extent = {2, 1}, .values = rgb, .scale = 100}, 0, {.display = false, .scene = true});
     EXPECT_EQ(got.scene, (std::vector<float>{100, 200, 300, 1, 50, 50, 50, 1}));
 }
 
-// Reinhard shows the largest luminance as white; colours go beyond it where nothing limits them, and on the display they do
-// not.
+// Reinhard shows the largest luminance as white; colours go beyond it where nothing limits them, and on the display
+// they do not.
 TEST_F(ToneMapperTest, LightOfTheDisplayGoesBeyondWhite) {
     ToneChainSettings settings;
     settings.tone_operator = Operator::Reinhard;
@@ -90,7 +93,8 @@ TEST_F(ToneMapperTest, RefusesWhatIsNoPicture) {
     EXPECT_NO_THROW(mapper.map({}, {.extent = {1, 1}, .values = grey}, 0));
     EXPECT_THROW(mapper.map({}, {.extent = {1, 1}, .values = grey, .channels = 4}, 0), Error);
     EXPECT_THROW(mapper.map({}, {.extent = {3, 1}, .values = grey, .channels = 1}, 0), Error);
-    for (double fov : {0.0, -1.0, 3.2, std::nan("")}) EXPECT_THROW(mapper.map({}, {.extent = {1, 1}, .values = grey, .vertical_fov = fov}, 0), Error);
+    for (double fov : {0.0, -1.0, 3.2, std::nan("")})
+        EXPECT_THROW(mapper.map({}, {.extent = {1, 1}, .values = grey, .vertical_fov = fov}, 0), Error);
 }
 
 }  // namespace

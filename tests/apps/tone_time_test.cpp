@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "support/tones.h"
 #include "render/tone_mapper.h"
+#include "support/tones.h"
 
 namespace vesper::test {
 namespace {
@@ -14,13 +14,18 @@ constexpr VkExtent2D kExtent{96, 60};
 class ToneTime : public testing::Test {
 protected:
     std::string complaints;
-    Device device{{.select = "", .validation = true, .on_message = [this](const std::string& m) { complaints += m + "\n"; }}};
+    Device device{
+        {.select = "", .validation = true, .on_message = [this](const std::string& m) { complaints += m + "\n"; }}};
 
-    static ToneMapped map(ToneMapper& mapper, const std::vector<glm::vec4>& pixels, float seconds, Operator op = Operator::Irawan, VkExtent2D extent = kExtent) {
+    static ToneMapped map(ToneMapper& mapper, const std::vector<glm::vec4>& pixels, float seconds,
+                          Operator op = Operator::Irawan, VkExtent2D extent = kExtent) {
         ToneChainSettings settings;
         settings.tone_operator = op;
         settings.foveal_level = 3;
-        return mapper.map(settings, {.extent = extent, .values = {&pixels.front().x, pixels.size() * 4}, .channels = 4, .vertical_fov = 0.7}, seconds, {});
+        return mapper.map(
+            settings,
+            {.extent = extent, .values = {&pixels.front().x, pixels.size() * 4}, .channels = 4, .vertical_fov = 0.7},
+            seconds, {});
     }
     void TearDown() override { EXPECT_EQ(complaints, ""); }
 };
@@ -31,7 +36,10 @@ std::vector<glm::vec4> road(float lamp, float level = 1) {
     for (uint32_t y = 0; y < kExtent.height; ++y)
         for (uint32_t x = 0; x < kExtent.width; ++x) {
             const bool is_lamp = x >= 40 && x < 44 && y >= 10 && y < 13;
-            const float l = is_lamp ? lamp : y < 25 ? 0.005f : level * 0.02f * std::pow(250.0f, float(y - 25) / 35 * (0.5f + 0.5f * float(x) / 96));
+            const float l = is_lamp ? lamp
+                            : y < 25
+                                ? 0.005f
+                                : level * 0.02f * std::pow(250.0f, float(y - 25) / 35 * (0.5f + 0.5f * float(x) / 96));
             pixels.emplace_back(l, l, 0.8f * l, 1);
         }
     return pixels;
@@ -53,7 +61,8 @@ TEST_F(ToneTime, ALampThatFlickersMovesNothingElse) {
         std::vector<uint8_t> before;
         for (int frame = 0; frame < 60; ++frame) {
             const double t = frame / 60.0;
-            const auto got = map(mapper, road(float(3000 * (1 + 0.8 * std::sin(2 * 3.14159265 * 90 * t + 0.3)))), frame ? 1.0f / 60 : 0, op);
+            const auto got = map(mapper, road(float(3000 * (1 + 0.8 * std::sin(2 * 3.14159265 * 90 * t + 0.3)))),
+                                 frame ? 1.0f / 60 : 0, op);
             if (frame > 12) {
                 EXPECT_LE(largest_step(got.display, before, true), 1) << "frame " << frame;
             }
@@ -75,8 +84,8 @@ TEST_F(ToneTime, NothingJumpsAsPixelsCrossTheEdgesOfBins) {
     }
 }
 
-// An edge of 1 : 3,000 to 300,000 moves by a pixel at a time, over a texel of the foveal level: the rest is shown as before. A pixel is
-// half a percent of the picture, and of its light.
+// An edge of 1 : 3,000 to 300,000 moves by a pixel at a time, over a texel of the foveal level: the rest is shown as
+// before. A pixel is half a percent of the picture, and of its light.
 TEST_F(ToneTime, AnEdgeThatMovesByAPixelMovesNothingElse) {
     constexpr VkExtent2D extent{224, 96};
     for (Operator op : {Operator::Irawan, Operator::Ward}) {
@@ -94,10 +103,19 @@ TEST_F(ToneTime, AnEdgeThatMovesByAPixelMovesNothingElse) {
             settings.tone_operator = op;
             settings.foveal_level = 5;
             settings.tone.gaze = {0.2f, 0.5f};
-            const ToneMapped got = mapper.map(settings, {.extent = extent, .values = {&pixels.front().x, pixels.size() * 4}, .channels = 4, .vertical_fov = 0.7}, 0, {});
+            const ToneMapped got = mapper.map(settings,
+                                              {.extent = extent,
+                                               .values = {&pixels.front().x, pixels.size() * 4},
+                                               .channels = 4,
+                                               .vertical_fov = 0.7},
+                                              0, {});
             std::vector<double> shown;
-            for (float luminance : {0.03f, 0.1f, 0.3f, 1.0f}) shown.push_back(std::exp(got.curve.node[size_t((std::log(luminance) - got.curve.ln_low) * got.curve.bins_per_ln)].x));
-            for (size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(shown[i] / before[i], 1, 0.05) << operator_info(op).name << ", edge at " << edge << ", " << i;
+            for (float luminance : {0.03f, 0.1f, 0.3f, 1.0f})
+                shown.push_back(std::exp(
+                    got.curve.node[size_t((std::log(luminance) - got.curve.ln_low) * got.curve.bins_per_ln)].x));
+            for (size_t i = 0; i < before.size(); ++i)
+                EXPECT_NEAR(shown[i] / before[i], 1, 0.05)
+                    << operator_info(op).name << ", edge at " << edge << ", " << i;
             before = shown;
         }
     }

@@ -5,9 +5,9 @@
 
 #include "arguments.h"
 #include "io/atomic_file.h"
-#include "vision/relative_picture.h"
 #include "support/exr_files.h"
 #include "support/program.h"
+#include "vision/relative_picture.h"
 
 namespace vesper::test {
 namespace {
@@ -18,17 +18,22 @@ HdrImage street(uint32_t width, uint32_t height) {
     HdrImage image{width, height, {}, 0, {}};
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x) {
-            const float l = std::pow(10.0f, -2 + 5 * float(x + y) / float(width + height)) * (1 + 0.2f * std::sin(0.4f * float(x)));
+            const float l =
+                std::pow(10.0f, -2 + 5 * float(x + y) / float(width + height)) * (1 + 0.2f * std::sin(0.4f * float(x)));
             for (const float tint : {1.0f, 0.8f, 0.5f}) image.rgb.push_back(l * tint);
         }
     return image;
 }
 
-HdrImage uniform(uint32_t width, uint32_t height, float value) { return {width, height, std::vector<float>(size_t{3} * width * height, value), 0, {}}; }
+HdrImage uniform(uint32_t width, uint32_t height, float value) {
+    return {width, height, std::vector<float>(size_t{3} * width * height, value), 0, {}};
+}
 
 class TonemapProgram : public ProgramTest {
 protected:
-    int tonemap(const std::string& arguments, const std::string& environment = "") { return run("tonemap " + arguments, environment); }
+    int tonemap(const std::string& arguments, const std::string& environment = "") {
+        return run("tonemap " + arguments, environment);
+    }
     Image png(const std::string& name) { return decode_image(read_file(folder / name, 1u << 28), 32768); }
     std::string header(const std::string& name, const std::string& key) {
         for (const auto& [k, value] : read_exr(folder / name).header)
@@ -50,7 +55,8 @@ protected:
     }
 };
 
-// Red of twice what the display has in it, and of all that white has: as it was named, and nearer to white as it is brighter.
+// Red of twice what the display has in it, and of all that white has: as it was named, and nearer to white as it is
+// brighter.
 TEST_F(TonemapProgram, BrightColoursGiveWayAsAsked) {
     HdrImage image{3, 1, {}, 0, {}};
     for (const float luminance : {0.1f, 0.4f, 1.0f}) image.rgb.insert(image.rgb.end(), {luminance / 0.212639f, 0, 0});
@@ -58,14 +64,16 @@ TEST_F(TonemapProgram, BrightColoursGiveWayAsAsked) {
     const auto green_of = [&](const std::string& options) {
         EXPECT_EQ(tonemap("red.exr --scale 1 --operator linear --linear-max 1 " + options + " -o red.png"), 0) << said;
         const Image shown = png("red.png");
-        EXPECT_TRUE(shown.rgba[0] > 170 && shown.rgba[0] < 190) << "below its own luminance red is itself: " << int(shown.rgba[0]);
+        EXPECT_TRUE(shown.rgba[0] > 170 && shown.rgba[0] < 190)
+            << "below its own luminance red is itself: " << int(shown.rgba[0]);
         EXPECT_TRUE(shown.rgba[4] == 255 && shown.rgba[8] == 255);
         return std::array<int, 3>{shown.rgba[1], shown.rgba[5], shown.rgba[9]};
     };
     const auto given_way = green_of("");
     EXPECT_EQ(given_way, green_of("--gamut luminance"));
     EXPECT_EQ(given_way[0], 0);
-    EXPECT_TRUE(given_way[1] > 30 && given_way[2] > given_way[1] + 30 && given_way[2] < 160) << given_way[1] << ", " << given_way[2];
+    EXPECT_TRUE(given_way[1] > 30 && given_way[2] > given_way[1] + 30 && given_way[2] < 160)
+        << given_way[1] << ", " << given_way[2];
     EXPECT_EQ(green_of("--gamut chromaticity"), (std::array<int, 3>{}));
     EXPECT_EQ(green_of("--gamut clip"), (std::array<int, 3>{}));
     EXPECT_EQ(tonemap("red.exr --gamut white -o other.png"), 2);
@@ -77,17 +85,25 @@ TEST_F(TonemapProgram, OnePictureInEveryLayoutIsOnePicture) {
     const HdrImage image = street(100, 70);
     write_layout(folder / "plain.exr", image, {});
     ASSERT_EQ(tonemap("plain.exr --scale 1 -o plain.png"), 0) << said;
-    // Lossless ones agree exactly. PXR24 keeps 16 bits of the mantissa; DWA is visually lossless, B44 leaves floats alone;
-    // half precision and filtered chroma take up to some codes where luminance changes from pixel to pixel.
+    // Lossless ones agree exactly. PXR24 keeps 16 bits of the mantissa; DWA is visually lossless, B44 leaves floats
+    // alone; half precision and filtered chroma take up to some codes where luminance changes from pixel to pixel.
     using namespace Imf;
-    const std::pair<ExrLayout, int> layouts[]{{{.compression = NO_COMPRESSION}, 0}, {{.compression = RLE_COMPRESSION}, 0}, {{.compression = ZIPS_COMPRESSION}, 0},
-                                              {{.compression = PIZ_COMPRESSION}, 0}, {{.compression = PXR24_COMPRESSION}, 1}, {{.compression = B44_COMPRESSION}, 0},
-                                              {{.compression = DWAA_COMPRESSION}, 3}, {{.compression = DWAB_COMPRESSION}, 3}, {{.tiles = true}, 0},
-                                              {{.tiles = true, .mipmap = true}, 0}, {{.multi_part = true}, 0}};
+    const std::pair<ExrLayout, int> layouts[]{{{.compression = NO_COMPRESSION}, 0},
+                                              {{.compression = RLE_COMPRESSION}, 0},
+                                              {{.compression = ZIPS_COMPRESSION}, 0},
+                                              {{.compression = PIZ_COMPRESSION}, 0},
+                                              {{.compression = PXR24_COMPRESSION}, 1},
+                                              {{.compression = B44_COMPRESSION}, 0},
+                                              {{.compression = DWAA_COMPRESSION}, 3},
+                                              {{.compression = DWAB_COMPRESSION}, 3},
+                                              {{.tiles = true}, 0},
+                                              {{.tiles = true, .mipmap = true}, 0},
+                                              {{.multi_part = true}, 0}};
     for (const auto& [layout, codes] : layouts) {
         write_layout(folder / "other.exr", image, layout);
         ASSERT_EQ(tonemap("other.exr --scale 1 -o other.png"), 0) << said;
-        EXPECT_LE(difference("plain.png", "other.png"), codes) << layout.compression << layout.tiles << layout.mipmap << layout.multi_part;
+        EXPECT_LE(difference("plain.png", "other.png"), codes)
+            << layout.compression << layout.tiles << layout.mipmap << layout.multi_part;
     }
     write_chroma(folder / "chroma.exr", image);
     ASSERT_EQ(tonemap("chroma.exr --scale 1 -o chroma.png"), 0) << said;
@@ -95,7 +111,8 @@ TEST_F(TonemapProgram, OnePictureInEveryLayoutIsOnePicture) {
     write_layout(folder / "grey.exr", image, {.grey = true});
     ASSERT_EQ(tonemap("grey.exr --scale 1 -o grey.png"), 0) << said;
     const Image grey = png("grey.png");
-    for (size_t i = 0; i < grey.rgba.size(); i += 4) ASSERT_TRUE(grey.rgba[i] == grey.rgba[i + 1] && grey.rgba[i] == grey.rgba[i + 2]);
+    for (size_t i = 0; i < grey.rgba.size(); i += 4)
+        ASSERT_TRUE(grey.rgba[i] == grey.rgba[i + 1] && grey.rgba[i] == grey.rgba[i + 2]);
     write_layout(folder / "window.exr", image, {.x0 = 30, .y0 = -20});
     ASSERT_EQ(tonemap("window.exr --scale 1 -o window.png"), 0) << said;
     const Image window = png("window.png");
@@ -131,10 +148,13 @@ TEST_F(TonemapProgram, PicturesWithoutAUnitAreScaled) {
     const std::string number = format("%.6g", scale);
     write_layout(folder / "a.exr", image, {});
     ASSERT_EQ(tonemap("a.exr -o a.png -o on-display.exr"), 0) << said;
-    EXPECT_TRUE(said.starts_with("note: a.exr: its header names no unit: 1.0 is taken as " + number + " cd/m^2, so that its log average is ")) << said;
+    EXPECT_TRUE(said.starts_with("note: a.exr: its header names no unit: 1.0 is taken as " + number +
+                                 " cd/m^2, so that its log average is "))
+        << said;
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScale"), number);
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScaleFrom"), "auto");
-    EXPECT_NE(read_text(folder / "a.png").find("tEXtvesper:sourceScale" + std::string(1, 0) + number), std::string::npos);
+    EXPECT_NE(read_text(folder / "a.png").find("tEXtvesper:sourceScale" + std::string(1, 0) + number),
+              std::string::npos);
     ASSERT_EQ(tonemap("a.exr --scale " + number + " -o same.png"), 0);
     EXPECT_EQ(difference("a.png", "same.png"), 0);
     ASSERT_EQ(tonemap("a.exr --scale auto -o same.png"), 0);
@@ -159,7 +179,10 @@ TEST_F(TonemapProgram, ExposureMultipliesEveryScale) {
     write_layout(folder / "a.exr", street(60, 40), {});
     write_layout(folder / "b.exr", street(60, 40), {.white_luminance = 40});
     const double scale = plausible_scale(relative_luminance(street(60, 40).rgb));
-    const std::pair<std::string, double> all[]{{"a.exr --exposure -1.5", scale * std::exp2(-1.5)}, {"a.exr --scale 100 --exposure 2", 400}, {"b.exr --exposure 1", 80}, {"b.exr --scale auto --exposure -3", 5}};
+    const std::pair<std::string, double> all[]{{"a.exr --exposure -1.5", scale * std::exp2(-1.5)},
+                                               {"a.exr --scale 100 --exposure 2", 400},
+                                               {"b.exr --exposure 1", 80},
+                                               {"b.exr --scale auto --exposure -3", 5}};
     for (const auto& [arguments, wanted] : all) {
         ASSERT_EQ(tonemap(arguments + " -o out.exr -o out.png"), 0) << said;
         EXPECT_NEAR(std::stod(header("out.exr", "vesper:sourceScale")) / wanted, 1, 1e-8) << arguments;
@@ -172,13 +195,16 @@ TEST_F(TonemapProgram, ExposureMultipliesEveryScale) {
 // EXPOSURE is divided out, so that the values are those of the scene; of 1, as many programs write it, it says nothing.
 TEST_F(TonemapProgram, RadiancePicturesWithExposureAndInXyzStayAbsolute) {
     const auto scale_of = [&](const std::string& lines) {
-        folder.write("r.hdr", "#?RADIANCE\n" + lines + "\n-Y 1 +X 2\n" + std::string(4, char(128)) + std::string(4, char(129)));
+        folder.write("r.hdr",
+                     "#?RADIANCE\n" + lines + "\n-Y 1 +X 2\n" + std::string(4, char(128)) + std::string(4, char(129)));
         EXPECT_EQ(tonemap("r.hdr -o r.exr"), 0) << said;
         return header("r.exr", "vesper:sourceScale") + " " + header("r.exr", "vesper:sourceScaleFrom");
     };
     const std::string rgbe = "FORMAT=32-bit_rle_rgbe\n";
     EXPECT_EQ(scale_of(rgbe + "EXPOSURE=0.5\n"), "1 header");
-    EXPECT_EQ(said, "note: r.hdr: its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are Radiance's watts)\n");
+    EXPECT_EQ(said,
+              "note: r.hdr: its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are "
+              "Radiance's watts)\n");
     EXPECT_EQ(scale_of("FORMAT=32-bit_rle_xyze\n"), "1 header");
     EXPECT_EQ(said, "");
     EXPECT_EQ(scale_of("FORMAT=32-bit_rle_xyze\nEXPOSURE=2\n"), "1 header");
@@ -193,14 +219,19 @@ TEST_F(TonemapProgram, WhatPicturesDoNotSayIsNoted) {
     for (const char* name : {"b.exr", "c.exr"}) write_layout(folder / name, street(30, 20), {});
     ASSERT_EQ(tonemap("a.exr b.exr c.exr -o many/"), 0);
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
-    for (const char* name : {"note: b.exr: ", "note: c.exr: "}) EXPECT_NE(said.find(std::string(name) + "its header names no unit: 1.0 is taken as "), std::string::npos) << said;
+    for (const char* name : {"note: b.exr: ", "note: c.exr: "})
+        EXPECT_NE(said.find(std::string(name) + "its header names no unit: 1.0 is taken as "), std::string::npos)
+            << said;
     ASSERT_EQ(tonemap("a.exr --glare cie -o a.png"), 0);
-    EXPECT_EQ(said, "note: a.exr: its header names no angle of a perspective: taken as 40 degrees high (--fov tells another)\n");
+    EXPECT_EQ(
+        said,
+        "note: a.exr: its header names no angle of a perspective: taken as 40 degrees high (--fov tells another)\n");
     ASSERT_EQ(tonemap("a.exr --glare cie --fov 30 -o a.png"), 0);
     EXPECT_EQ(said, "");
 }
 
-// One scale holds for a sequence, which would flicker with its own for each: that of the first picture with a unit or light.
+// One scale holds for a sequence, which would flicker with its own for each: that of the first picture with a unit or
+// light.
 TEST_F(TonemapProgram, TheScaleOfASequenceStays) {
     const auto scale_of = [&](const std::string& name) { return header(name, "vesper:sourceScale"); };
     write_layout(folder / "f0.exr", uniform(30, 20, 0), {});
@@ -219,8 +250,10 @@ TEST_F(TonemapProgram, TheScaleOfASequenceStays) {
     EXPECT_EQ(scale_of("o4.exr"), first);
     EXPECT_EQ(header("o4.exr", "vesper:sourceScaleFrom"), "sequence");
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 4) << said;
-    EXPECT_NE(said.find("note: f3.exr: 1.0 is 10 cd/m^2 from here on, and was " + first + "\n"), std::string::npos) << said;
-    EXPECT_NE(said.find("note: f4.exr: 1.0 is " + first + " cd/m^2 from here on, and was 10\n"), std::string::npos) << said;
+    EXPECT_NE(said.find("note: f3.exr: 1.0 is 10 cd/m^2 from here on, and was " + first + "\n"), std::string::npos)
+        << said;
+    EXPECT_NE(said.find("note: f4.exr: 1.0 is " + first + " cd/m^2 from here on, and was 10\n"), std::string::npos)
+        << said;
     fs::create_directory(folder / "many");
     ASSERT_EQ(tonemap("f3.exr f4.exr f1.exr --fps 30 --exposure 1 -o many/"), 0);
     EXPECT_EQ(said, "note: f4.exr: its header names no unit: 1.0 stays 10 cd/m^2\n");
@@ -231,7 +264,8 @@ TEST_F(TonemapProgram, TheScaleOfASequenceStays) {
 // Radiance's own angle, the picture's height moved by a lift; other projections have none.
 TEST_F(TonemapProgram, ViewsOfRadianceTellTheAngle) {
     const auto angle = [&](const std::string& header) {
-        folder.write("v.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + header + "\n-Y 1 +X 2\n" + std::string(4, char(128)) + std::string(4, char(129)));
+        folder.write("v.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + header + "\n-Y 1 +X 2\n" +
+                                  std::string(4, char(128)) + std::string(4, char(129)));
         EXPECT_EQ(tonemap("v.hdr --scale 179 --glare cie --stats -o v.png"), 0) << said;
         const size_t at = printed.find("degrees)");
         return at == std::string::npos ? 0.0 : std::stod(printed.substr(printed.rfind('(', at) + 1));
@@ -253,7 +287,8 @@ TEST_F(TonemapProgram, TargetsArePrinted) {
     write_layout(folder / "a.exr", uniform(64, 48, 2), {.white_luminance = 1});
     ASSERT_EQ(tonemap("a.exr --fov 20 --target .4,.4,.2,.2 -o a.png"), 0) << said;
     EXPECT_EQ(printed, "a.exr: target 2 cd/m^2 on 2 cd/m^2, veil 0 cd/m^2, visibility level 0\n");
-    for (const char* target : {".5,.5,.002,.002", "0,0,1,1", ".5,.5,0,0"}) expect_refused(std::string("tonemap a.exr --fov 20 -o a.png --target ") + target, {"a.exr: --target: "});
+    for (const char* target : {".5,.5,.002,.002", "0,0,1,1", ".5,.5,0,0"})
+        expect_refused(std::string("tonemap a.exr --fov 20 -o a.png --target ") + target, {"a.exr: --target: "});
 }
 
 // The sRGB chunk says sRGB: other displays name what they are, or nothing.
@@ -268,7 +303,9 @@ TEST_F(TonemapProgram, PngsSayWhatTheirCodesMean) {
         folder.write("d.json", R"({"version": 1, "peak_cd_m2": 100, "black_cd_m2": 0.1, )" + rest + "}");
         return chunks("d.json");
     };
-    const auto cicp = [](int primaries, int transfer) { return std::string("cICP") + char(primaries) + char(transfer) + std::string("\0\1", 2); };
+    const auto cicp = [](int primaries, int transfer) {
+        return std::string("cICP") + char(primaries) + char(transfer) + std::string("\0\1", 2);
+    };
     EXPECT_TRUE(contains(chunks("desk"), "sRGB"));
     EXPECT_TRUE(contains(chunks("hdr10"), cicp(9, 16)));
     const std::string gamma = profile(R"("eotf": "gamma", "gamma": 2.6)");
@@ -277,7 +314,10 @@ TEST_F(TonemapProgram, PngsSayWhatTheirCodesMean) {
     EXPECT_TRUE(contains(profile(R"("eotf": "pq", "bits": 8, "primaries": "rec2020")"), cicp(9, 16)));
     EXPECT_TRUE(contains(profile(R"("eotf": "srgb", "primaries": "p3")"), cicp(12, 13)));
     EXPECT_TRUE(contains(profile(R"("eotf": "gamma", "gamma": 2.2, "primaries": "rec2020")"), cicp(9, 4)));
-    EXPECT_TRUE(contains(profile(R"("eotf": "pq", "primaries": {"red": [0.66, 0.33], "green": [0.25, 0.65], "blue": [0.15, 0.06], "white": [0.3127, 0.329]})"), cicp(2, 16)));
+    EXPECT_TRUE(contains(
+        profile(
+            R"("eotf": "pq", "primaries": {"red": [0.66, 0.33], "green": [0.25, 0.65], "blue": [0.15, 0.06], "white": [0.3127, 0.329]})"),
+        cicp(2, 16)));
 }
 
 TEST_F(TonemapProgram, AnglesSetTheFovealLevel) {
@@ -293,7 +333,9 @@ TEST_F(TonemapProgram, AnglesSetTheFovealLevel) {
 }
 
 TEST_F(TonemapProgram, SequencesRememberAndOthersDoNot) {
-    for (const int number : {8, 9, 10, 14}) write_layout(folder / ("f." + std::to_string(number) + ".exr"), street(20 + uint32_t(number), 20), {.white_luminance = 1});
+    for (const int number : {8, 9, 10, 14})
+        write_layout(folder / ("f." + std::to_string(number) + ".exr"), street(20 + uint32_t(number), 20),
+                     {.white_luminance = 1});
     ASSERT_EQ(tonemap("f.%d.exr --fps 4 -o o.%03d.exr"), 0) << said;
     EXPECT_EQ(said, "note: 3 pictures are missing before f.14.exr\n");
     EXPECT_EQ(header("o.008.exr", "vesper:eyeSeconds"), "0");
@@ -313,9 +355,17 @@ TEST_F(TonemapProgram, HostilePicturesGiveAPicture) {
     const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
     HdrImage lamp = uniform(64, 64, 0);
     lamp.rgb[3 * 777] = lamp.rgb[3 * 777 + 1] = 1e8f;
-    const std::pair<const char*, HdrImage> pictures[]{{"one", uniform(1, 1, 3)},  {"black", uniform(40, 30, 0)},      {"nan", uniform(40, 30, nan)},
-                                                      {"inf", uniform(40, 30, inf)}, {"minus", uniform(40, 30, -inf)}, {"negative", uniform(40, 30, -5)},
-                                                      {"largest", uniform(40, 30, 3.4e38f)}, {"least", uniform(40, 30, 1e-42f)}, {"lamp", lamp}, {"wide", uniform(16384, 3, 2)}, {"tall", uniform(2, 16384, 2)}};
+    const std::pair<const char*, HdrImage> pictures[]{{"one", uniform(1, 1, 3)},
+                                                      {"black", uniform(40, 30, 0)},
+                                                      {"nan", uniform(40, 30, nan)},
+                                                      {"inf", uniform(40, 30, inf)},
+                                                      {"minus", uniform(40, 30, -inf)},
+                                                      {"negative", uniform(40, 30, -5)},
+                                                      {"largest", uniform(40, 30, 3.4e38f)},
+                                                      {"least", uniform(40, 30, 1e-42f)},
+                                                      {"lamp", lamp},
+                                                      {"wide", uniform(16384, 3, 2)},
+                                                      {"tall", uniform(2, 16384, 2)}};
     for (const auto& [name, image] : pictures) {
         write_layout(folder / "a.exr", image, {.white_luminance = 1});
         for (const char* tone : {"ward", "reinhard", "linear", "ldr"}) {
@@ -331,14 +381,17 @@ TEST_F(TonemapProgram, HostilePicturesGiveAPicture) {
             }
             for (const float value : read_exr(folder / "b.exr").rgb) ASSERT_TRUE(std::isfinite(value)) << name << tone;
         }
-        EXPECT_EQ(said.find("not finite") != std::string::npos, std::string(name) == "nan" || std::string(name) == "inf" || std::string(name) == "minus") << said;
+        EXPECT_EQ(said.find("not finite") != std::string::npos,
+                  std::string(name) == "nan" || std::string(name) == "inf" || std::string(name) == "minus")
+            << said;
     }
 }
 
 TEST_F(TonemapProgram, DamagedFilesLeaveEarlierOutputsAlone) {
     write_layout(folder / "good.exr", street(60, 40), {.white_luminance = 1});
     ASSERT_EQ(tonemap("good.exr -o out.png -o out.exr"), 0) << said;
-    const std::string before = read_text(folder / "out.png"), before_exr = read_text(folder / "out.exr"), whole = read_text(folder / "good.exr");
+    const std::string before = read_text(folder / "out.png"), before_exr = read_text(folder / "out.exr"),
+                      whole = read_text(folder / "good.exr");
     for (const size_t part : {0u, 3u, 50u, 95u}) {
         folder.write("cut.exr", whole.substr(0, whole.size() * part / 100));
         expect_refused("tonemap cut.exr -o out.png -o out.exr", {"cut.exr"});
@@ -363,17 +416,46 @@ TEST_F(TonemapProgram, RefusesInOneLine) {
     fs::copy(folder / "a.exr", folder / "b.exr");
     fs::create_directory(folder / "all");
     fs::copy(folder / "a.exr", folder / "n.0000.exr"), fs::copy(folder / "a.exr", folder / "n.0001.exr");
-    for (const char* arguments : {"n.0001.exr n.0000.exr -o n.%04d.exr", "n.%04d.exr -o n.%04d.exr", "a.exr", "a.exr -o a.tiff", "a.exr -o none/a.png", "a.exr -o none/", "a.exr b.exr -o x.png", "a.exr b.exr -o x.mp4", "a.exr -o x.mp4",
-                                  "f.%d.exr -o x.%d.png", "f.%s.exr -o x.png", "a.exr f.%d.exr -o x.%d.png", "a.exr -o x.%d.%d.png", "a.exr a.exr -o all", "a.exr -o x.png -o x.png", "a.exr -o a.exr", "a.exr b.exr -o ./%d.exr -o a.exr",
-                                  "a.exr -o x.png --scale 0", "a.exr -o x.png --scale nan", "a.exr -o x.png --scale automatic", "a.exr -o x.png --scale -3", "a.exr -o x.png --exposure 41", "a.exr -o x.png --exposure nan", "a.exr -o x.png --fov 180", "a.exr -o x.png --fps -1", "a.exr -o x.png --operator foo",
-                                  "a.exr -o x.png --display foo", "a.exr -o x.png --foveal-level 9", "a.exr -o x.png --histogram-low 5 --histogram-high 5", "a.exr --fps 5 -o x.mp4 -o y.mp4", "a.exr -o x.png --device nowhere"})
+    for (const char* arguments : {"n.0001.exr n.0000.exr -o n.%04d.exr",
+                                  "n.%04d.exr -o n.%04d.exr",
+                                  "a.exr",
+                                  "a.exr -o a.tiff",
+                                  "a.exr -o none/a.png",
+                                  "a.exr -o none/",
+                                  "a.exr b.exr -o x.png",
+                                  "a.exr b.exr -o x.mp4",
+                                  "a.exr -o x.mp4",
+                                  "f.%d.exr -o x.%d.png",
+                                  "f.%s.exr -o x.png",
+                                  "a.exr f.%d.exr -o x.%d.png",
+                                  "a.exr -o x.%d.%d.png",
+                                  "a.exr a.exr -o all",
+                                  "a.exr -o x.png -o x.png",
+                                  "a.exr -o a.exr",
+                                  "a.exr b.exr -o ./%d.exr -o a.exr",
+                                  "a.exr -o x.png --scale 0",
+                                  "a.exr -o x.png --scale nan",
+                                  "a.exr -o x.png --scale automatic",
+                                  "a.exr -o x.png --scale -3",
+                                  "a.exr -o x.png --exposure 41",
+                                  "a.exr -o x.png --exposure nan",
+                                  "a.exr -o x.png --fov 180",
+                                  "a.exr -o x.png --fps -1",
+                                  "a.exr -o x.png --operator foo",
+                                  "a.exr -o x.png --display foo",
+                                  "a.exr -o x.png --foveal-level 9",
+                                  "a.exr -o x.png --histogram-low 5 --histogram-high 5",
+                                  "a.exr --fps 5 -o x.mp4 -o y.mp4",
+                                  "a.exr -o x.png --device nowhere"})
         expect_refused(std::string("tonemap ") + arguments);
     EXPECT_FALSE(exists("x.png"));
     EXPECT_TRUE(left_nothing_behind());
 }
 
 TEST_F(TonemapProgram, Films) {
-    for (int number = 0; number < 5; ++number) write_layout(folder / ("f" + std::to_string(number) + ".exr"), uniform(65, 33, float(number + 1)), {.white_luminance = 1});
+    for (int number = 0; number < 5; ++number)
+        write_layout(folder / ("f" + std::to_string(number) + ".exr"), uniform(65, 33, float(number + 1)),
+                     {.white_luminance = 1});
     expect_refused("tonemap f%d.exr -o film.mp4", {"film.mp4", "ffmpeg", "not installed"}, "PATH=/nowhere");
     folder.write("film.mp4", "an earlier film");
     fs::create_directory(folder / "bin");
@@ -398,7 +480,8 @@ TEST_F(TonemapProgram, Films) {
 
 TEST_F(TonemapProgram, IsDeterministic) {
     write_layout(folder / "a.exr", street(300, 200), {.white_luminance = 1});
-    for (const char* name : {"x", "y"}) ASSERT_EQ(tonemap(std::string("a.exr -o ") + name + ".png -o " + name + ".exr --glare ldr"), 0) << said;
+    for (const char* name : {"x", "y"})
+        ASSERT_EQ(tonemap(std::string("a.exr -o ") + name + ".png -o " + name + ".exr --glare ldr"), 0) << said;
     EXPECT_EQ(read_text(folder / "x.png"), read_text(folder / "y.png"));
     EXPECT_EQ(read_exr(folder / "x.exr").rgb, read_exr(folder / "y.exr").rgb);
 }

@@ -1,4 +1,5 @@
-// The yard of data/photometry: a cut-off line on a wall, and the sheen of a wet road towards headlamps. SPDX-License-Identifier: MIT
+// The yard of data/photometry: a cut-off line on a wall, and the sheen of a wet road towards headlamps.
+// SPDX-License-Identifier: MIT
 #include <unistd.h>
 
 #include <filesystem>
@@ -25,7 +26,8 @@ double seen_at(const Frame& frame, const View& view, glm::vec3 point) {
 }
 
 TEST(Yard, ShowsTheCutOffAndTheSheen) {
-    const fs::path folder = fs::temp_directory_path() / ("vesper-yard-" + std::to_string(getpid())), data = fs::path(VESPER_SOURCE_DIR) / "data/photometry";
+    const fs::path folder = fs::temp_directory_path() / ("vesper-yard-" + std::to_string(getpid())),
+                   data = fs::path(VESPER_SOURCE_DIR) / "data/photometry";
     fs::create_directories(folder);
     convert(data / "yard.gltf", data / "yard.photometry.json", folder / "yard.gltf", {});
     const Scene scene = read_gltf(folder / "yard.gltf").scene;
@@ -39,7 +41,8 @@ TEST(Yard, ShowsTheCutOffAndTheSheen) {
     const View wall = look("wall");
     const Frame cut = renderer.render({}, wall, moment, 0, {.display = false, .scene = true});
     EXPECT_GT(seen_at(cut, wall, {27, 0.4, -12}), 8 * seen_at(cut, wall, {27, 0.65, -12}));
-    EXPECT_GT(seen_at(cut, wall, {32.5, 0.65, -12}), 3 * seen_at(cut, wall, {27, 0.65, -12})) << "it rises to the right";
+    EXPECT_GT(seen_at(cut, wall, {32.5, 0.65, -12}), 3 * seen_at(cut, wall, {27, 0.65, -12}))
+        << "it rises to the right";
     EXPECT_GT(seen_at(cut, wall, {30.2, 0.45, -12}), 3 * seen_at(cut, wall, {27, 0.45, -12})) << "the hot spot";
 
     // Headlamps at -70 m, over the wet half: before them it shines, beside it and on the dry half it does not.

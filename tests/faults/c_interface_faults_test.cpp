@@ -45,13 +45,20 @@ protected:
 
     /// Call `fault` of Vulkan fails, from 1; 0: none. `handover` may be null.
     VesperResult map(VkExtent2D extent, uint64_t fault = 0, const VesperHandover* handover = nullptr) {
-        const ::Image picture = host->make_image(VK_FORMAT_R32G32B32A32_SFLOAT, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
-        const ::Image shown = host->make_image(VK_FORMAT_R8G8B8A8_UNORM, extent, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+        const ::Image picture = host->make_image(VK_FORMAT_R32G32B32A32_SFLOAT, extent,
+                                                 VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+        const ::Image shown = host->make_image(VK_FORMAT_R8G8B8A8_UNORM, extent,
+                                               VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
         images.push_back(picture), images.push_back(shown);
-        host->submit([&](VkCommandBuffer commands) { draw_pixels(commands, picture, extent, std::vector<float>(3 * extent.width * extent.height, 10.0f)); }, ++time);
+        host->submit(
+            [&](VkCommandBuffer commands) {
+                draw_pixels(commands, picture, extent, std::vector<float>(3 * extent.width * extent.height, 10.0f));
+            },
+            ++time);
         constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
         const VesperImage from = described(picture, VK_FORMAT_R32G32B32A32_SFLOAT, extent, kRead, kRead);
-        const VesperImage to = described(shown, VK_FORMAT_R8G8B8A8_UNORM, extent, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        const VesperImage to = described(shown, VK_FORMAT_R8G8B8A8_UNORM, extent, VK_IMAGE_LAYOUT_UNDEFINED,
+                                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         VesperImagePicture given = VESPER_INIT(VesperImagePicture);
         given.image = &from, given.scale = 1, given.vertical_fov = 0.7f;
         vesper_fault_arm(FaultKind::Vulkan, fault, VK_ERROR_OUT_OF_DEVICE_MEMORY);
@@ -74,15 +81,17 @@ protected:
     std::vector<::Image> images;
 };
 
-// What an image left of the eye is known though the next one fails, and nobody asked between them: with glare that moves, which reads it first, and without;
-// where the next image is of the same size, and where it is of another, for which everything is made anew. Only if it is the waiting that fails, nobody
-// knows what came of the image that was waited for.
+// What an image left of the eye is known though the next one fails, and nobody asked between them: with glare that
+// moves, which reads it first, and without; where the next image is of the same size, and where it is of another, for
+// which everything is made anew. Only if it is the waiting that fails, nobody knows what came of the image that was
+// waited for.
 TEST_F(ImageFaults, TheEyeStaysKnownWhenTheNextImageFails) {
     struct Case {
         uint32_t glare;
         VkExtent2D next;
     };
-    for (const auto& [glare, next] : {Case{VESPER_GLARE_NONE, kSmall}, Case{VESPER_GLARE_NONE, kLarge}, Case{VESPER_GLARE_TEMPORAL, kSmall}}) {
+    for (const auto& [glare, next] :
+         {Case{VESPER_GLARE_NONE, kSmall}, Case{VESPER_GLARE_NONE, kLarge}, Case{VESPER_GLARE_TEMPORAL, kSmall}}) {
         settings.glare = glare;
         const auto first = [&] {
             ASSERT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK);
@@ -97,7 +106,8 @@ TEST_F(ImageFaults, TheEyeStaysKnownWhenTheNextImageFails) {
         ASSERT_EQ(map(next), VESPER_OK) << error.message;  // makes what a second image under way needs
         size_t known = 0;
         for (uint64_t fault = 1;; ++fault) {
-            SCOPED_TRACE("glare " + std::to_string(glare) + ", " + std::to_string(next.width) + " px wide, call " + std::to_string(fault));
+            SCOPED_TRACE("glare " + std::to_string(glare) + ", " + std::to_string(next.width) + " px wide, call " +
+                         std::to_string(fault));
             first();  // which nobody asks for
             if (map(next, fault) == VESPER_OK) break;
             const std::string said = error.message;

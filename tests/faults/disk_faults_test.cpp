@@ -1,4 +1,5 @@
-// Disks that are full and programs that are killed: an old file stays whole, or the new one is. SPDX-License-Identifier: MIT
+// Disks that are full and programs that are killed: an old file stays whole, or the new one is.
+// SPDX-License-Identifier: MIT
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,7 +19,9 @@ namespace fs = std::filesystem;
 const std::string kOld = "what was there before";
 const fs::path kData = fs::path(VESPER_SOURCE_DIR) / "data";
 
-std::string fault(FaultKind kind, uint64_t at) { return "LD_PRELOAD=" VESPER_FAULTS " VESPER_FAULT='" + std::to_string(int(kind)) + " " + std::to_string(at) + " 0'"; }
+std::string fault(FaultKind kind, uint64_t at) {
+    return "LD_PRELOAD=" VESPER_FAULTS " VESPER_FAULT='" + std::to_string(int(kind)) + " " + std::to_string(at) + " 0'";
+}
 
 /// What writes files, and which.
 struct Writing {
@@ -32,9 +35,11 @@ protected:
         folder.write("empty.gltf", R"({"asset":{"version":"2.0"},"extras":{"vesper":{"version":1}}})");
         EXPECT_EQ(run("render empty.gltf --size 16x8 --frames 2 -o f%d.exr"), 0) << said;
         const std::string road = "road " + (kData / "road/worked-example.json").string();
-        std::vector<Writing> all{{road + " --csv points.csv --json road.json", {"points.csv", "road.json"}},
-                                 {"convert " + (kData / "rivoli/rivoli.xodr").string() + " -o lanes.glb", {"lanes.glb"}},
-                                 {"render empty.gltf --size 16x8 -o a.png -o a.exr --log a.csv --stats-json a.json", {"a.png", "a.exr", "a.json"}}};
+        std::vector<Writing> all{
+            {road + " --csv points.csv --json road.json", {"points.csv", "road.json"}},
+            {"convert " + (kData / "rivoli/rivoli.xodr").string() + " -o lanes.glb", {"lanes.glb"}},
+            {"render empty.gltf --size 16x8 -o a.png -o a.exr --log a.csv --stats-json a.json",
+             {"a.png", "a.exr", "a.json"}}};
         if (run("tonemap f%d.exr -o film.mp4") == 0) all.push_back({"tonemap f%d.exr -o film.mp4", {"film.mp4"}});
         return all;
     }
@@ -63,9 +68,11 @@ TEST_F(DiskFaults, AFullDiskIsReportedAndChangesNothing) {
         for (const size_t room : {size_t{0}, size_t{1}, bytes / 2, bytes - 1}) {
             put_old(writing);
             const std::set<std::string> before = names();
-            SCOPED_TRACE(writing.arguments + ", room for " + std::to_string(room) + " of " + std::to_string(bytes) + " bytes");
+            SCOPED_TRACE(writing.arguments + ", room for " + std::to_string(room) + " of " + std::to_string(bytes) +
+                         " bytes");
             expect_refused(writing.arguments, {}, fault(FaultKind::Disk, room));
-            for (const auto& [file, text] : contents(writing)) EXPECT_TRUE(text == kOld || (writing.files.size() > 1 && text.size() > kOld.size())) << file;
+            for (const auto& [file, text] : contents(writing))
+                EXPECT_TRUE(text == kOld || (writing.files.size() > 1 && text.size() > kOld.size())) << file;
             EXPECT_EQ(names(), before);
         }
     }
@@ -80,7 +87,9 @@ TEST_F(DiskFaults, KilledAtAnyChangeOfAFile) {
             put_old(writing);
             at += 1 + at / 2;  // ffmpeg changes its file dozens of times
             run(writing.arguments, fault(FaultKind::Kill, at));
-            for (const auto& [file, text] : contents(writing)) EXPECT_TRUE(text == kOld || text == made.at(file)) << writing.arguments << ", change " << at << ": " << file << " is neither old nor new";
+            for (const auto& [file, text] : contents(writing))
+                EXPECT_TRUE(text == kOld || text == made.at(file))
+                    << writing.arguments << ", change " << at << ": " << file << " is neither old nor new";
             ASSERT_LT(at, 1000u);
         } while (contents(writing) != made);
         EXPECT_GT(at, 3u) << writing.arguments;
@@ -98,7 +107,11 @@ TEST_F(DiskFaults, ARecordingCanBeReadWheneverItsProgramWasKilled) {
             vesper_fault_arm(FaultKind::Kill, at, 0);
             DriveRecorder recorder({.scene = "street.json", .run = {}, .scenario = {}, .settings = {}});
             recorder.open("drive.json");
-            for (size_t i = 0; i < kEvents; ++i) recorder.add({.kind = DriveEvent::Kind::Step, .input = {.steering = double(i) / kEvents}, .name = {}, .value = {}});
+            for (size_t i = 0; i < kEvents; ++i)
+                recorder.add({.kind = DriveEvent::Kind::Step,
+                              .input = {.steering = double(i) / kEvents},
+                              .name = {},
+                              .value = {}});
             recorder.close();
             ::_exit(0);
         }

@@ -39,7 +39,8 @@ F next(const char* name) {
 __attribute__((constructor)) void arm_from_environment() {
     int of = 0, code = 0;
     unsigned long long at = 0;
-    if (const char* text = std::getenv("VESPER_FAULT"); text && std::sscanf(text, "%d %llu %d", &of, &at, &code) == 3) vesper::test::vesper_fault_arm(FaultKind(of), at, code);
+    if (const char* text = std::getenv("VESPER_FAULT"); text && std::sscanf(text, "%d %llu %d", &of, &at, &code) == 3)
+        vesper::test::vesper_fault_arm(FaultKind(of), at, code);
 }
 
 }  // namespace
@@ -60,22 +61,25 @@ int64_t vesper_fault_live() { return live; }
 
 // ---- Vulkan: what the engine calls and can fail. ----
 
-#define FAULTY_AS(needs_device, waits, name, parameters, arguments)                                          \
-    extern "C" VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                              \
-        static const auto call = next<PFN_##name>(#name);                                                    \
-        if (needs_device && lost) return VK_ERROR_DEVICE_LOST;                                               \
-        if (!due(FaultKind::Vulkan)) return call arguments;                                                  \
-        lost = fault_code == VK_ERROR_DEVICE_LOST;                                                           \
-        if (waits && lost) call arguments; /* what a lost device was doing has ended; here it has to end */  \
-        return VkResult(fault_code.load());                                                                  \
+#define FAULTY_AS(needs_device, waits, name, parameters, arguments)                                         \
+    extern "C" VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                             \
+        static const auto call = next<PFN_##name>(#name);                                                   \
+        if (needs_device && lost) return VK_ERROR_DEVICE_LOST;                                              \
+        if (!due(FaultKind::Vulkan)) return call arguments;                                                 \
+        lost = fault_code == VK_ERROR_DEVICE_LOST;                                                          \
+        if (waits && lost) call arguments; /* what a lost device was doing has ended; here it has to end */ \
+        return VkResult(fault_code.load());                                                                 \
     }
 #define FAULTY(name, parameters, arguments) FAULTY_AS(false, false, name, parameters, arguments)
-#define MADE(name, type, made) FAULTY(name, (VkDevice d, const type* i, const VkAllocationCallbacks* a, made* o), (d, i, a, o))
+#define MADE(name, type, made) \
+    FAULTY(name, (VkDevice d, const type* i, const VkAllocationCallbacks* a, made* o), (d, i, a, o))
 
 FAULTY(vkCreateInstance, (const VkInstanceCreateInfo* i, const VkAllocationCallbacks* a, VkInstance* o), (i, a, o))
 FAULTY(vkEnumeratePhysicalDevices, (VkInstance i, uint32_t* n, VkPhysicalDevice* o), (i, n, o))
-FAULTY(vkEnumerateDeviceExtensionProperties, (VkPhysicalDevice d, const char* l, uint32_t* n, VkExtensionProperties* o), (d, l, n, o))
-FAULTY(vkCreateDevice, (VkPhysicalDevice d, const VkDeviceCreateInfo* i, const VkAllocationCallbacks* a, VkDevice* o), (d, i, a, o))
+FAULTY(vkEnumerateDeviceExtensionProperties, (VkPhysicalDevice d, const char* l, uint32_t* n, VkExtensionProperties* o),
+       (d, l, n, o))
+FAULTY(vkCreateDevice, (VkPhysicalDevice d, const VkDeviceCreateInfo* i, const VkAllocationCallbacks* a, VkDevice* o),
+       (d, i, a, o))
 MADE(vkAllocateMemory, VkMemoryAllocateInfo, VkDeviceMemory)
 MADE(vkCreateBuffer, VkBufferCreateInfo, VkBuffer)
 MADE(vkCreateBufferView, VkBufferViewCreateInfo, VkBufferView)
@@ -88,23 +92,34 @@ MADE(vkCreatePipelineLayout, VkPipelineLayoutCreateInfo, VkPipelineLayout)
 MADE(vkCreateQueryPool, VkQueryPoolCreateInfo, VkQueryPool)
 MADE(vkCreateSampler, VkSamplerCreateInfo, VkSampler)
 MADE(vkCreateShaderModule, VkShaderModuleCreateInfo, VkShaderModule)
-FAULTY(vkCreateComputePipelines, (VkDevice d, VkPipelineCache c, uint32_t n, const VkComputePipelineCreateInfo* i, const VkAllocationCallbacks* a, VkPipeline* o), (d, c, n, i, a, o))
-FAULTY(vkCreateGraphicsPipelines, (VkDevice d, VkPipelineCache c, uint32_t n, const VkGraphicsPipelineCreateInfo* i, const VkAllocationCallbacks* a, VkPipeline* o), (d, c, n, i, a, o))
+FAULTY(vkCreateComputePipelines,
+       (VkDevice d, VkPipelineCache c, uint32_t n, const VkComputePipelineCreateInfo* i, const VkAllocationCallbacks* a,
+        VkPipeline* o),
+       (d, c, n, i, a, o))
+FAULTY(vkCreateGraphicsPipelines,
+       (VkDevice d, VkPipelineCache c, uint32_t n, const VkGraphicsPipelineCreateInfo* i,
+        const VkAllocationCallbacks* a, VkPipeline* o),
+       (d, c, n, i, a, o))
 FAULTY(vkAllocateCommandBuffers, (VkDevice d, const VkCommandBufferAllocateInfo* i, VkCommandBuffer* o), (d, i, o))
 FAULTY(vkBeginCommandBuffer, (VkCommandBuffer c, const VkCommandBufferBeginInfo* i), (c, i))
 FAULTY(vkEndCommandBuffer, (VkCommandBuffer c), (c))
 FAULTY(vkResetCommandPool, (VkDevice d, VkCommandPool p, VkCommandPoolResetFlags f), (d, p, f))
 FAULTY(vkBindBufferMemory, (VkDevice d, VkBuffer b, VkDeviceMemory m, VkDeviceSize o), (d, b, m, o))
 FAULTY(vkBindImageMemory, (VkDevice d, VkImage b, VkDeviceMemory m, VkDeviceSize o), (d, b, m, o))
-FAULTY(vkMapMemory, (VkDevice d, VkDeviceMemory m, VkDeviceSize o, VkDeviceSize s, VkMemoryMapFlags f, void** p), (d, m, o, s, f, p))
+FAULTY(vkMapMemory, (VkDevice d, VkDeviceMemory m, VkDeviceSize o, VkDeviceSize s, VkMemoryMapFlags f, void** p),
+       (d, m, o, s, f, p))
 FAULTY(vkFlushMappedMemoryRanges, (VkDevice d, uint32_t n, const VkMappedMemoryRange* r), (d, n, r))
 FAULTY(vkInvalidateMappedMemoryRanges, (VkDevice d, uint32_t n, const VkMappedMemoryRange* r), (d, n, r))
 FAULTY(vkResetFences, (VkDevice d, uint32_t n, const VkFence* f), (d, n, f))
 FAULTY_AS(true, false, vkQueueSubmit2, (VkQueue q, uint32_t n, const VkSubmitInfo2* s, VkFence f), (q, n, s, f))
 FAULTY_AS(true, true, vkQueueWaitIdle, (VkQueue q), (q))
 FAULTY_AS(true, true, vkDeviceWaitIdle, (VkDevice d), (d))
-FAULTY_AS(true, true, vkWaitForFences, (VkDevice d, uint32_t n, const VkFence* f, VkBool32 all, uint64_t t), (d, n, f, all, t))
-FAULTY_AS(true, true, vkGetQueryPoolResults, (VkDevice d, VkQueryPool p, uint32_t first, uint32_t n, size_t s, void* data, VkDeviceSize stride, VkQueryResultFlags f), (d, p, first, n, s, data, stride, f))
+FAULTY_AS(true, true, vkWaitForFences, (VkDevice d, uint32_t n, const VkFence* f, VkBool32 all, uint64_t t),
+          (d, n, f, all, t))
+FAULTY_AS(true, true, vkGetQueryPoolResults,
+          (VkDevice d, VkQueryPool p, uint32_t first, uint32_t n, size_t s, void* data, VkDeviceSize stride,
+           VkQueryResultFlags f),
+          (d, p, first, n, s, data, stride, f))
 
 // ---- Memory: glibc's own functions are behind these. ----
 

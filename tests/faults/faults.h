@@ -1,5 +1,5 @@
-// Makes the n-th call of a kind fail, in tests that link vesper-faults before all others and in programs that preload it.
-// SPDX-License-Identifier: MIT
+// Makes the n-th call of a kind fail, in tests that link vesper-faults before all others and in programs that preload
+// it. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ enum class FaultKind : int {
     Kill     ///< before something changes below the working folder, the program is killed (SIGKILL)
 };
 
-/// Counts calls of a kind from now on and makes number `at` fail, from 1; 0: none. Programs are armed by VESPER_FAULT="KIND AT CODE", as numbers.
+/// Counts calls of a kind from now on and makes number `at` fail, from 1; 0: none. Programs are armed by
+/// VESPER_FAULT="KIND AT CODE", as numbers.
 extern "C" void vesper_fault_arm(FaultKind kind, uint64_t at, int code);
 /// Counted since it was armed.
 extern "C" uint64_t vesper_fault_count();

@@ -51,9 +51,9 @@ Outcome read_once(const std::function<void()>& read, uint64_t at, int64_t& left)
     return outcome;
 }
 
-/// Every one of the first hundreds of allocations, and of thousands more each a fiftieth further than the one before. OpenEXR 3.1 may keep
-/// so many pieces of its own when memory runs out (seen by backtraces of what is left: attributes and channels of headers whose
-/// constructor fails, 24 at most).
+/// Every one of the first hundreds of allocations, and of thousands more each a fiftieth further than the one before.
+/// OpenEXR 3.1 may keep so many pieces of its own when memory runs out (seen by backtraces of what is left: attributes
+/// and channels of headers whose constructor fails, 24 at most).
 void expect_survives(const std::string& name, const std::function<void()>& read, int64_t may_keep = 0) {
     SCOPED_TRACE(name);
     int64_t left = 0;
@@ -77,7 +77,8 @@ TEST(MemoryFaults, ReadingAScene) {
     ASSERT_EQ(read_once(read, 0, left), Outcome::Read);
     const uint64_t allocations = vesper_fault_count();
     EXPECT_EQ(left, 0);
-    constexpr int64_t kMayKeep = 1;  // nlohmann::json 3.11 keeps a piece where the copy of a value fails (seen by backtrace)
+    constexpr int64_t kMayKeep =
+        1;  // nlohmann::json 3.11 keeps a piece where the copy of a value fails (seen by backtrace)
     size_t failures = 0, ended = 0;
     for (uint64_t at = 1; at <= allocations; at += 1 + at / 200) {
         const auto outcome = in_child([&] { return int(read_once(read, at, left)) + (left > kMayKeep ? 100 : 0); });
@@ -93,7 +94,9 @@ TEST(MemoryFaults, ReadingAScene) {
 }
 
 TEST(MemoryFaults, EveryReaderAndWriterReportsThem) {
-    expect_survives("photometry", [] { read_photometry(kDataFolder / "rivoli/rivoli.measured.photometry.json"); }, 16);  // has an EXR front
+    expect_survives(
+        "photometry", [] { read_photometry(kDataFolder / "rivoli/rivoli.measured.photometry.json"); },
+        16);  // has an EXR front
     expect_survives("IES", [] { read_distribution(kDataFolder / "photometry/street-lamp.ies"); });
     expect_survives("EULUMDAT", [] { read_distribution(kDataFolder / "road/luminaire.ldt"); });
     expect_survives("grid", [] { read_distribution(kDataFolder / "photometry/high-beam.csv"); });
@@ -101,18 +104,26 @@ TEST(MemoryFaults, EveryReaderAndWriterReportsThem) {
     expect_survives("road", [] { read_road(kDataFolder / "road/worked-example.json"); });
     expect_survives("OpenDRIVE", [] { roads::read_opendrive(kDataFolder / "rivoli/rivoli.xodr"); });
     expect_survives("world", [] { traffic::read_world(kDataFolder / "rivoli/rivoli.world.json"); });
-    expect_survives("OpenEXR", [] { read_hdr_image(kDataFolder / "rivoli/signs.exr"); }, 40);
+    expect_survives(
+        "OpenEXR", [] { read_hdr_image(kDataFolder / "rivoli/signs.exr"); }, 40);
     const TempFolder folder;
     write_png(folder / "x.png", 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
     expect_survives("PNG", [bytes = read_file(folder / "x.png", 1 << 20)] { decode_image(bytes, 100); });
     expect_survives("PNG written", [&] { write_png(folder / "y.png", 64, 64, std::vector<uint8_t>(64 * 64 * 4, 7)); });
-    expect_survives("OpenEXR written", [&] { write_exr(folder / "y.exr", 64, 64, std::vector<float>(64 * 64 * 4, 7), {{"name", "text"}}); }, 40);
+    expect_survives(
+        "OpenEXR written",
+        [&] {
+            write_exr(folder / "y.exr", 64, 64, std::vector<float>(64 * 64 * 4, 7), {{"name", "text"}});
+        },
+        40);
     folder.write("x.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n" + std::string(16, '\x80'));
     expect_survives("Radiance", [&] { read_hdr_image(folder / "x.hdr"); });
     folder.write("x.json", display_json({}, "a display"));
     expect_survives("display", [&] { read_display(folder / "x.json"); });
     const fs::path photograph = shared_data("malformed/image/jpeg/YCbCrK.jpg");
-    if (is_here(photograph)) expect_survives("JPEG", [bytes = read_file(photograph, 1 << 20)] { decode_image(bytes, 4096), read_exif(bytes); });
+    if (is_here(photograph))
+        expect_survives("JPEG",
+                        [bytes = read_file(photograph, 1 << 20)] { decode_image(bytes, 4096), read_exif(bytes); });
 }
 
 }  // namespace

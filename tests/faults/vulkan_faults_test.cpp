@@ -1,5 +1,5 @@
-// Every call of Vulkan fails once: one line is said, nothing is left behind, and where Vulkan allows it the next frame is as ever.
-// SPDX-License-Identifier: MIT
+// Every call of Vulkan fails once: one line is said, nothing is left behind, and where Vulkan allows it the next frame
+// is as ever. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdlib>
 
@@ -16,8 +16,8 @@ constexpr VkResult kFaults[]{VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_DEVICE_LOST
 
 constexpr uint64_t kTries = 15;  // of hundreds of calls, five with each result
 
-/// Faults tried: each of `faults` at every call where VESPER_EVERY_FAULT is set; else one of them in turn, at so many calls from the first to the last.
-/// Returns how many that were.
+/// Faults tried: each of `faults` at every call where VESPER_EVERY_FAULT is set; else one of them in turn, at so many
+/// calls from the first to the last. Returns how many that were.
 template <class Try>
 size_t every_fault(uint64_t calls, std::span<const VkResult> faults, const Try& attempt) {
     size_t tried = 0;
@@ -40,7 +40,10 @@ std::vector<uint8_t> render(Renderer& renderer, const Scene& scene, VkExtent2D e
     RenderSettings settings;
     settings.glare = Glare::Scatter;
     if (seconds == 0) renderer.reset_adaptation();
-    return renderer.render(settings, View::symmetric(extent, 0.4f, glm::mat4(1)), {world_transforms(scene, 0)}, seconds, {.display = true}).display;
+    return renderer
+        .render(settings, View::symmetric(extent, 0.4f, glm::mat4(1)), {world_transforms(scene, 0)}, seconds,
+                {.display = true})
+        .display;
 }
 
 /// Disarmed whatever happens.
@@ -60,7 +63,8 @@ TEST(VulkanFaults, EveryCallThatFailsEndsInALine) {
     std::string complaints;
     std::vector<uint8_t> good;
     const auto from_start = [&] {
-        Device device({.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
+        Device device(
+            {.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
         Renderer renderer(device, scene);
         return render(renderer, scene);
     };
@@ -83,14 +87,16 @@ TEST(VulkanFaults, EveryCallThatFailsEndsInALine) {
         EXPECT_EQ(complaints, "");
         complaints.clear();
     });
-    RecordProperty("failures", std::to_string(failures) + " of " + std::to_string(tried) + ", at " + std::to_string(calls) + " calls");
+    RecordProperty("failures", std::to_string(failures) + " of " + std::to_string(tried) + ", at " +
+                                   std::to_string(calls) + " calls");
     EXPECT_GT(failures, tried / 2);
 }
 
 TEST(VulkanFaults, AFrameThatFailedIsFollowedByAGoodOne) {
     const Scene scene = wall_with_a_lamp();
     std::string complaints;
-    Device device({.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
+    Device device(
+        {.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
     Renderer renderer(device, scene);
     // The eye goes on from the frame before the one that fails.
     const auto eye_after = [&] {

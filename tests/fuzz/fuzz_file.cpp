@@ -16,7 +16,8 @@ class Scratch {
 public:
     Scratch() {
         const fs::path shm = "/dev/shm";
-        folder_ = (fs::is_directory(shm) ? shm : fs::temp_directory_path()) / ("vesper-fuzz-" + std::to_string(::getpid()));
+        folder_ =
+            (fs::is_directory(shm) ? shm : fs::temp_directory_path()) / ("vesper-fuzz-" + std::to_string(::getpid()));
         fs::create_directories(folder_);
     }
     ~Scratch() {
@@ -35,7 +36,8 @@ FuzzTarget of_file(const std::string& name, const std::function<void(const fs::p
     return [=](Bytes bytes) {
         static const Scratch scratch;
         const fs::path file = scratch / name;
-        std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+        std::ofstream(file, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
         read(file);
     };
 }

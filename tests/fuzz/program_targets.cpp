@@ -43,12 +43,13 @@ struct Mapper {
     VesperDevice* device = nullptr;
     VesperToneMapper* mapper = nullptr;
     Mapper() {
-        if (vesper_device_open(nullptr, &device, nullptr) == VESPER_OK) vesper_tone_mapper_create(device, &mapper, nullptr);
+        if (vesper_device_open(nullptr, &device, nullptr) == VESPER_OK)
+            vesper_tone_mapper_create(device, &mapper, nullptr);
     }
 };
 
-// What a host could hand over: sound settings and a picture with some numbers that may be anything, behind pointers that point to
-// enough. Without a device there is no mapper, which is an answer.
+// What a host could hand over: sound settings and a picture with some numbers that may be anything, behind pointers
+// that point to enough. Without a device there is no mapper, which is an answer.
 void call_c_interface(Bytes bytes) {
     static const Mapper& open = *new Mapper;
     constexpr uint32_t kMostSide = 24;
@@ -61,8 +62,10 @@ void call_c_interface(Bytes bytes) {
     VesperToneSettings settings = VESPER_INIT(VesperToneSettings);
     vesper_tone_settings_defaults(&settings, sizeof settings);
     settings.tone_operator = from.next<uint8_t>() % 9, settings.glare = from.next<uint8_t>() % 7;
-    change(settings.tone_operator), change(settings.glare), change(settings.bins), change(settings.age), change(settings.pigmentation);
-    change(settings.gaze[0]), change(settings.gaze[1]), change(settings.colour_loss), change(settings.acuity_loss), change(settings.purkinje);
+    change(settings.tone_operator), change(settings.glare), change(settings.bins), change(settings.age),
+        change(settings.pigmentation);
+    change(settings.gaze[0]), change(settings.gaze[1]), change(settings.colour_loss), change(settings.acuity_loss),
+        change(settings.purkinje);
     change(settings.display_peak), change(settings.display_black), change(settings.display_ambient);
     VesperPicture picture = VESPER_INIT(VesperPicture);
     picture.width = from.next<uint8_t>() % kMostSide + 1, picture.height = from.next<uint8_t>() % kMostSide + 1;
@@ -83,7 +86,8 @@ void call_c_interface(Bytes bytes) {
     VesperError error;
     vesper_tone_mapper_reset(open.mapper, &error);
     vesper_tone_mapper_set_eye(open.mapper, eye.data(), eye.size(), &error);
-    if (vesper_tone_map(open.mapper, &settings, &picture, seconds, &outputs, &error) != VESPER_OK && !*error.message) throw std::runtime_error("an error without a message");
+    if (vesper_tone_map(open.mapper, &settings, &picture, seconds, &outputs, &error) != VESPER_OK && !*error.message)
+        throw std::runtime_error("an error without a message");
 }
 
 std::map<std::string, FuzzTarget> make_targets() {

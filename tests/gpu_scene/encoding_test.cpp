@@ -20,8 +20,8 @@ uint32_t code_in_cells(const Encoding& encoding, float light) {
     return uint32_t(light >= cell.r ? cell.b : cell.g);
 }
 
-/// Displayed light, relative, from which on each code but 0 is the nearest: that of a code half a step below it. Codes whose
-/// half a step is at the display's peak or beyond (PQ) are not needed.
+/// Displayed light, relative, from which on each code but 0 is the nearest: that of a code half a step below it. Codes
+/// whose half a step is at the display's peak or beyond (PQ) are not needed.
 std::vector<double> edges_of(const Display& display) {
     const DisplayCurve curve(display);
     const double black = double(display.black), peak = double(display.peak);
@@ -36,9 +36,11 @@ std::vector<double> edges_of(const Display& display) {
 /// Lights over all decades, evenly over [0, 1], and the floats beside every edge.
 std::vector<float> lights_about(const std::vector<double>& edges) {
     std::vector<float> lights{0, 1};
-    for (int i = 0; i <= 2000; ++i) lights.push_back(float(i) / 2000), lights.push_back(std::pow(10.0f, -12 * float(i) / 2000));
+    for (int i = 0; i <= 2000; ++i)
+        lights.push_back(float(i) / 2000), lights.push_back(std::pow(10.0f, -12 * float(i) / 2000));
     for (const double edge : edges)
-        if (edge > 0) lights.push_back(std::nextafter(float(edge), 0.0f)), lights.push_back(std::nextafter(float(edge), 1.0f));
+        if (edge > 0)
+            lights.push_back(std::nextafter(float(edge), 0.0f)), lights.push_back(std::nextafter(float(edge), 1.0f));
     return lights;
 }
 
@@ -50,13 +52,15 @@ TEST(Encoding, EveryLightHasItsNearestCode) {
     displays.push_back({.peak = 100, .black = 0, .eotf = Eotf::Pq});
     displays.push_back({.peak = 10000, .black = 0, .eotf = Eotf::Pq, .bits = 10});
     for (const Display& display : displays) {
-        SCOPED_TRACE("transfer function " + std::to_string(int(display.eotf)) + ", " + std::to_string(display.bits) + " bits, peak " + std::to_string(display.peak));
+        SCOPED_TRACE("transfer function " + std::to_string(int(display.eotf)) + ", " + std::to_string(display.bits) +
+                     " bits, peak " + std::to_string(display.peak));
         const Encoding encoding = make_encoding(display);
         EXPECT_EQ(encoding.push.bits, display.bits);
         const std::vector<double> edges = edges_of(display);
         size_t wrong = 0;
         for (const float light : lights_about(edges)) {
-            const auto want = std::count_if(edges.begin(), edges.end(), [&](double edge) { return edge <= double(light); });
+            const auto want =
+                std::count_if(edges.begin(), edges.end(), [&](double edge) { return edge <= double(light); });
             if (code_in_cells(encoding, light) != uint32_t(want)) ++wrong;
         }
         EXPECT_EQ(wrong, 0u);

@@ -1,4 +1,5 @@
-// The pattern as the device reads it: means keep its light, and the eye of a frame depends on its moment alone. SPDX-License-Identifier: MIT
+// The pattern as the device reads it: means keep its light, and the eye of a frame depends on its moment alone.
+// SPDX-License-Identifier: MIT
 #include "gpu_scene/eye_corona.h"
 
 #include <algorithm>
@@ -7,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "base/luminance.h"
-#include "vision/thresholds.h"
 #include "shared/corona.h"
 #include "shared/tone.h"
+#include "vision/thresholds.h"
 
 namespace vesper::test {
 namespace {
@@ -24,7 +25,8 @@ size_t first_of(uint32_t level) {
     return first;
 }
 
-// Texels are light times the square of the angle, so equal rows have equal solid angles: a mean of each level is all of its light.
+// Texels are light times the square of the angle, so equal rows have equal solid angles: a mean of each level is all of
+// its light.
 TEST(EyeCorona, EveryLevelHasTheSameLight) {
     CoronaCache cache;
     for (const auto model : {ScatterSettings::Model::Temporal, ScatterSettings::Model::Spencer}) {
@@ -51,11 +53,13 @@ TEST(EyeCorona, MeansAreSmoothAlongTheRadius) {
     const auto texels = cache.at({.model = ScatterSettings::Model::Temporal}, 1, 0).texels;
     constexpr uint32_t kLevel = 4, kWide = 1 << kLevel;
     const auto at = [&](int row, size_t texel) { return luminance(dvec3(texels[size_t(row) * kStride + texel])); };
-    double changes = 0, around = 0;  // squares of what changes from row to row: of the level, and of means of columns alone
+    double changes = 0,
+           around = 0;  // squares of what changes from row to row: of the level, and of means of columns alone
     for (int row = int(GlarePattern::row_of(0.2)); row < int(GlarePattern::row_of(1)); ++row)
         for (size_t i = 0; i < kColumns / kWide; ++i) {
             double here = 0, next = 0;
-            for (size_t k = 0; k < kWide; ++k) here += at(row, kWide * i + k) / kWide, next += at(row + 1, kWide * i + k) / kWide;
+            for (size_t k = 0; k < kWide; ++k)
+                here += at(row, kWide * i + k) / kWide, next += at(row + 1, kWide * i + k) / kWide;
             around += (next - here) * (next - here);
             changes += std::pow(at(row + 1, first_of(kLevel) + i) - at(row, first_of(kLevel) + i), 2);
         }
@@ -74,8 +78,10 @@ TEST(EyeCorona, TheEyeOfAFrameDependsOnItsMomentAlone) {
     // The pupil closes within half a second to what it adapts to, and is never at rest.
     EXPECT_NEAR(one.at(settings, 0, 0).pupil, pupil_moon_spencer(1), 0.6);
     EXPECT_NEAR(one.at(settings, 2.3, 5).pupil, 2.3, 0.6);
-    const double next = std::lerp(pupil_moon_spencer(1e3), double(shared::kFirstPupil), std::exp(-0.01 / double(shared::kPupilSeconds)));  // as glsl/adapt.comp leaves it
-    EXPECT_LT(std::abs(one.at(settings, next, 0.01).pupil - one.at(settings, 0, 0).pupil), 0.1) << "no step after the first frame";
+    const double next = std::lerp(pupil_moon_spencer(1e3), double(shared::kFirstPupil),
+                                  std::exp(-0.01 / double(shared::kPupilSeconds)));  // as glsl/adapt.comp leaves it
+    EXPECT_LT(std::abs(one.at(settings, next, 0.01).pupil - one.at(settings, 0, 0).pupil), 0.1)
+        << "no step after the first frame";
 }
 
 }  // namespace

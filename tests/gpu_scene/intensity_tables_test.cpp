@@ -43,8 +43,11 @@ void expect_every_value(const std::string& file) {
             const glm::uvec2 node(glm::round(at));
             const bool first = node.x == 0;  // the cell before the first nodes may be dark
             const glm::vec4 corners = cell(maps, map, std::max(node.x, 1u), std::max(node.y, 1u));
-            const double value = double(node.y == 0 ? (first ? corners.x : corners.y) : (first ? corners.z : corners.w)) * double(map.largest);
-            ASSERT_NEAR(value, d.at(h, v), d.at(h, v) * std::exp2(-22) + double(map.largest) * std::exp2(-24)) << azimuth << " " << polar;
+            const double value =
+                double(node.y == 0 ? (first ? corners.x : corners.y) : (first ? corners.z : corners.w)) *
+                double(map.largest);
+            ASSERT_NEAR(value, d.at(h, v), d.at(h, v) * std::exp2(-22) + double(map.largest) * std::exp2(-24))
+                << azimuth << " " << polar;
         }
 }
 
@@ -70,9 +73,12 @@ TEST(IntensityTables, GoOnAroundStayAtThePolesAndEndWhereTheTableEnds) {
 /// The frame of a measurement (shared/lamp.h): azimuth 0, azimuth 90 degrees, and the pole.
 glm::dmat3 frame_of(Goniometry goniometry) {
     switch (goniometry) {
-        case Goniometry::CGamma: return {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
-        case Goniometry::TypeA: return {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}};
-        case Goniometry::TypeB: break;
+        case Goniometry::CGamma:
+            return {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+        case Goniometry::TypeA:
+            return {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}};
+        case Goniometry::TypeB:
+            break;
     }
     return {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}};
 }
@@ -107,19 +113,24 @@ TEST(IntensityTables, NoWindowIsBelowAnyValueInItOrMuchAbove) {
         constexpr uint32_t kFine = 6;
         for (uint32_t r = 0; r < kFine * shared::kRings; ++r)
             for (uint32_t s = 0; s < kFine * shared::kSectors; ++s) {
-                const double polar = 2 * std::asin((r + 0.5) / (kFine * shared::kRings)), azimuth = (s + 0.5) / (kFine * shared::kSectors) * 2 * std::numbers::pi - std::numbers::pi;
+                const double polar = 2 * std::asin((r + 0.5) / (kFine * shared::kRings)),
+                             azimuth = (s + 0.5) / (kFine * shared::kSectors) * 2 * std::numbers::pi - std::numbers::pi;
                 double& largest = seen[r / kFine][s / kFine];
-                largest = std::max(largest, intensity(d, frame * glm::dvec3(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar))));
+                largest = std::max(
+                    largest, intensity(d, frame * glm::dvec3(std::sin(polar) * std::cos(azimuth),
+                                                             std::sin(polar) * std::sin(azimuth), std::cos(polar))));
             }
         for (size_t i = 0; i < rings.size(); ++i)
             for (size_t j = 0; j < sectors.size(); ++j) {
                 double largest = 0;
                 for (uint32_t r = rings[i].first; r < std::min(rings[i].first + rings[i].length, shared::kRings); ++r)
-                    for (uint32_t s = 0; s < sectors[j].length; ++s) largest = std::max(largest, seen[r][(sectors[j].first + s) % shared::kSectors]);
+                    for (uint32_t s = 0; s < sectors[j].length; ++s)
+                        largest = std::max(largest, seen[r][(sectors[j].first + s) % shared::kSectors]);
                 const double bound = bound_of(maps, i, j);
                 ASSERT_LE(largest, bound) << file << ", windows " << i << " and " << j;
                 if (rings[i].first + rings[i].length > shared::kRings) continue;  // never asked for
-                EXPECT_GE(1.5 * largest + 0.03 * largest_intensity(d), bound) << file << ", windows " << i << " and " << j << ": no use";
+                EXPECT_GE(1.5 * largest + 0.03 * largest_intensity(d), bound)
+                    << file << ", windows " << i << " and " << j << ": no use";
             }
     }
 }
@@ -132,7 +143,8 @@ glm::dvec3 direction(Goniometry goniometry, double horizontal, double vertical) 
     return {std::cos(v) * std::sin(h), std::sin(v), -std::cos(v) * std::cos(h)};
 }
 
-// A few bright values among dark ones, cells from a degree to half a turn: they bulge, hold the axis, its opposite or a pole, or lie behind.
+// A few bright values among dark ones, cells from a degree to half a turn: they bulge, hold the axis, its opposite or a
+// pole, or lie behind.
 TEST(IntensityTables, WindowsHoldCellsOfEverySize) {
     std::mt19937 random(1);
     const auto any = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
@@ -142,8 +154,10 @@ TEST(IntensityTables, WindowsHoldCellsOfEverySize) {
         while (step > high - low) step = steps[random() % 7];
         std::vector<double> made{low + step * std::floor(any(0, (high - low) / step))};
         for (int i = 0; i < 12 && (made.size() < 2 || any(0, 1) < 0.8); ++i)
-            if (made.back() + step <= high) made.push_back(made.back() + step);
-            else if (made.front() - step >= low) made.insert(made.begin(), made.front() - step);
+            if (made.back() + step <= high)
+                made.push_back(made.back() + step);
+            else if (made.front() - step >= low)
+                made.insert(made.begin(), made.front() - step);
         return made;
     };
     for (int turn = 0; turn < 300; ++turn) {
@@ -153,16 +167,21 @@ TEST(IntensityTables, WindowsHoldCellsOfEverySize) {
         d.horizontal = c ? std::vector<double>{0, 90, 180, 270, 360} : b ? angles(-90, 90) : angles(-180, 180);
         d.vertical = c ? angles(0, 180) : b ? angles(-180, 180) : angles(-90, 90);
         if (turn % 6 == 0) d.horizontal = {0};
-        for (size_t i = 0; i < d.horizontal.size() * d.vertical.size(); ++i) d.candela.push_back(any(0, 1) < 0.8 ? 0 : any(1, 100));
-        if (d.horizontal.size() == 5 && c) std::copy_n(d.candela.begin(), d.vertical.size(), d.candela.end() - std::ptrdiff_t(d.vertical.size()));
+        for (size_t i = 0; i < d.horizontal.size() * d.vertical.size(); ++i)
+            d.candela.push_back(any(0, 1) < 0.8 ? 0 : any(1, 100));
+        if (d.horizontal.size() == 5 && c)
+            std::copy_n(d.candela.begin(), d.vertical.size(), d.candela.end() - std::ptrdiff_t(d.vertical.size()));
         const IntensityTables maps = intensity_tables(with(d));
         const auto& map = maps.intensities.at(0);
         for (int i = 0; i < 3000 && map.largest > 0; ++i) {
-            const double h = any(d.horizontal.front(), d.horizontal.back()), v = any(d.vertical.front(), d.vertical.back());
+            const double h = any(d.horizontal.front(), d.horizontal.back()),
+                         v = any(d.vertical.front(), d.vertical.back());
             const glm::dvec3 to = direction(d.goniometry, h, v);
             const glm::dvec3 at = glm::transpose(frame_of(d.goniometry)) * to;
-            const auto ring = std::min(uint32_t(std::sqrt(std::max((1 - at.z) / 2, 0.0)) * shared::kRings), shared::kRings - 1);
-            const auto sector = std::min(uint32_t((std::atan2(at.y, at.x) / std::numbers::pi + 1) / 2 * shared::kSectors), shared::kSectors - 1);
+            const auto ring =
+                std::min(uint32_t(std::sqrt(std::max((1 - at.z) / 2, 0.0)) * shared::kRings), shared::kRings - 1);
+            const auto sector = std::min(
+                uint32_t((std::atan2(at.y, at.x) / std::numbers::pi + 1) / 2 * shared::kSectors), shared::kSectors - 1);
             ASSERT_LE(intensity(d, to), bound_of(maps, ring, sector)) << turn << ": " << h << ", " << v;
         }
     }
@@ -203,14 +222,17 @@ void expect_every_value(const IntensityTables& maps, size_t number, const Reflec
             ASSERT_NEAR(along, std::round(along), 1e-4);  // of a cell: floats round the head
             ASSERT_NEAR(across, std::round(across), 1e-9);
             const size_t cell = (size_t(std::round(along)) - 1) * size_t(road.columns) + size_t(std::round(across)) - 1;
-            const double value = reflectance_in_diffuse(extended(table)) / std::numbers::pi * double(maps.texels.at(road.first + cell).w);
-            ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-22)) << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
+            const double value = reflectance_in_diffuse(extended(table)) / std::numbers::pi *
+                                 double(maps.texels.at(road.first + cell).w);
+            ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-22))
+                << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
         }
 }
 
 TEST(IntensityTables, RoadsKeepEveryTabulatedValue) {
     Scene scene;
-    for (const std::string& name : standard_reflection_tables()) scene.reflection_tables.push_back(find_reflection_table(name));
+    for (const std::string& name : standard_reflection_tables())
+        scene.reflection_tables.push_back(find_reflection_table(name));
     const IntensityTables maps = intensity_tables(scene);
     for (size_t i = 0; i < scene.reflection_tables.size(); ++i) expect_every_value(maps, i, scene.reflection_tables[i]);
 }
@@ -236,7 +258,8 @@ TEST(IntensityTables, RoadsOfAnyBrightnessAreFinite) {
         check_reflection_table(scene.reflection_tables[0], "even");
         const IntensityTables maps = intensity_tables(scene);
         const float reflectance = reflectance_in_diffuse(rendered_table(scene, 0));
-        const double stands_for = double(maps.texels.at(road_cells(maps, 0).first).x) * double(reflectance) / std::numbers::pi;
+        const double stands_for =
+            double(maps.texels.at(road_cells(maps, 0).first).x) * double(reflectance) / std::numbers::pi;
         EXPECT_NEAR(stands_for / r, 1, 1e-5);
     }
 }

@@ -73,7 +73,8 @@ TEST(Luminaires, HoldsTheIlluminanceOfEveryKind) {
     std::normal_distribution<float> normal;
     int drawn = 0;
     for (int k = 0; k < 400; ++k) {
-        Lamp lamp = lamp_with_opening(300, 0.02 + 0.2 * unit(random), 0.02 + 0.2 * unit(random), k % 2 == 0, Lamp::Kind(k % 5));
+        Lamp lamp =
+            lamp_with_opening(300, 0.02 + 0.2 * unit(random), 0.02 + 0.2 * unit(random), k % 2 == 0, Lamp::Kind(k % 5));
         if (lamp.kind == Lamp::Kind::Directional) continue;
         lamp.inner_cone = 0.3f, lamp.outer_cone = 1.2f, lamp.distribution = 0, lamp.exponent = 2.5f;
         const float depth = 10 * std::pow(200.0f, unit(random));
@@ -81,7 +82,8 @@ TEST(Luminaires, HoldsTheIlluminanceOfEveryKind) {
         const glm::mat4 placed = aimed(position, {normal(random), normal(random), normal(random)});
         const glm::mat4 world = glm::scale(placed, glm::vec3(1 + 3 * unit(random)));
         const dvec3 eye = -dvec3(position);
-        const glm::dmat3 axes(glm::normalize(dvec3(world[0])), glm::normalize(dvec3(world[1])), glm::normalize(dvec3(world[2])));
+        const glm::dmat3 axes(glm::normalize(dvec3(world[0])), glm::normalize(dvec3(world[1])),
+                              glm::normalize(dvec3(world[2])));
         const std::vector<Distribution> distributions{beam};
         const double wanted = luminous_intensity(lamp, distributions, glm::transpose(axes) * eye) / glm::dot(eye, eye);
         const double got = at_eye(lamp, world, distributions);
@@ -159,9 +161,11 @@ TEST(Luminaires, WhatCannotBeSeenIsLeftOut) {
 // It comes in without a step: half of it at the edge, a quarter in a corner.
 TEST(Luminaires, LampsWithoutOpeningComeInGradually) {
     const double edge = double(kView.tangent_high.x), top = double(kView.tangent_high.y);
-    for (const auto& [x, y, inside] : {std::tuple{-0.3, 0.0, 1.0}, {0.0, 0.0, 0.5}, {-0.1, 0.0, 0.75}, {0.3, 0.0, 0.0}, {0.0, 10 * top, 0.25}}) {
+    for (const auto& [x, y, inside] :
+         {std::tuple{-0.3, 0.0, 1.0}, {0.0, 0.0, 0.5}, {-0.1, 0.0, 0.75}, {0.3, 0.0, 0.0}, {0.0, 10 * top, 0.25}}) {
         Lamps lamps;
-        lamps.add(lamp_with_opening(90, 0, 0, false, Lamp::Kind::Point), aimed({float(10 * edge + x), float(y), -10}, {0, 0, 1}));
+        lamps.add(lamp_with_opening(90, 0, 0, false, Lamp::Kind::Point),
+                  aimed({float(10 * edge + x), float(y), -10}, {0, 0, 1}));
         const LuminaireList list = lamps.seen(kView);
         ASSERT_EQ(list.glare_sources.size(), 1u);
         EXPECT_NEAR(list.glare_sources[0].inside, inside, 1e-5) << x << " " << y;
@@ -173,7 +177,8 @@ TEST(Luminaires, LampsWithoutOpeningDazzleAsPoints) {
     for (const Lamp::Kind kind : {Lamp::Kind::Point, Lamp::Kind::CosinePower}) {
         Lamps lamps;
         for (const double side : {0.0, 0.2})
-            for (const glm::vec3 at : {glm::vec3(0, 0, -10), {20, 3, -10}, {1, 0, 10}}) lamps.add(lamp_with_opening(90, side, side, false, kind), aimed(at, -at));
+            for (const glm::vec3 at : {glm::vec3(0, 0, -10), {20, 3, -10}, {1, 0, 10}})
+                lamps.add(lamp_with_opening(90, side, side, false, kind), aimed(at, -at));
         const LuminaireList list = lamps.seen(kView);
         EXPECT_EQ(list.luminaires.size(), 1u);
         ASSERT_EQ(list.glare_sources.size(), 4u);
@@ -183,7 +188,10 @@ TEST(Luminaires, LampsWithoutOpeningDazzleAsPoints) {
             EXPECT_EQ(point.inside, i == 0 ? 1 : 0);
             EXPECT_EQ(opening.inside, point.inside);
             EXPECT_LT(glm::distance(point.direction, opening.direction), 1e-12);
-            EXPECT_NEAR(point.illuminance.g, 90 / glm::dot(dvec3(i == 0 ? 0 : 20, i == 0 ? 0 : 3, 10), dvec3(i == 0 ? 0 : 20, i == 0 ? 0 : 3, 10)), 1e-6);
+            EXPECT_NEAR(
+                point.illuminance.g,
+                90 / glm::dot(dvec3(i == 0 ? 0 : 20, i == 0 ? 0 : 3, 10), dvec3(i == 0 ? 0 : 20, i == 0 ? 0 : 3, 10)),
+                1e-6);
             EXPECT_EQ(point.illuminance, opening.illuminance);
         }
     }

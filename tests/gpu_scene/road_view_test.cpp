@@ -31,7 +31,8 @@ TEST(RoadView, HoldsEveryPointOfTheGrid) {
             for (const double x : field.x)
                 for (const double y : field.y) {
                     const glm::dvec2 place = project(view, {x, y, 0});
-                    EXPECT_TRUE(place.x > 1 && place.y > 1 && place.x < view.extent.width - 1 && place.y < view.extent.height - 1)
+                    EXPECT_TRUE(place.x > 1 && place.y > 1 && place.x < view.extent.width - 1 &&
+                                place.y < view.extent.height - 1)
                         << x << " " << y;
                     const glm::dvec2 back = on_road(view, observer, place);
                     EXPECT_NEAR(back.x, x, 2e-3);
@@ -69,7 +70,8 @@ TEST(RoadView, OverviewHasSquarePixelsAndTheHorizon) {
     const View view = road_overview(road, observer, 800);
     EXPECT_NEAR(view.ray_scale().x / -view.ray_scale().y, 1, 0.01);
     EXPECT_GT(view.tangent_high.y, 0);
-    const glm::dvec2 middle = project(view, {1e6, observer.eye.y, 0}), left = project(view, {0, 7, 0}), right = project(view, {0, 0, 0});
+    const glm::dvec2 middle = project(view, {1e6, observer.eye.y, 0}), left = project(view, {0, 7, 0}),
+                     right = project(view, {0, 0, 0});
     EXPECT_GT(left.x, 0);
     EXPECT_LT(right.x, 800);
     EXPECT_LT(left.x, middle.x);
@@ -87,7 +89,8 @@ TEST(RoadView, ReadsBetweenCentresOfPixels) {
         }
     for (const glm::dvec2 place : {glm::dvec2(0.5, 0.5), glm::dvec2(2.25, 1.75), glm::dvec2(4.2, 3.3)})
         EXPECT_NEAR(luminance_at(rgba, extent, place), 1 + 2 * place.x + 3 * place.y, 1e-5);
-    for (const glm::dvec2 place : {glm::dvec2(0.4, 2), glm::dvec2(4.6, 2), glm::dvec2(2, 0), glm::dvec2(2, 3.8), glm::dvec2(NAN, 1)})
+    for (const glm::dvec2 place :
+         {glm::dvec2(0.4, 2), glm::dvec2(4.6, 2), glm::dvec2(2, 0), glm::dvec2(2, 3.8), glm::dvec2(NAN, 1)})
         EXPECT_TRUE(std::isnan(luminance_at(rgba, extent, place)));
     rgba[4 * (5 * 1 + 2)] = 1e6f;  // red counts by 0.212639
     EXPECT_NEAR(luminance_at(rgba, extent, {2.5, 1.5}), 0.212639e6 + 0.787361 * 10.5, 1);

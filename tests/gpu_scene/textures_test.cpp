@@ -24,20 +24,24 @@ Level leaves(uint32_t side, float radius, uint32_t apart) {
 /// Of a level's area, seen through a linear filter with its picture repeated.
 double covered(const Level& level, float cutoff) {
     constexpr uint32_t kSteps = 8;
-    const auto opacity = [&](uint32_t x, uint32_t y) { return level.rgba[(size_t(y % level.height) * level.width + x % level.width) * 4 + 3]; };
+    const auto opacity = [&](uint32_t x, uint32_t y) {
+        return level.rgba[(size_t(y % level.height) * level.width + x % level.width) * 4 + 3];
+    };
     size_t count = 0;
     for (uint32_t j = 0; j < level.height * kSteps; ++j)
         for (uint32_t i = 0; i < level.width * kSteps; ++i) {
             const uint32_t x = i / kSteps, y = j / kSteps;
             const float u = float(i % kSteps) / kSteps, v = float(j % kSteps) / kSteps;
-            count += std::lerp(std::lerp(opacity(x, y), opacity(x + 1, y), u), std::lerp(opacity(x, y + 1), opacity(x + 1, y + 1), u), v) >= cutoff;
+            count += std::lerp(std::lerp(opacity(x, y), opacity(x + 1, y), u),
+                               std::lerp(opacity(x, y + 1), opacity(x + 1, y + 1), u), v) >= cutoff;
         }
     return double(count) / (double(level.width) * level.height * kSteps * kSteps);
 }
 
 // What is not there gives no colour and takes none; what is there keeps its area down to the smallest level.
 TEST(MaskedLevels, KeepColourAndArea) {
-    for (const auto& [side, radius, apart] : {std::tuple(128u, 9.0f, 32u), std::tuple(128u, 3.0f, 16u), std::tuple(96u, 10.0f, 24u), std::tuple(64u, 28.0f, 64u)})
+    for (const auto& [side, radius, apart] : {std::tuple(128u, 9.0f, 32u), std::tuple(128u, 3.0f, 16u),
+                                              std::tuple(96u, 10.0f, 24u), std::tuple(64u, 28.0f, 64u)})
         for (const float cutoff : {0.3f, 0.5f}) {
             const Level base = leaves(side, radius, apart);
             const double part = covered(base, cutoff);
@@ -51,7 +55,8 @@ TEST(MaskedLevels, KeepColourAndArea) {
                     ASSERT_NEAR(level.rgba[i + 2], 0.05f, 1e-6f) << level.width;
                     ASSERT_LE(level.rgba[i + 3], 1.0f);
                 }
-                // A tenth of the whole: the scale ends where opacities do, at 1, and a texel of the smallest level is a hundredth.
+                // A tenth of the whole: the scale ends where opacities do, at 1, and a texel of the smallest level is a
+                // hundredth.
                 EXPECT_NEAR(covered(level, cutoff), part, 0.1) << level.width << " of " << side << ", " << radius;
             }
         }

@@ -166,7 +166,11 @@ TEST(FrameGraphErrors, ArgumentsThatAreNone) {
     f.compute("write", {store(arguments)});
     expect_error([&] { dispatch({image, 0}); }, "pass 'd' reads arguments from the image 'image'");
     expect_error([&] { dispatch({arguments, 2}); }, "pass 'd' reads arguments at byte 2 of 'arguments'");
-    expect_error([&] { dispatch({arguments, 24}); }, "pass 'd' reads arguments at byte 24 of 'arguments', which has 32");
+    expect_error(
+        [&] {
+            dispatch({arguments, 24});
+        },
+        "pass 'd' reads arguments at byte 24 of 'arguments', which has 32");
     expect_error([&] { dispatch({Resource{99}, 0}); }, "pass 'd' has no valid resource as arguments");
     EXPECT_NO_THROW(dispatch({arguments, 20}));
 }
@@ -202,13 +206,16 @@ TEST(FrameGraphErrors, Targets) {
 
 TEST(FrameGraphErrors, CopiesAndClears) {
     DeclaredFrame f;
-    const Resource image = f.image("image"), other = f.image("other"), small = f.graph.transient("small", image_shape(VK_FORMAT_R8G8B8A8_UNORM, {8, 4})), odd = f.buffer("odd", 10);
+    const Resource image = f.image("image"), other = f.image("other"),
+                   small = f.graph.transient("small", image_shape(VK_FORMAT_R8G8B8A8_UNORM, {8, 4})),
+                   odd = f.buffer("odd", 10);
     const Resource exact = f.graph.readback("exact", 64 * 32 * 4), short_ = f.graph.readback("short", 100);
     f.compute("write", {store(image), store(odd)});
     expect_error([&] { f.graph.copy("c", image, short_); },
                  "pass 'c' copies 8192 bytes of 'image' to 'short', which has 100");
     expect_error([&] { f.graph.copy("c", odd, exact); }, "copies 10 bytes of 'odd' to 'exact', which has 8192");
-    expect_error([&] { f.graph.copy("c", image, small); }, "copies the image 'image' to the image 'small' of another extent");
+    expect_error([&] { f.graph.copy("c", image, small); },
+                 "copies the image 'image' to the image 'small' of another extent");
     expect_error([&] { f.graph.clear("c", image); }, "pass 'c' clears the image 'image'");
     expect_error([&] { f.graph.clear("c", odd); }, "not a multiple of 4 bytes");
     EXPECT_NO_THROW(f.graph.copy("c", image, exact));

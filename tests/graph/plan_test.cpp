@@ -169,7 +169,8 @@ TEST(Plan, TargetsAreClearedOnTheirFirstUseOnly) {
 TEST(Plan, CountsWhatEachPassMoves) {
     DeclaredFrame f;
     const Resource lamps = f.graph.upload("lamps", std::vector<uint32_t>{1, 2, 3});
-    const Resource surface = f.image("surface"), z = f.image("z", VK_FORMAT_D32_SFLOAT), scene = f.image("scene", VK_FORMAT_R16G16B16A16_SFLOAT);
+    const Resource surface = f.image("surface"), z = f.image("z", VK_FORMAT_D32_SFLOAT),
+                   scene = f.image("scene", VK_FORMAT_R16G16B16A16_SFLOAT);
     const Resource counts = f.buffer("counts", 100), pixels = f.graph.readback("pixels", 16384);
     f.graph.keep(counts);
     f.draw("near", {color(surface), depth(z)});
@@ -180,12 +181,9 @@ TEST(Plan, CountsWhatEachPassMoves) {
     f.graph.copy("read back", scene, pixels);
     const Plan plan = f.plan();
     constexpr uint64_t kSurface = 64 * 32 * 4, kDepth = kSurface, kScene = 64 * 32 * 8;
-    const uint64_t expected[][2]{{0, kSurface + kDepth},
-                                 {kSurface + kDepth, kSurface + kDepth},
-                                 {kSurface + 12, kScene},
-                                 {0, 100},
-                                 {kScene + 100, 100},
-                                 {kScene, kScene}};
+    const uint64_t expected[][2]{{0, kSurface + kDepth},  {kSurface + kDepth, kSurface + kDepth},
+                                 {kSurface + 12, kScene}, {0, 100},
+                                 {kScene + 100, 100},     {kScene, kScene}};
     ASSERT_EQ(plan.steps.size(), std::size(expected));
     for (size_t i = 0; i < std::size(expected); ++i) {
         EXPECT_EQ(plan.steps[i].bytes_read, expected[i][0]) << i;

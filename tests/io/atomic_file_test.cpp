@@ -92,8 +92,14 @@ TEST(AtomicFile, ReadsRegularFilesUpToALimit) {
 TEST(AtomicFile, MakesMessagesOneLine) {
     EXPECT_EQ(one_line("a\nb\tc"), "a?b?c");
     EXPECT_EQ(one_line("caf\xc3\xa9 \xe2\x9d\xa4 \xf0\x9f\x92\xa1"), "caf\xc3\xa9 \xe2\x9d\xa4 \xf0\x9f\x92\xa1");
-    EXPECT_EQ(one_line("\xff" "a\xc3"), "?a?") << "no UTF-8";
-    EXPECT_EQ(one_line("\xc2\x9b" "1m\xc0\x9b\xed\xa0\x80\xf4\x90\x80\x80"), "??1m" + std::string(9, '?')) << "a control character of two bytes, overlong, surrogate, beyond U+10FFFF";
+    EXPECT_EQ(one_line("\xff"
+                       "a\xc3"),
+              "?a?")
+        << "no UTF-8";
+    EXPECT_EQ(one_line("\xc2\x9b"
+                       "1m\xc0\x9b\xed\xa0\x80\xf4\x90\x80\x80"),
+              "??1m" + std::string(9, '?'))
+        << "a control character of two bytes, overlong, surrogate, beyond U+10FFFF";
     EXPECT_EQ(one_line(std::string(400, 'x')), std::string(300, 'x') + "...");
     EXPECT_EQ(one_line(std::string(299, 'x') + "❤❤"), std::string(299, 'x') + "...");  // cut between characters
 }

@@ -163,14 +163,18 @@ TEST(HdrExr, ReadsLayersByName) {
 }
 
 /// Luminance of every pixel and chroma of every `step`-th, as floats.
-void write_yc(const fs::path& file, Imf::Header header, std::vector<float> y, std::vector<float> ry, std::vector<float> by, int step) {
+void write_yc(const fs::path& file, Imf::Header header, std::vector<float> y, std::vector<float> ry,
+              std::vector<float> by, int step) {
     const Imath::Box2i w = header.dataWindow();
     const int width = w.max.x - w.min.x + 1, height = w.max.y - w.min.y + 1;
     Imf::FrameBuffer frame;
     const auto add = [&](const char* name, std::vector<float>& values, int s) {
         header.channels().insert(name, Imf::Channel(Imf::FLOAT, s, s));
         const auto row = std::ptrdiff_t(sizeof(float)) * (width / s);
-        frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()) - std::ptrdiff_t(sizeof(float)) * (w.min.x / s) - row * (w.min.y / s), sizeof(float), size_t(row), s, s));
+        frame.insert(name, Imf::Slice(Imf::FLOAT,
+                                      reinterpret_cast<char*>(values.data()) -
+                                          std::ptrdiff_t(sizeof(float)) * (w.min.x / s) - row * (w.min.y / s),
+                                      sizeof(float), size_t(row), s, s));
     };
     add("Y", y, 1), add("RY", ry, step), add("BY", by, step);
     Imf::OutputFile out(file.c_str(), header);
@@ -178,8 +182,8 @@ void write_yc(const fs::path& file, Imf::Header header, std::vector<float> y, st
     out.writePixels(height);
 }
 
-// Chroma that is the same everywhere has nothing between its pixels: R = (RY + 1) Y, B = (BY + 1) Y, and the luminance is that of
-// the file, to the last bits of a float. Halves would lose 5e-4.
+// Chroma that is the same everywhere has nothing between its pixels: R = (RY + 1) Y, B = (BY + 1) Y, and the luminance
+// is that of the file, to the last bits of a float. Halves would lose 5e-4.
 TEST(HdrExr, ChromaKeepsTheWholeLuminance) {
     const TempFolder folder;
     for (const int step : {1, 2}) {
@@ -187,7 +191,8 @@ TEST(HdrExr, ChromaKeepsTheWholeLuminance) {
         std::vector<float> y;
         for (int i = 0; i < width * height; ++i) y.push_back(1e5f + float(i) * 0.25f);
         const std::vector<float> ry(y.size() / size_t(step * step), 0.25f), by(ry.size(), -0.5f);
-        Imf::Header header(Imath::Box2i{{0, 0}, {width - 1, height - 1}}, Imath::Box2i{{-2, 4}, {width - 3, height + 3}});
+        Imf::Header header(Imath::Box2i{{0, 0}, {width - 1, height - 1}},
+                           Imath::Box2i{{-2, 4}, {width - 3, height + 3}});
         write_yc(folder / "yc.exr", header, y, ry, by, step);
         const HdrImage image = read_exr(folder / "yc.exr");
         for (int v = 0; v < height; ++v)
@@ -197,7 +202,8 @@ TEST(HdrExr, ChromaKeepsTheWholeLuminance) {
                 const double Y = inside ? double(y[size_t((v - 4) * width + u + 2)]) : 0;
                 ASSERT_NEAR(rgb[0], 1.25 * Y, 3e-6 * Y) << u << ", " << v;  // the filter's weights have six digits
                 ASSERT_NEAR(rgb[2], 0.5 * Y, 3e-6 * Y);
-                ASSERT_NEAR(0.212639 * double(rgb[0]) + 0.715169 * double(rgb[1]) + 0.072192 * double(rgb[2]), Y, 3e-6 * Y);  // weights have six digits
+                ASSERT_NEAR(0.212639 * double(rgb[0]) + 0.715169 * double(rgb[1]) + 0.072192 * double(rgb[2]), Y,
+                            3e-6 * Y);  // weights have six digits
             }
     }
     const std::vector<float> y(64, 1.0f), few(4, 0.0f);
@@ -266,13 +272,17 @@ TEST(HdrExr, ConvertsPrimariesToRec709) {
 // X, Y and Z in no layer are colours, in a layer or a named part normals or places: no picture.
 TEST(HdrExr, TellsTristimulusValuesFromVectors) {
     const TempFolder folder;
-    write(folder / "xyz.exr", Imf::Header(2, 1), {0.950456f, 1.0f, 1.089058f, 0.412391f, 0.212639f, 0.019331f}, {"X", "Y", "Z"});
+    write(folder / "xyz.exr", Imf::Header(2, 1), {0.950456f, 1.0f, 1.089058f, 0.412391f, 0.212639f, 0.019331f},
+          {"X", "Y", "Z"});
     expect_values(read_exr(folder / "xyz.exr"), {1, 1, 1, 1, 0, 0}, 3e-4);
-    write(folder / "render.exr", Imf::Header(1, 1), {1, 2, 3, 9, 9, 9}, {"View.Combined.R", "View.Combined.G", "View.Combined.B", "View.Normal.X", "View.Normal.Y", "View.Normal.Z"});
+    write(folder / "render.exr", Imf::Header(1, 1), {1, 2, 3, 9, 9, 9},
+          {"View.Combined.R", "View.Combined.G", "View.Combined.B", "View.Normal.X", "View.Normal.Y", "View.Normal.Z"});
     expect_values(read_exr(folder / "render.exr"), {1, 2, 3});
-    expect_values(read_exr(folder / "render.exr", {}, "View.Normal"), {9 * 1.2048f, 9 * 0.9483f, 9 * 0.9088f}, 1e-3);  // who asks for it has CIE values
+    expect_values(read_exr(folder / "render.exr", {}, "View.Normal"), {9 * 1.2048f, 9 * 0.9483f, 9 * 0.9088f},
+                  1e-3);  // who asks for it has CIE values
     write(folder / "normal.exr", Imf::Header(1, 1), {9, 9, 9}, {"N.X", "N.Y", "N.Z"});
-    EXPECT_TRUE(contains(refusal(folder / "normal.exr"), "no channels R, G, B or Y of a picture; it has N.X, N.Y, N.Z"));
+    EXPECT_TRUE(
+        contains(refusal(folder / "normal.exr"), "no channels R, G, B or Y of a picture; it has N.X, N.Y, N.Z"));
 }
 
 TEST(HdrExr, ReadsOurOwnWithHeaderAndUnit) {
@@ -287,7 +297,8 @@ TEST(HdrExr, ReadsOurOwnWithHeaderAndUnit) {
               image.header.end());
     write(folder / "y.exr", Imf::Header(1, 1), {1, 1, 1});
     EXPECT_EQ(read_hdr_image(folder / "y.exr").white_luminance, 0.0);
-    for (const float white : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), -5.0f, 1e20f, 0.0f, 80.0f}) {
+    for (const float white :
+         {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), -5.0f, 1e20f, 0.0f, 80.0f}) {
         Imf::Header header(1, 1);
         Imf::addWhiteLuminance(header, white);
         write(folder / "z.exr", header, {1, 1, 1});
@@ -350,8 +361,8 @@ TEST(HdrExr, FewDataFillNoHugePicture) {
     EXPECT_TRUE(contains(refusal(folder / "x.exr"), "its data cover 4 x 3 pixels"));
 }
 
-// OpenEXR reads a value by its type and goes on after that, wherever the file says that it ends: what it then takes for the next one's size
-// may be gigabytes.
+// OpenEXR reads a value by its type and goes on after that, wherever the file says that it ends: what it then takes for
+// the next one's size may be gigabytes.
 TEST(HdrExr, ValuesInHeadersAreAsLongAsTheirTypes) {
     const TempFolder folder;
     Imf::Header header(9, 5);
@@ -365,7 +376,8 @@ TEST(HdrExr, ValuesInHeadersAreAsLongAsTheirTypes) {
     write(folder / "x.exr", header, ramp(9, 5));
     EXPECT_EQ(refusal(folder / "x.exr"), "");
     const std::vector<uint8_t> whole = read_file(folder / "x.exr", 1 << 20);
-    for (const std::string type : {"int", "m44f", "stringvector", "floatvector", "preview", "chlist", "compression", "box2i", "v2f", "float", "lineOrder"}) {
+    for (const std::string type : {"int", "m44f", "stringvector", "floatvector", "preview", "chlist", "compression",
+                                   "box2i", "v2f", "float", "lineOrder"}) {
         const std::string mark = '\0' + type + '\0';
         const auto found = std::find_end(whole.begin(), whole.end(), mark.begin(), mark.end());
         ASSERT_NE(found, whole.end()) << type;
@@ -393,7 +405,8 @@ TEST(HdrExr, SurvivesCutAndChangedFiles) {
     write(folder / "x.exr", Imf::Header(9, 5), ramp(9, 5), {"a.R", "a.G", "a.B"});
     expect_survives(folder, folder / "x.exr", false);
     const std::vector<float> y(32 * 40, 3.0f), c(y.size() / 4, 0.5f);
-    for (const auto compression : {Imf::NO_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::B44_COMPRESSION}) {
+    for (const auto compression :
+         {Imf::NO_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::B44_COMPRESSION}) {
         Imf::Header header(32, 40);
         header.compression() = compression;
         write_yc(folder / "x.exr", header, y, c, c, 2);

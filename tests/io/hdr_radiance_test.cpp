@@ -46,8 +46,9 @@ TEST(HdrRadiance, ReadsPlainPixelsAndBothKindsOfRuns) {
 // The six pixels of a picture 3 wide and 2 high, its rows 1 2 3 and 4 5 6, in the order of every resolution line.
 TEST(HdrRadiance, ReadsEveryOrderOfPixels) {
     const std::pair<const char*, std::array<int, 6>> orders[]{
-        {"-Y 2 +X 3", {1, 2, 3, 4, 5, 6}}, {"-Y 2 -X 3", {3, 2, 1, 6, 5, 4}}, {"+Y 2 +X 3", {4, 5, 6, 1, 2, 3}}, {"+Y 2 -X 3", {6, 5, 4, 3, 2, 1}},
-        {"+X 3 -Y 2", {1, 4, 2, 5, 3, 6}}, {"+X 3 +Y 2", {4, 1, 5, 2, 6, 3}}, {"-X 3 -Y 2", {3, 6, 2, 5, 1, 4}}, {"-X 3 +Y 2", {6, 3, 5, 2, 4, 1}}};
+        {"-Y 2 +X 3", {1, 2, 3, 4, 5, 6}}, {"-Y 2 -X 3", {3, 2, 1, 6, 5, 4}}, {"+Y 2 +X 3", {4, 5, 6, 1, 2, 3}},
+        {"+Y 2 -X 3", {6, 5, 4, 3, 2, 1}}, {"+X 3 -Y 2", {1, 4, 2, 5, 3, 6}}, {"+X 3 +Y 2", {4, 1, 5, 2, 6, 3}},
+        {"-X 3 -Y 2", {3, 6, 2, 5, 1, 4}}, {"-X 3 +Y 2", {6, 3, 5, 2, 4, 1}}};
     for (const auto& [line, order] : orders) {
         std::string pixels;
         for (const int value : order) pixels += std::string(3, char(10 * value)) + char(130);
@@ -64,8 +65,10 @@ TEST(HdrRadiance, UndoesExposureAndPrimaries) {
     const HdrImage exposed = radiance(kRgbe + "EXPOSURE=4\nGAMMA=1\nEXPOSURE= 0.5 \n", one);
     expect_values(exposed, {rgbe(128, 128), rgbe(64, 128), rgbe(32, 128)});
     EXPECT_EQ(exposed.header.size(), 4u);
-    expect_values(radiance(kRgbe + "COLORCORR= 2 1 0.5\nCOLORCORR=1 1 0.5\n", one), {rgbe(128, 128), rgbe(64, 129), rgbe(32, 131)}, 1e-6);
-    expect_values(radiance("#?RADIANCE\nFORMAT= 32-bit_rle_rgbe \n", one), {rgbe(128, 129), rgbe(64, 129), rgbe(32, 129)});
+    expect_values(radiance(kRgbe + "COLORCORR= 2 1 0.5\nCOLORCORR=1 1 0.5\n", one),
+                  {rgbe(128, 128), rgbe(64, 129), rgbe(32, 131)}, 1e-6);
+    expect_values(radiance("#?RADIANCE\nFORMAT= 32-bit_rle_rgbe \n", one),
+                  {rgbe(128, 129), rgbe(64, 129), rgbe(32, 129)});
     EXPECT_EQ(exposed.white_luminance, 0.0);
     const Values plain = {rgbe(128, 129), rgbe(64, 129), rgbe(32, 129)};
     expect_values(radiance(kRgbe + "PRIMARIES=0 0 0 0 0 0 0 0\n", one), plain);
@@ -82,13 +85,16 @@ TEST(HdrRadiance, UndoesExposureAndPrimaries) {
                   1e-3);
 }
 
-// Colours of Radiance's own programs weigh 0.265, 0.670 and 0.065 in luminance (color.h: 0.26507, 0.67013, 0.06480), those of others as Rec. 709.
+// Colours of Radiance's own programs weigh 0.265, 0.670 and 0.065 in luminance (color.h: 0.26507, 0.67013, 0.06480),
+// those of others as Rec. 709.
 TEST(HdrRadiance, PrimariesAreRadiancesOwnWhereItsProgramsMadeThePicture) {
     const auto luminances = [](const std::string& header) {
         const std::string three("\x80\0\0\x88\0\x80\0\x88\0\0\x80\x88", 12);
         const HdrImage image = radiance(header, "\n-Y 1 +X 3\n" + three);
         Values found;
-        for (size_t i = 0; i < 9; i += 3) found.push_back(float(0.212639 * double(image.rgb[i]) + 0.715169 * double(image.rgb[i + 1]) + 0.072192 * double(image.rgb[i + 2])));
+        for (size_t i = 0; i < 9; i += 3)
+            found.push_back(float(0.212639 * double(image.rgb[i]) + 0.715169 * double(image.rgb[i + 1]) +
+                                  0.072192 * double(image.rgb[i + 2])));
         return found;
     };
     // 128.5 of one channel, 0.5 of the others.
@@ -98,20 +104,25 @@ TEST(HdrRadiance, PrimariesAreRadiancesOwnWhereItsProgramsMadeThePicture) {
     const Values own = mixed(0.26507, 0.67013, 0.06480), rec709 = mixed(0.212639, 0.715169, 0.072192);
     const auto expect = [&](const std::string& header, const Values& wanted) {
         const Values found = luminances(header);
-        for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 2e-4 * double(wanted[c])) << header;  // the weights have five digits
+        for (size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(found[c], wanted[c], 2e-4 * double(wanted[c])) << header;  // the weights have five digits
     };
     expect(kRgbe, rec709);
     for (const char* other : {"GAMMA=1\nSOFTWARE=a camera\n", "hdrmerge a b\n", "\"\n"}) expect(kRgbe + other, rec709);
     expect(kRgbe + "VIEW= -vtv -vv 20\n", own);
     expect(kRgbe + "SOFTWARE= RADIANCE 5.4a\n", own);
-    for (const char* command : {"rpict -vf a.vf scene.oct\n", "\t/usr/local/bin/pfilt -1\n", "\trtrace -x 3\n", "rmtxop -fc a b\n", "\"C:\\Program Files\\Radiance\\bin\\rpict.exe\" a.oct\n"}) expect(kRgbe + command, own);
+    for (const char* command : {"rpict -vf a.vf scene.oct\n", "\t/usr/local/bin/pfilt -1\n", "\trtrace -x 3\n",
+                                "rmtxop -fc a b\n", "\"C:\\Program Files\\Radiance\\bin\\rpict.exe\" a.oct\n"})
+        expect(kRgbe + command, own);
     expect(kRgbe + "VIEW= -vtv\nPRIMARIES=.64 .33 .3 .6 .15 .06 .3127 .3290\n", rec709);
     expect(kRgbe + "PRIMARIES=0 0 0 0 0 0 0 0\nrpict scene.oct\n", own);
 }
 
 // lm/sr/m^2 where RGBE has W/sr/m^2: the unit is known.
 TEST(HdrRadiance, XyzeIsInCandelas) {
-    EXPECT_EQ(radiance("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n", std::string("\n-Y 1 +X 1\n\x80\x40\x20\x81", 15)).white_luminance, 1.0);
+    EXPECT_EQ(radiance("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n", std::string("\n-Y 1 +X 1\n\x80\x40\x20\x81", 15))
+                  .white_luminance,
+              1.0);
     EXPECT_EQ(radiance(kRgbe, std::string("\n-Y 1 +X 1\n\x80\x40\x20\x81", 15)).white_luminance, 0.0);
 }
 
@@ -130,10 +141,13 @@ TEST(HdrRadiance, RefusesWithAReason) {
     EXPECT_TRUE(contains(reason(kRgbe + "EXPOSURE=0\n\n-Y 1 +X 1\nabcd"), "EXPOSURE"));
     for (const char* each : {"1e300", "1e-300"}) {
         const std::string line = std::string("EXPOSURE=") + each + "\n";
-        EXPECT_TRUE(contains(reason(kRgbe + line + line + "\n-Y 1 +X 1\nabcd"), "the EXPOSUREs and COLORCORRs multiply")) << each;
+        EXPECT_TRUE(
+            contains(reason(kRgbe + line + line + "\n-Y 1 +X 1\nabcd"), "the EXPOSUREs and COLORCORRs multiply"))
+            << each;
     }
     EXPECT_TRUE(contains(reason(kRgbe + "COLORCORR=1 0 1\n\n-Y 1 +X 1\nabcd"), "COLORCORR=1 0 1"));
-    for (const char* each : {"nan", "inf", "1 2", "", "0,5", "x"}) EXPECT_TRUE(contains(reason(kRgbe + "EXPOSURE=" + each + "\n\n-Y 1 +X 1\nabcd"), "EXPOSURE")) << each;
+    for (const char* each : {"nan", "inf", "1 2", "", "0,5", "x"})
+        EXPECT_TRUE(contains(reason(kRgbe + "EXPOSURE=" + each + "\n\n-Y 1 +X 1\nabcd"), "EXPOSURE")) << each;
     EXPECT_TRUE(contains(reason(kRgbe + "PRIMARIES=1 2 3\n\n-Y 1 +X 1\nabcd"), "PRIMARIES"));
     EXPECT_TRUE(contains(reason(kRgbe + "PRIMARIES=.1 .1 .1 .1 .1 .1 .1 .1\n\n-Y 1 +X 1\nabcd"), "primaries"));
     EXPECT_TRUE(contains(reason("#?RADIANCE\nFORMAT=other\n\n-Y 1 +X 1\nabcd"), "FORMAT"));

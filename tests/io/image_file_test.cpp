@@ -92,7 +92,8 @@ TEST(ImageFile, KeepsTextsInPngs) {
         return std::string(file.begin(), file.end());
     };
     for (const bool wide : {false, true}) {
-        for (const auto& [name, value] : texts) EXPECT_TRUE(contains(file_of(texts, wide), "tEXt" + name + std::string(1, 0) + value)) << name << wide;
+        for (const auto& [name, value] : texts)
+            EXPECT_TRUE(contains(file_of(texts, wide), "tEXt" + name + std::string(1, 0) + value)) << name << wide;
         EXPECT_FALSE(contains(file_of({}, wide), "tEXt")) << wide;
     }
 }
@@ -122,7 +123,8 @@ TEST(ImageFile, WritesPngOfTenBits) {
     png_destroy_read_struct(&png, &header, nullptr);
     write_png_10bit(folder / "y.png", 2, 1, words, PngColour());
     const std::vector<uint8_t> other = read_file(folder / "y.png", 1u << 20);
-    for (const char* chunk : {"cICP", "sRGB"}) EXPECT_EQ(std::string(other.begin(), other.end()).find(chunk), std::string::npos) << chunk;
+    for (const char* chunk : {"cICP", "sRGB"})
+        EXPECT_EQ(std::string(other.begin(), other.end()).find(chunk), std::string::npos) << chunk;
     EXPECT_THROW(write_png_10bit(folder / "x.png", 3, 1, words, PngColour()), Error);
 }
 

@@ -31,10 +31,11 @@ inline std::vector<uint8_t> exif_of(uint32_t seconds_over, uint32_t seconds_unde
     return bytes;
 }
 
-/// Rows of codes as a JPEG of best quality, with an APP1 marker if there is a payload for one. `halved`: chroma has half
-/// the resolution. `scans`: of a progressive one of grey, the first `scans` - 1 frequencies one by one.
+/// Rows of codes as a JPEG of best quality, with an APP1 marker if there is a payload for one. `halved`: chroma has
+/// half the resolution. `scans`: of a progressive one of grey, the first `scans` - 1 frequencies one by one.
 inline std::vector<uint8_t> jpeg_of(uint32_t width, uint32_t height, int components, J_COLOR_SPACE space,
-                                    const std::vector<uint8_t>& rows, const std::vector<uint8_t>& app1 = {}, bool halved = true, int scans = 0) {
+                                    const std::vector<uint8_t>& rows, const std::vector<uint8_t>& app1 = {},
+                                    bool halved = true, int scans = 0) {
     jpeg_error_mgr errors;
     jpeg_compress_struct jpeg{};
     jpeg.err = jpeg_std_error(&errors);
@@ -49,13 +50,15 @@ inline std::vector<uint8_t> jpeg_of(uint32_t width, uint32_t height, int compone
     jpeg_set_defaults(&jpeg);
     jpeg_set_quality(&jpeg, 100, TRUE);
     if (!halved) jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = 1;
-    std::vector<jpeg_scan_info> script(size_t(scans), {.comps_in_scan = 1, .component_index = {0}, .Ss = 0, .Se = 0, .Ah = 0, .Al = 0});
+    std::vector<jpeg_scan_info> script(
+        size_t(scans), {.comps_in_scan = 1, .component_index = {0}, .Ss = 0, .Se = 0, .Ah = 0, .Al = 0});
     for (int i = 0; i < scans; ++i) script[size_t(i)].Ss = script[size_t(i)].Se = i;
     if (scans) jpeg.scan_info = script.data(), jpeg.num_scans = scans;
     jpeg_start_compress(&jpeg, TRUE);
     if (!app1.empty()) jpeg_write_marker(&jpeg, JPEG_APP0 + 1, app1.data(), static_cast<unsigned>(app1.size()));
     while (jpeg.next_scanline < height) {
-        JSAMPROW row = const_cast<JSAMPROW>(rows.data()) + size_t{jpeg.next_scanline} * width * static_cast<size_t>(components);
+        JSAMPROW row =
+            const_cast<JSAMPROW>(rows.data()) + size_t{jpeg.next_scanline} * width * static_cast<size_t>(components);
         jpeg_write_scanlines(&jpeg, &row, 1);
     }
     jpeg_finish_compress(&jpeg);

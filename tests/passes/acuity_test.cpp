@@ -11,7 +11,8 @@
 namespace vesper::test {
 namespace {
 
-std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const View& view, uint32_t foveal_level) {
+std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const View& view,
+                            uint32_t foveal_level) {
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, view.extent, pixels);
     const Pyramid pyramid = add_pyramid(rig.frame(graph, view), scene);
@@ -34,27 +35,32 @@ TEST(Acuity, MatchesTheReference) {
             for (uint32_t y = 0; y < extent.height; ++y)
                 for (uint32_t x = 0; x < extent.width; ++x) {
                     const size_t i = size_t(y) * extent.width + x;
-                    const glm::dvec3 w = reference::seen(glm::dvec3(pixels[i]), x, y, levels, foveal, 1 / view.degrees_per_pixel());
-                    for (uint32_t c = 0; c < 3; ++c) got_light.at(x, y, c) = got[i][int(c)], want.at(x, y, c) = w[int(c)];
+                    const glm::dvec3 w =
+                        reference::seen(glm::dvec3(pixels[i]), x, y, levels, foveal, 1 / view.degrees_per_pixel());
+                    for (uint32_t c = 0; c < 3; ++c)
+                        got_light.at(x, y, c) = got[i][int(c)], want.at(x, y, c) = w[int(c)];
                 }
-            // 1e-4: the level is a logarithm of an arc tangent of a logarithm, in float, times differences between levels.
+            // 1e-4: the level is a logarithm of an arc tangent of a logarithm, in float, times differences between
+            // levels.
             EXPECT_TRUE(same_light("seen", got_light, want, {1e-4, 0.1}));
         }
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// tone-mapping.md, section 3: 5.31 cycles/degree at 0.01 cd/m^2. At 32 px a degree that is sqrt(2) * 32 / 5.31 = 8.5 px: a grating of
-// 4 px is gone, one of 128 px is not; in daylight both stay.
+// tone-mapping.md, section 3: 5.31 cycles/degree at 0.01 cd/m^2. At 32 px a degree that is sqrt(2) * 32 / 5.31 = 8.5
+// px: a grating of 4 px is gone, one of 128 px is not; in daylight both stay.
 TEST(Acuity, WhatIsTooFineInTheDarkIsGone) {
     PassRig rig;
     const VkExtent2D extent{256, 64};
     const View view = View::symmetric(extent, 2 / 57.2958f, glm::mat4(1));  // 32 px a degree
     const auto contrast = [&](double mean, uint32_t period) {
         std::vector<glm::vec4> pixels;
-        for (uint32_t i = 0; i < extent.width * extent.height; ++i) pixels.emplace_back(glm::vec3(float(mean * (i % extent.width % period < period / 2 ? 1.5 : 0.5))), 1);
+        for (uint32_t i = 0; i < extent.width * extent.height; ++i)
+            pixels.emplace_back(glm::vec3(float(mean * (i % extent.width % period < period / 2 ? 1.5 : 0.5))), 1);
         const auto got = seen(rig, pixels, view, 5);
         float low = 1e9f, high = 0;
-        for (uint32_t x = 64; x < 192; ++x) low = std::min(low, got[32 * 256 + x].x), high = std::max(high, got[32 * 256 + x].x);
+        for (uint32_t x = 64; x < 192; ++x)
+            low = std::min(low, got[32 * 256 + x].x), high = std::max(high, got[32 * 256 + x].x);
         return (high - low) / (high + low);
     };
     EXPECT_LT(contrast(0.01, 4), 0.01);

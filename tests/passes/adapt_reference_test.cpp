@@ -1,4 +1,5 @@
-// The eye over time and the parameters of operators, against published digits and properties. SPDX-License-Identifier: MIT
+// The eye over time and the parameters of operators, against published digits and properties. SPDX-License-Identifier:
+// MIT
 #include "passes/adapt_reference.h"
 #include "render/passes/adapt.h"
 
@@ -11,10 +12,13 @@ namespace {
 
 /// One frame whose foveal level is one texel of `luminance`.
 AdaptInputs frame_of(const shared::Histogram& histogram, double luminance, float seconds = 0) {
-    AdaptInputs in{.histogram = histogram, .top = {luminance, 6, std::log(luminance), luminance}, .fovea = {1, 1, {{luminance, 6, std::log(luminance), luminance}}},
+    AdaptInputs in{.histogram = histogram,
+                   .top = {luminance, 6, std::log(luminance), luminance},
+                   .fovea = {1, 1, {{luminance, 6, std::log(luminance), luminance}}},
                    .observer = {}};
     in.parameters = parameters_of(0.5, 200, shared::kCeilingEye);
-    in.parameters.cone_break = float(ThresholdBreaks::continuous().cones), in.parameters.rod_break = float(ThresholdBreaks::continuous().rods);
+    in.parameters.cone_break = float(ThresholdBreaks::continuous().cones),
+    in.parameters.rod_break = float(ThresholdBreaks::continuous().rods);
     in.parameters.adapt_to = shared::kAdaptGaze;
     in.parameters.gaze = {0.5f, 0.5f};
     in.parameters.seconds = seconds, in.parameters.smoothing_seconds = 0.15f;
@@ -49,7 +53,8 @@ TEST(AdaptReference, LinearParameters) {
     EXPECT_FLOAT_EQ(adapt(in).tone.block[0].y, 0.25f);
 }
 
-// Reinhard 2003 on what his formulas say for percentiles known by construction: votes even between 10^-1.5 and 10^1.5 cd/m^2.
+// Reinhard 2003 on what his formulas say for percentiles known by construction: votes even between 10^-1.5 and 10^1.5
+// cd/m^2.
 TEST(AdaptReference, ReinhardsAutomaticParameters) {
     shared::Histogram even{};
     for (uint32_t i = 25; i < 55; ++i) even.count[i] = 10, even.finite += 10, even.votes += 10;
@@ -62,10 +67,12 @@ TEST(AdaptReference, ReinhardsAutomaticParameters) {
     EXPECT_NEAR(1 / std::sqrt(a.tone.block[0].y), 1.5 * std::exp2(span - 5), 1e-4);
 }
 
-// Ferwerda et al. 1996 by hand: 1 cd/m^2, display of 200: thresholds of 100, 1 (cones) and 1 (rods) cd/m^2 from the table.
+// Ferwerda et al. 1996 by hand: 1 cd/m^2, display of 200: thresholds of 100, 1 (cones) and 1 (rods) cd/m^2 from the
+// table.
 TEST(AdaptReference, FerwerdasGains) {
     AdaptInputs in = frame_of(night(), 1);
-    in.tone_operator = Operator::Ferwerda, in.parameters.ceiling = shared::kCeilingHuman, in.parameters.settings[0] = {1, 1, 1, 0};
+    in.tone_operator = Operator::Ferwerda, in.parameters.ceiling = shared::kCeilingHuman,
+    in.parameters.settings[0] = {1, 1, 1, 0};
     in.parameters.cone_break = 1.9f, in.parameters.rod_break = -1.44f;
     const Adapted a = adapt(in);
     EXPECT_NEAR(a.tone.block[0].y, 5.55904 / 0.391302 / 199.5, 1e-6);
@@ -75,18 +82,25 @@ TEST(AdaptReference, FerwerdasGains) {
     EXPECT_NEAR(adapt(in).tone.block[0].y, a.tone.block[0].y, 1e-6) << "adapted, an eye in its state is the same";
 }
 
-// A street all in the light of sodium lamps: once adapted, its white is nearer to white by the degree of CIECAM02 at 1 cd/m^2, 0.8259; after a
-// change half of the way is gone at once, and half of the rest after 20 s (Rinner and Gegenfurtner 2000).
+// A street all in the light of sodium lamps: once adapted, its white is nearer to white by the degree of CIECAM02 at 1
+// cd/m^2, 0.8259; after a change half of the way is gone at once, and half of the rest after 20 s (Rinner and
+// Gegenfurtner 2000).
 TEST(AdaptReference, TheEyeAdaptsToColours) {
     AdaptInputs in = frame_of(night(), 1);
-    in.tone_operator = Operator::Ferwerda, in.parameters.ceiling = shared::kCeilingEye, in.parameters.settings[0] = {1, 1, 1, 0};
+    in.tone_operator = Operator::Ferwerda, in.parameters.ceiling = shared::kCeilingEye,
+    in.parameters.settings[0] = {1, 1, 1, 0};
     const dvec3 sodium = dvec3(2, 0.7, 0.1) / luminance({2, 0.7, 0.1});
-    const auto seen = [&](const Adapted& a, dvec3 rgb) { return dvec3(glm::dot(dvec3(a.tone.block[2]), rgb), glm::dot(dvec3(a.tone.block[3]), rgb), glm::dot(dvec3(a.tone.block[4]), rgb)); };
+    const auto seen = [&](const Adapted& a, dvec3 rgb) {
+        return dvec3(glm::dot(dvec3(a.tone.block[2]), rgb), glm::dot(dvec3(a.tone.block[3]), rgb),
+                     glm::dot(dvec3(a.tone.block[4]), rgb));
+    };
     in.colours = {2, 1, {dvec4(0.5 * sodium, 800), dvec4(2.0 * sodium, 800)}};
     const Adapted adapted = adapt(in);
     const double degree = 1 - std::exp(-43.0 / 92) / 3.6;
     EXPECT_NEAR(degree, 0.8259, 1e-4);
-    EXPECT_NEAR(glm::length(cone_responses(seen(adapted, sodium)) - (degree * cone_responses(dvec3(1)) + (1 - degree) * cone_responses(sodium))), 0, 1e-5);
+    EXPECT_NEAR(glm::length(cone_responses(seen(adapted, sodium)) -
+                            (degree * cone_responses(dvec3(1)) + (1 - degree) * cone_responses(sodium))),
+                0, 1e-5);
     in.colours = {1, 1, {dvec4(3, 3, 3, 100)}};
     EXPECT_NEAR(glm::length(seen(adapt(in), {1, 2, 3}) - dvec3(1, 2, 3)), 0, 1e-6) << "white changes nothing";
 
@@ -144,7 +158,8 @@ TEST(AdaptReference, TheGazeIsMetBetweenTexels) {
     EXPECT_NEAR(std::log(at(2.25f, 2.0f)), 0.1 * 1.75 - 0.2 * 1.5, 1e-6) << "a plane of logarithms";
     in.parameters.adapt_to = shared::kAdaptGazeMean;
     in.fovea.texels[6].y = 0;
-    EXPECT_NEAR(at(1.5f, 1.5f), (9 * 14.0 - in.fovea.texels[6].x) / 8, 1e-6) << "pixels that are not finite do not count";
+    EXPECT_NEAR(at(1.5f, 1.5f), (9 * 14.0 - in.fovea.texels[6].x) / 8, 1e-6)
+        << "pixels that are not finite do not count";
     in.parameters.adapt_to = shared::kAdaptTexel;
     EXPECT_EQ(at(3.9f, 2.1f), 19);
     EXPECT_EQ(at(99, -5), 14);
@@ -152,7 +167,8 @@ TEST(AdaptReference, TheGazeIsMetBetweenTexels) {
 
 // tone-mapping.md, 2.6: 5000 to 50 cd/m^2, through the state as the device keeps it. Two percent are asked for.
 TEST(AdaptReference, AdaptsToATunnelOverTime) {
-    const double table[][2]{{0.05, 4204}, {0.2, 1772}, {1, 1317}, {5, 737.8}, {10, 459.0}, {20, 281.1}, {60, 184.3}, {300, 135.9}};
+    const double table[][2]{{0.05, 4204}, {0.2, 1772}, {1, 1317},   {5, 737.8},
+                            {10, 459.0},  {20, 281.1}, {60, 184.3}, {300, 135.9}};
     AdaptInputs in = frame_of(night(), 5000);
     in.previous = adapt(in).eye;
     double now = 0;
@@ -192,8 +208,8 @@ TEST(AdaptReference, TimeIsWhatCountsAndNotFrames) {
     for (uint32_t i = 0; i <= kBins; ++i) EXPECT_EQ(paused.node[i], many.node[i]);
 }
 
-// A uniform field that steps from one luminance to another: what is shown is the eye's recovery, from darkness after a darker
-// field, from glare after a brighter one, and nothing comes back of what was before.
+// A uniform field that steps from one luminance to another: what is shown is the eye's recovery, from darkness after a
+// darker field, from glare after a brighter one, and nothing comes back of what was before.
 TEST(AdaptReference, RecoversMonotonicallyFromAStep) {
     const double fields[][2]{{50, 5000}, {5000, 50}, {1, 5000}, {5000, 1}, {100, 0.1}};
     for (const auto& [from, to] : fields)
@@ -201,11 +217,13 @@ TEST(AdaptReference, RecoversMonotonicallyFromAStep) {
             const auto field = [&](double luminance, double seconds) {
                 AdaptInputs in = frame_of({}, luminance, float(seconds));
                 const shared::ToneParameters p = split_parameters(100);
-                in.parameters.bins_per_ln = p.bins_per_ln, in.parameters.steps_per_bin = p.steps_per_bin, in.parameters.window = p.window;
+                in.parameters.bins_per_ln = p.bins_per_ln, in.parameters.steps_per_bin = p.steps_per_bin,
+                in.parameters.window = p.window;
                 in.parameters.display_low = p.display_low, in.parameters.display_high = p.display_high;
                 const auto share = split_votes({{std::log(luminance), 1.0}}, p);
                 in.histogram.finite = 6;
-                for (uint32_t i = 0; i < kBins; ++i) in.histogram.count[i] = uint32_t(1e6 * share[i] + 0.5), in.histogram.votes += in.histogram.count[i];
+                for (uint32_t i = 0; i < kBins; ++i)
+                    in.histogram.count[i] = uint32_t(1e6 * share[i] + 0.5), in.histogram.votes += in.histogram.count[i];
                 return in;
             };
             shared::EyeState eye = adapt(field(from, 0)).eye;
@@ -217,13 +235,17 @@ TEST(AdaptReference, RecoversMonotonicallyFromAStep) {
                 const double shown = std::exp(a.adjusted.curve.at(std::log(to)));
                 // 0.2 s: what is left of the curve before, a quarter at most, is gone.
                 if (before > 0 && to < from) {
-                    EXPECT_GE(shown, before * (now < 0.2 ? 0.95 : 0.999)) << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
+                    EXPECT_GE(shown, before * (now < 0.2 ? 0.95 : 0.999))
+                        << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
                 }
                 if (before > 0 && to > from) {
-                    EXPECT_LE(shown, before * (now < 0.2 ? 1.05 : 1.001)) << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
+                    EXPECT_LE(shown, before * (now < 0.2 ? 1.05 : 1.001))
+                        << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
                 }
                 if (now > 0.5) {
-                    EXPECT_NEAR(shown, before, before * 1.5 * step) << "faster than the eye, " << from << " to " << to << " cd/m^2 in steps of " << step << " s, after " << now << " s";
+                    EXPECT_NEAR(shown, before, before * 1.5 * step)
+                        << "faster than the eye, " << from << " to " << to << " cd/m^2 in steps of " << step
+                        << " s, after " << now << " s";
                 }
                 before = shown, eye = a.eye;
             }

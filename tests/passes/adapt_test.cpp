@@ -11,16 +11,17 @@
 namespace vesper::test {
 namespace {
 
-// ln of display luminance, absolute: sums over 256 steps in float. An eighth of the smallest step of an 8-bit display near
-// white (1 / 255 / gamma is 2e-3 in ln).
+// ln of display luminance, absolute: sums over 256 steps in float. An eighth of the smallest step of an 8-bit display
+// near white (1 / 255 / gamma is 2e-3 in ln).
 constexpr double kNodeError = 2e-4;
-// With rods: the lesser of two thresholds has a kink within one step, which the quadrature rules here and there weigh differently.
+// With rods: the lesser of two thresholds has a kink within one step, which the quadrature rules here and there weigh
+// differently.
 constexpr double kNodeErrorWithRods = 5e-4;
 
 struct Frame {
     shared::Histogram histogram{};
-    glm::vec4 top{0};                  ///< the 1x1 level
-    VkExtent2D texels{1, 1};           ///< of the foveal level
+    glm::vec4 top{0};         ///< the 1x1 level
+    VkExtent2D texels{1, 1};  ///< of the foveal level
     std::vector<glm::vec4> fovea{};
     HistogramSettings bins;
     ToneSettings tone;
@@ -28,7 +29,8 @@ struct Frame {
     Operator tone_operator = Operator::Irawan;
     float seconds = 0;
     VkExtent2D tiles{3, 2};
-    std::vector<glm::vec4> colours{{1, 0.5, 0.2, 900}, {3, 2, 1, 1024}, {0, 0, 0, 0}, {0.1, 0.1, 0.3, 17}, {-1, 2, 0, 5}, {1e4, 5e3, 10, 1024}};
+    std::vector<glm::vec4> colours{{1, 0.5, 0.2, 900},  {3, 2, 1, 1024}, {0, 0, 0, 0},
+                                   {0.1, 0.1, 0.3, 17}, {-1, 2, 0, 5},   {1e4, 5e3, 10, 1024}};
 
     const OperatorInfo& op() const { return operator_info(tone_operator); }
     shared::ToneParameters parameters() const {
@@ -36,8 +38,17 @@ struct Frame {
     }
     reference::Adapted wanted(const shared::EyeState& previous) const {
         const std::vector<glm::dvec4> level(fovea.begin(), fovea.end());
-        return reference::adapt({histogram, top, {texels.width, texels.height, level}, previous, parameters(), tone.observer, op().tone_operator,
-                                 op().chromatic ? reference::PyramidLevel{tiles.width, tiles.height, std::vector<glm::dvec4>(colours.begin(), colours.end())} : reference::PyramidLevel{}});
+        return reference::adapt({histogram,
+                                 top,
+                                 {texels.width, texels.height, level},
+                                 previous,
+                                 parameters(),
+                                 tone.observer,
+                                 op().tone_operator,
+                                 op().chromatic
+                                     ? reference::PyramidLevel{tiles.width, tiles.height,
+                                                               std::vector<glm::dvec4>(colours.begin(), colours.end())}
+                                     : reference::PyramidLevel{}});
     }
 };
 
@@ -52,9 +63,13 @@ Got adapt(PassRig& rig, const Frame& frame, const EyeState& eye = {.on_device = 
     const Resource top = rig.image(graph, "top", kSceneFormat, {1, 1}, std::vector{frame.top});
     const Resource fovea = rig.image(graph, "fovea", kSceneFormat, frame.texels, frame.fovea);
     const Resource histogram = rig.buffer(graph, "histogram", std::vector{frame.histogram});
-    const Colours colours = frame.op().chromatic ? Colours{rig.image(graph, "colours", kSceneFormat, frame.tiles, frame.colours), frame.tiles} : Colours{};
+    const Colours colours =
+        frame.op().chromatic
+            ? Colours{rig.image(graph, "colours", kSceneFormat, frame.tiles, frame.colours), frame.tiles}
+            : Colours{};
     const Pyramid pyramid{{fovea, top}, {frame.texels, {1, 1}}};
-    const Adaptation a = add_adaptation(rig.frame(graph, View{}), {pyramid, 1, histogram, colours, eye}, frame.op(), frame.parameters());
+    const Adaptation a =
+        add_adaptation(rig.frame(graph, View{}), {pyramid, 1, histogram, colours, eye}, frame.op(), frame.parameters());
     const Resource curve = keep<shared::ToneCurve>(graph, a.curve), left = keep<shared::EyeState>(graph, a.eye);
     rig.run(graph);
     return {rig.got<shared::ToneCurve>(curve).at(0), rig.got<shared::EyeState>(left).at(0)};
@@ -85,30 +100,36 @@ Frame frame_of(const std::vector<Hill>& hills, uint32_t bins = 100, uint32_t see
     return f;
 }
 
-bool near(double a, double b, double relative, double floor = 0) { return std::abs(a - b) <= relative * std::max(std::abs(b), floor) + 1e-30; }
+bool near(double a, double b, double relative, double floor = 0) {
+    return std::abs(a - b) <= relative * std::max(std::abs(b), floor) + 1e-30;
+}
 
 void expect_same(const Got& got, const reference::Adapted& want, const Frame& frame) {
     const uint32_t steps = frame.bins.bins * frame.bins.steps_per_bin();
     const bool has_table = want.tone.bins == float(shared::kMaxNodes);  // not of the histogram
     const double node_error = frame.tone.observer.use_rods ? kNodeErrorWithRods : kNodeError;
     Picture got_nodes(steps + 1, 1, 1), want_nodes = got_nodes;
-    for (uint32_t i = 0; i <= steps; ++i) got_nodes.values[i] = got.curve.node[i].x, want_nodes.values[i] = want.adjusted.curve.node[i];
+    for (uint32_t i = 0; i <= steps; ++i)
+        got_nodes.values[i] = got.curve.node[i].x, want_nodes.values[i] = want.adjusted.curve.node[i];
     if (!has_table) {
         EXPECT_TRUE(same_light("nodes", got_nodes, want_nodes, {0, 0}, [&] {
-        Picture allowed(steps + 1, 1, 1);
-        for (double& a : allowed.values) a = node_error;
-        return allowed;
-    }()));
+            Picture allowed(steps + 1, 1, 1);
+            for (double& a : allowed.values) a = node_error;
+            return allowed;
+        }()));
     }
     if (has_table) {
         // Two powers and a logarithm to base 10 in float, of responses up to 1.
         for (uint32_t i = 0; i <= shared::kMaxNodes; ++i)
-            for (int k = 0; k < 3; ++k) EXPECT_NEAR(got.curve.node[i][k], want.tone.node[i][k], 2e-5 + 1e-4 * std::abs(want.tone.node[i][k])) << i << " " << k;
+            for (int k = 0; k < 3; ++k)
+                EXPECT_NEAR(got.curve.node[i][k], want.tone.node[i][k], 2e-5 + 1e-4 * std::abs(want.tone.node[i][k]))
+                    << i << " " << k;
     }
-    for (uint32_t i = steps + 1; i <= shared::kMaxNodes && !has_table; ++i) EXPECT_EQ(got.curve.node[i], glm::vec4(0)) << "nodes beyond the last";
+    for (uint32_t i = steps + 1; i <= shared::kMaxNodes && !has_table; ++i)
+        EXPECT_EQ(got.curve.node[i], glm::vec4(0)) << "nodes beyond the last";
     const shared::ToneCurve& w = want.tone;
-    // 1e-5: one exponential and a few products in float. 5e-5: two logarithms to base 10 and back. 1e-3: a percentile in a bin that has
-    // 1e-4 of the votes, of sums of which floats have 1e-7.
+    // 1e-5: one exponential and a few products in float. 5e-5: two logarithms to base 10 and back. 1e-3: a percentile
+    // in a bin that has 1e-4 of the votes, of sums of which floats have 1e-7.
     EXPECT_TRUE(near(got.curve.adaptation, w.adaptation, 1e-5)) << got.curve.adaptation << " want " << w.adaptation;
     EXPECT_TRUE(near(got.curve.log_average, w.log_average, 1e-5)) << got.curve.log_average << " want " << w.log_average;
     EXPECT_TRUE(near(got.curve.maximum, w.maximum, 0)) << got.curve.maximum << " want " << w.maximum;
@@ -120,7 +141,8 @@ void expect_same(const Got& got, const reference::Adapted& want, const Frame& fr
     };
     const uint32_t form = frame.op().form;
     const bool automatic = frame.op().tone_operator == Operator::Reinhard && frame.tone.operators.reinhard.automatic;
-    for (int k = 0; k < 4; ++k) same_number(0, k, automatic ? 1e-3 : 5e-5, form == shared::kToneColour && k == 0 ? 2e-5 : 1e-30);
+    for (int k = 0; k < 4; ++k)
+        same_number(0, k, automatic ? 1e-3 : 5e-5, form == shared::kToneColour && k == 0 ? 2e-5 : 1e-30);
     for (int k = 0; k < 4; ++k) same_number(1, k, 1e-4, 1e-30);
     for (int k = 0; k < 4; ++k) {
         // A dozen products after logarithms and exponentials of responses, whose ratios go to some hundred.
@@ -132,18 +154,24 @@ void expect_same(const Got& got, const reference::Adapted& want, const Frame& fr
     EXPECT_FLOAT_EQ(got.curve.ln_low, w.ln_low);
     EXPECT_FLOAT_EQ(got.curve.bins_per_ln, w.bins_per_ln);
     const shared::PattanaikState &lag = got.eye.pattanaik, &want_lag = want.eye.pattanaik;
-    EXPECT_TRUE(near(lag.cones, want_lag.cones, 5e-5) && near(lag.rods, want_lag.rods, 5e-5) && near(lag.cone_pigment, want_lag.cone_pigment, 1e-5) && near(lag.rod_pigment, want_lag.rod_pigment, 5e-5));
+    EXPECT_TRUE(near(lag.cones, want_lag.cones, 5e-5) && near(lag.rods, want_lag.rods, 5e-5) &&
+                near(lag.cone_pigment, want_lag.cone_pigment, 1e-5) &&
+                near(lag.rod_pigment, want_lag.rod_pigment, 5e-5));
     EXPECT_EQ(got.curve.bins, w.bins);
     EXPECT_TRUE(near(got.eye.adaptation, want.eye.adaptation, 1e-5));
-    EXPECT_NEAR(double(got.eye.seconds) + double(got.eye.seconds_lost), double(want.eye.seconds) + double(want.eye.seconds_lost), 1e-5);
+    EXPECT_NEAR(double(got.eye.seconds) + double(got.eye.seconds_lost),
+                double(want.eye.seconds) + double(want.eye.seconds_lost), 1e-5);
     EXPECT_NEAR(got.eye.pupil, want.eye.pupil, 1e-5);
     const auto same_memory = [](const shared::ReceptorMemory& a, const shared::ReceptorMemory& b) {
         return near(a.pigment, b.pigment, 1e-5) && near(a.fast, b.fast, 1e-5, 1) && near(a.slow, b.slow, 1e-5, 1);
     };
-    EXPECT_TRUE(same_memory(got.eye.cones, want.eye.cones)) << got.eye.cones.pigment << " " << got.eye.cones.fast << " " << got.eye.cones.slow;
-    EXPECT_TRUE(same_memory(got.eye.rods, want.eye.rods)) << got.eye.rods.pigment << " " << got.eye.rods.fast << " " << got.eye.rods.slow;
+    EXPECT_TRUE(same_memory(got.eye.cones, want.eye.cones))
+        << got.eye.cones.pigment << " " << got.eye.cones.fast << " " << got.eye.cones.slow;
+    EXPECT_TRUE(same_memory(got.eye.rods, want.eye.rods))
+        << got.eye.rods.pigment << " " << got.eye.rods.fast << " " << got.eye.rods.slow;
     EXPECT_EQ(got.eye.steps, want.eye.steps);
-    for (uint32_t i = 0; i <= shared::kMaxBins; ++i) EXPECT_NEAR(got.eye.node[i], want.eye.node[i], node_error) << "node " << i;
+    for (uint32_t i = 0; i <= shared::kMaxBins; ++i)
+        EXPECT_NEAR(got.eye.node[i], want.eye.node[i], node_error) << "node " << i;
     if (frame.histogram.finite == 0) return;  // what is left over of an empty frame means nothing
     EXPECT_EQ(got.curve.under_full, w.under_full);
     EXPECT_NEAR(got.curve.slack, w.slack, node_error);
@@ -205,7 +233,8 @@ TEST(Adapt, MatchesTheReferenceOnRandomHistograms) {
 
 TEST(Adapt, ReinhardAndLinearParametersAsSet) {
     Frame frame = frame_of({{30, 8, 20000}, {85, 3, 200}});
-    frame.tone.operators.reinhard = {.key = 0.36f, .white = 120}, frame.tone.operators.linear = {.low = 0.5f, .high = 40};
+    frame.tone.operators.reinhard = {.key = 0.36f, .white = 120},
+    frame.tone.operators.linear = {.low = 0.5f, .high = 40};
     PassRig rig;
     for (const Operator op : {Operator::Reinhard, Operator::Linear}) {
         frame.tone_operator = op;
@@ -315,7 +344,7 @@ TEST(Adapt, AGazeAtNothingKeepsTheEye) {
 // tone-mapping.md, 2.6: 5000 to 50 cd/m^2. Two percent are asked for.
 TEST(Adapt, EntersATunnelAsTabulated) {
     PassRig rig;
-    const double table[][3]{{0.05, 4204, 1.064}, {0.2, 1772, 0.463},  {1, 1317, 0.351},   {5, 737.8, 0.208},
+    const double table[][3]{{0.05, 4204, 1.064}, {0.2, 1772, 0.463},  {1, 1317, 0.351},    {5, 737.8, 0.208},
                             {10, 459.0, 0.140},  {20, 281.1, 0.0964}, {60, 184.3, 0.0736}, {300, 135.9, 0.0628}};
     const ReceptorModel cones(ReceptorKind::Cones, Receptors::cones());
     Frame frame = frame_of({{60, 8, 2000}});
@@ -332,7 +361,8 @@ TEST(Adapt, EntersATunnelAsTabulated) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// 60 steps of 1/60 s and 30 of 1/30 s, within 0.5 %, and the curve they end with. Then a pause, which freezes everything.
+// 60 steps of 1/60 s and 30 of 1/30 s, within 0.5 %, and the curve they end with. Then a pause, which freezes
+// everything.
 TEST(Adapt, TimeCountsAndNotFrames) {
     const auto run = [](int steps, bool pause) {
         PassRig rig;

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <vector>
 
-#include "vision/eye.h"
 #include "shared/tone.h"
+#include "vision/eye.h"
 
 namespace vesper::reference {
 
@@ -19,8 +19,8 @@ inline std::vector<double> shares(const shared::Histogram& histogram, uint32_t b
     return h;
 }
 
-/// Shares per step of the curve: bins seen through a window, a cubic B-spline whose knots are `window` bins apart, of which the
-/// steps take the values in their middles. Whole votes (0): a bin is a step.
+/// Shares per step of the curve: bins seen through a window, a cubic B-spline whose knots are `window` bins apart, of
+/// which the steps take the values in their middles. Whole votes (0): a bin is a step.
 inline std::vector<double> per_step(const std::vector<double>& share, const shared::ToneParameters& p) {
     if (p.window == 0) return share;
     std::vector<double> out(share.size() * p.steps_per_bin, 0.0);
@@ -45,9 +45,10 @@ struct Slopes {
 };
 
 /// s_i = min(lambda h_i, c_i) with sum s_i delta = range: the fixed point of Ward's clipping (1997, section 4.4) for
-/// given ceilings c. Exact: bins reach their ceilings in the order of c_i / h_i. lambda goes no higher than `limit`; where that
-/// does not fill the range, something is left over.
-inline Slopes fill(const std::vector<double>& h, const std::vector<double>& c, double delta, double range, double limit) {
+/// given ceilings c. Exact: bins reach their ceilings in the order of c_i / h_i. lambda goes no higher than `limit`;
+/// where that does not fill the range, something is left over.
+inline Slopes fill(const std::vector<double>& h, const std::vector<double>& c, double delta, double range,
+                   double limit) {
     Slopes out{std::vector<double>(h.size(), 0.0), 0, false};
     std::vector<size_t> order;
     for (size_t i = 0; i < h.size(); ++i)
@@ -97,7 +98,8 @@ struct Thresholds {
     std::function<double(double)> scene, display;
 };
 
-inline Thresholds thresholds_of(const shared::ToneParameters& p, const ReceptorModel& cones, double cone_sigma, const ReceptorModel& rods, double rod_sigma) {
+inline Thresholds thresholds_of(const shared::ToneParameters& p, const ReceptorModel& cones, double cone_sigma,
+                                const ReceptorModel& rods, double rod_sigma) {
     const ThresholdBreaks breaks{p.cone_break, p.rod_break};
     const auto linear = [](double l) { return l; };
     const auto human = [=](double l) { return human_threshold(l, breaks); };
@@ -107,19 +109,26 @@ inline Thresholds thresholds_of(const shared::ToneParameters& p, const ReceptorM
         return p.use_rods ? std::min(t, rods.threshold(p.scotopic * l, rod_sigma) / p.scotopic) : t;
     };
     switch (p.ceiling) {
-        case shared::kCeilingLinear: return {linear, linear};
-        case shared::kCeilingHuman: return {human, human};
-        case shared::kCeilingCones: return {adapted, adapted};
-        default: return {eye, adapted};
+        case shared::kCeilingLinear:
+            return {linear, linear};
+        case shared::kCeilingHuman:
+            return {human, human};
+        case shared::kCeilingCones:
+            return {adapted, adapted};
+        default:
+            return {eye, adapted};
     }
 }
 
-/// Ward's own way, as pcond of Radiance has it (tone-mapping.md, section 3): clip counts to their ceilings, again with the new
-/// total, until what is clipped is within 2.5 % of it; the curve is that before the last clip. Linear where the range of the scene
-/// is no more than the display's, or hardly any counts are left; `average` is then shown at the geometric middle.
-inline Adjusted trim(const std::vector<double>& share, double average, const Thresholds& threshold, const shared::ToneParameters& p) {
+/// Ward's own way, as pcond of Radiance has it (tone-mapping.md, section 3): clip counts to their ceilings, again with
+/// the new total, until what is clipped is within 2.5 % of it; the curve is that before the last clip. Linear where the
+/// range of the scene is no more than the display's, or hardly any counts are left; `average` is then shown at the
+/// geometric middle.
+inline Adjusted trim(const std::vector<double>& share, double average, const Thresholds& threshold,
+                     const shared::ToneParameters& p) {
     constexpr double kTolerance = 0.025;
-    const double low = std::log(double(p.display_low)), high = std::log(double(p.display_high)), range = high - low, delta = 1 / (double(p.bins_per_ln) * p.steps_per_bin);
+    const double low = std::log(double(p.display_low)), high = std::log(double(p.display_high)), range = high - low,
+                 delta = 1 / (double(p.bins_per_ln) * p.steps_per_bin);
     std::vector<double> f = per_step(share, p);
     Adjusted out{{p.ln_low, 1 / delta, std::vector<double>(f.size() + 1, low)}, 0, false};
     const double original = std::accumulate(f.begin(), f.end(), 0.0);
@@ -137,14 +146,17 @@ inline Adjusted trim(const std::vector<double>& share, double average, const Thr
         double trimmed = 0;
         for (size_t i = 0; i < f.size(); ++i) out.curve.node[i + 1] = out.curve.node[i] + range * f[i] / total;
         for (size_t i = 0; i < f.size(); ++i) {
-            const double scene = std::exp(p.ln_low + (double(i) + 0.5) * delta), shown = std::exp((out.curve.node[i] + out.curve.node[i + 1]) / 2);
-            const double most = total * delta / range * (threshold.display(shown) / shown) / (threshold.scene(scene) / scene);
+            const double scene = std::exp(p.ln_low + (double(i) + 0.5) * delta),
+                         shown = std::exp((out.curve.node[i] + out.curve.node[i + 1]) / 2);
+            const double most =
+                total * delta / range * (threshold.display(shown) / shown) / (threshold.scene(scene) / scene);
             if (f[i] > most) trimmed += f[i] - most, f[i] = most;
         }
         if (trimmed <= kTolerance * total) return out;
     }
     const double middle = std::exp((low + high) / 2), scale = threshold.display(middle) / threshold.scene(average);
-    for (size_t i = 0; i <= f.size(); ++i) out.curve.node[i] = std::clamp(p.ln_low + double(i) * delta + std::log(scale), low, high);
+    for (size_t i = 0; i <= f.size(); ++i)
+        out.curve.node[i] = std::clamp(p.ln_low + double(i) * delta + std::log(scale), low, high);
     return out;
 }
 

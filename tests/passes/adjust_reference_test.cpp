@@ -88,8 +88,8 @@ TEST(AdjustReference, CurveIsFlatBeyondItsEndsAndLinearBetweenNodes) {
     EXPECT_EQ(curve.at(9), 4);
 }
 
-// What trimming stops at is the solution for its own ceilings, within twice its tolerance of 2.5 % of the total, since the
-// ceilings are of a curve that is off by as much: 0.05 in log10 here.
+// What trimming stops at is the solution for its own ceilings, within twice its tolerance of 2.5 % of the total, since
+// the ceilings are of a curve that is off by as much: 0.05 in log10 here.
 TEST(AdjustReference, TrimmedCurvesAreNearTheSolvedOnes) {
     for (uint32_t ceiling : {shared::kCeilingHuman, shared::kCeilingLinear})
         for (uint32_t seed : {1u, 2u, 3u}) {
@@ -97,20 +97,23 @@ TEST(AdjustReference, TrimmedCurvesAreNearTheSolvedOnes) {
             const Thresholds t = thresholds_of(p, kCones, 1, kRods, 1);
             shared::Histogram histogram = night(seed);
             if (seed == 3)
-                for (uint32_t i = 10; i < 70; ++i) histogram.count[i] += 150, histogram.finite += 150, histogram.votes += 150;
+                for (uint32_t i = 10; i < 70; ++i)
+                    histogram.count[i] += 150, histogram.finite += 150, histogram.votes += 150;
             const Adjusted trimmed = trim(shares(histogram, kBins), 1, t, p);
             EXPECT_FALSE(trimmed.under);
             const double delta = 1 / double(p.bins_per_ln);
             std::vector<double> c;
             for (uint32_t i = 0; i < kBins; ++i) {
-                const double scene = std::exp(p.ln_low + (i + 0.5) * delta), shown = std::exp((trimmed.curve.node[i] + trimmed.curve.node[i + 1]) / 2);
+                const double scene = std::exp(p.ln_low + (i + 0.5) * delta),
+                             shown = std::exp((trimmed.curve.node[i] + trimmed.curve.node[i + 1]) / 2);
                 c.push_back(t.display(shown) / shown / (t.scene(scene) / scene));
             }
             const Slopes solved = fill(shares(histogram, kBins), c, delta, std::log(100), kNoLimit);
             double node = 0;
             for (uint32_t i = 0; i < kBins; ++i) {
                 node += solved.s[i] * delta;
-                EXPECT_NEAR(node / std::log(10), trimmed.curve.node[i + 1] / std::log(10), 0.05) << "ceiling " << ceiling << " seed " << seed << " node " << i;
+                EXPECT_NEAR(node / std::log(10), trimmed.curve.node[i + 1] / std::log(10), 0.05)
+                    << "ceiling " << ceiling << " seed " << seed << " node " << i;
             }
         }
 }
@@ -128,14 +131,17 @@ TEST(AdjustReference, TrimmingHasItsEndsRight) {
     const Adjusted linear = trim(narrow, 200, t, p);
     EXPECT_TRUE(linear.under);
     const double scale = human_threshold(10) / human_threshold(200);
-    for (uint32_t i = 60; i <= 70; ++i) EXPECT_NEAR(linear.curve.node[i], std::log(std::pow(10, -4 + 0.1 * i) * scale), 1e-5);
+    for (uint32_t i = 60; i <= 70; ++i)
+        EXPECT_NEAR(linear.curve.node[i], std::log(std::pow(10, -4 + 0.1 * i) * scale), 1e-5);
     EXPECT_EQ(linear.curve.node[100], std::log(100));
-    EXPECT_TRUE(trim(even, 1, {[](double) { return 1e9; }, [](double) { return 1.0; }}, p).under) << "nothing can be seen";
+    EXPECT_TRUE(trim(even, 1, {[](double) { return 1e9; }, [](double) { return 1.0; }}, p).under)
+        << "nothing can be seen";
 }
 
 // A street with spikes (sky, road, signs) and a tail of lamps. Fewer bins see the same through the same window.
 TEST(AdjustReference, FewBinsGiveTheCurveOfMany) {
-    std::vector<std::pair<double, double>> votes{{std::log(0.0202), 0.16}, {std::log(0.7), 0.05}, {std::log(95), 0.003}, {std::log(8000), 0.002}};
+    std::vector<std::pair<double, double>> votes{
+        {std::log(0.0202), 0.16}, {std::log(0.7), 0.05}, {std::log(95), 0.003}, {std::log(8000), 0.002}};
     std::mt19937 random(5);
     std::normal_distribution<double> road(std::log(1.6), 0.6), lamps(std::log(300), 2);
     for (int i = 0; i < 20000; ++i) votes.push_back({i % 20 == 0 ? lamps(random) : road(random), 0.785 / 20000});
@@ -144,7 +150,9 @@ TEST(AdjustReference, FewBinsGiveTheCurveOfMany) {
         for (const uint32_t bins : {90u, 100u, 128u, 160u, 200u}) {
             const Curve few = curve_of_votes(votes, 0.5, split_parameters(bins, ceiling)).curve;
             for (double ln = std::log(1e-3); ln < std::log(1e5); ln += 0.02) {
-                const auto code = [&](const Curve& c) { return 255 * std::pow((std::exp(c.at(ln)) - 0.12) / (100 - 0.12), 1 / 2.2); };
+                const auto code = [&](const Curve& c) {
+                    return 255 * std::pow((std::exp(c.at(ln)) - 0.12) / (100 - 0.12), 1 / 2.2);
+                };
                 EXPECT_NEAR(code(few), code(finest), 1) << bins << " bins, " << std::exp(ln) << " cd/m^2";
             }
         }

@@ -5,22 +5,32 @@
 
 namespace vesper::reference {
 
-/// How a viewer who is adapted to 0.3 of white sees a display: responses L / (L + sigma), and just noticeable differences between
-/// the display's darkest luminance and another one. Differences with kCeilingLinear: ln of the ratio.
+/// How a viewer who is adapted to 0.3 of white sees a display: responses L / (L + sigma), and just noticeable
+/// differences between the display's darkest luminance and another one. Differences with kCeilingLinear: ln of the
+/// ratio.
 struct Viewer {
     double sigma, step, low, high;
     bool linear;
 
-    explicit Viewer(const shared::ToneParameters& p) : sigma(p.viewer_sigma), step(p.viewer_step), low(p.display_low), high(p.display_high), linear(p.ceiling == shared::kCeilingLinear) {}
+    explicit Viewer(const shared::ToneParameters& p)
+        : sigma(p.viewer_sigma),
+          step(p.viewer_step),
+          low(p.display_low),
+          high(p.display_high),
+          linear(p.ceiling == shared::kCeilingLinear) {}
 
     double response(double luminance) const { return luminance / (luminance + sigma); }
-    double differences(double luminance) const { return linear ? std::log(luminance / low) : (response(luminance) - response(low)) / step; }
+    double differences(double luminance) const {
+        return linear ? std::log(luminance / low) : (response(luminance) - response(low)) / step;
+    }
     double luminance(double differences) const {
         if (linear) return low * std::exp(differences);
         const double r = differences * step + response(low);
         return sigma * r / (1 - r);
     }
-    double lightness(double differences) const { return std::pow(std::max((luminance(differences) - low) / (high - low), 0.0), 1 / 2.2); }
+    double lightness(double differences) const {
+        return std::pow(std::max((luminance(differences) - low) / (high - low), 0.0), 1 / 2.2);
+    }
     /// d lightness / d differences.
     double lightness_slope(double differences) const {
         const double l = luminance(differences), rise = linear ? l : step * (l + sigma) * (l + sigma) / sigma;
@@ -28,7 +38,8 @@ struct Viewer {
     }
 };
 
-/// The luminance to which cones of that half saturation are adapted, at least 1e-4 cd/m^2: where the threshold of adapted ones overtakes theirs.
+/// The luminance to which cones of that half saturation are adapted, at least 1e-4 cd/m^2: where the threshold of
+/// adapted ones overtakes theirs.
 inline double adapted_luminance(double sigma, const ReceptorModel& cones) {
     double low = std::log(1e-4), high = std::max(std::log(sigma), low);
     for (int k = 0; k < 100; ++k) {
@@ -38,28 +49,33 @@ inline double adapted_luminance(double sigma, const ReceptorModel& cones) {
     return std::exp(low);
 }
 
-/// Where the display shows what the eye is adapted to, in differences: with the L / T(L) of the scene, up to 0.3 of white.
+/// Where the display shows what the eye is adapted to, in differences: with the L / T(L) of the scene, up to 0.3 of
+/// white.
 inline double anchor(double adapted, const Thresholds& threshold, const shared::ToneParameters& p) {
     const Viewer viewer(p);
     const double t = viewer.linear ? cone_threshold(adapted, {p.cone_break, p.rod_break}) : threshold.scene(adapted);
     const double most = viewer.differences(std::max(0.3 * viewer.high, viewer.low));
     // R (1 - R) = step L / T(L): the lesser root, that of a luminance below half saturation.
-    const double product = std::min(viewer.step * adapted / t, 0.25), response = (1 - std::sqrt(1 - 4 * product)) / 2 + viewer.response(viewer.low);
+    const double product = std::min(viewer.step * adapted / t, 0.25),
+                 response = (1 - std::sqrt(1 - 4 * product)) / 2 + viewer.response(viewer.low);
     return response < 0.5 ? std::min(viewer.differences(viewer.sigma * response / (1 - response)), most) : most;
 }
 
-/// `x` of `all` differences, counted from the anchor, where there is `room` for that many: a hyperbola of slope 1 at the anchor.
+/// `x` of `all` differences, counted from the anchor, where there is `room` for that many: a hyperbola of slope 1 at
+/// the anchor.
 inline double compressed(double x, double all, double room) {
     if (!(room > 0)) return 0;
     return all > room ? x / (1 + x * (1 / room - 1 / all)) : x;
 }
 
-/// Histogram adjustment, Ward et al. 1997, anchored: `adapted`, what the eye is adapted to, is as visible as in the scene. In just noticeable differences, dJ = dL / T
-/// of the scene and dR / step of the display, no step of the curve has more on the display than in the scene. Below the anchor the
-/// differences of the scene are compressed into those of the display. Above it a step has min(n, b base + l votes): n are those of the scene, base is the same
-/// compression, votes are as much lightness as their share; b and l, at most 1, are as large as fits, l before b rises above 1/2.
-/// `share`: of the votes, step by step. `adapted`: cd/m^2.
-inline Adjusted adjust(const std::vector<double>& share, double adapted, const Thresholds& threshold, const shared::ToneParameters& p) {
+/// Histogram adjustment, Ward et al. 1997, anchored: `adapted`, what the eye is adapted to, is as visible as in the
+/// scene. In just noticeable differences, dJ = dL / T of the scene and dR / step of the display, no step of the curve
+/// has more on the display than in the scene. Below the anchor the differences of the scene are compressed into those
+/// of the display. Above it a step has min(n, b base + l votes): n are those of the scene, base is the same
+/// compression, votes are as much lightness as their share; b and l, at most 1, are as large as fits, l before b rises
+/// above 1/2. `share`: of the votes, step by step. `adapted`: cd/m^2.
+inline Adjusted adjust(const std::vector<double>& share, double adapted, const Thresholds& threshold,
+                       const shared::ToneParameters& p) {
     constexpr double kLeastBase = 0.5;
     const double delta = 1 / (double(p.bins_per_ln) * p.steps_per_bin);
     const size_t steps = share.size();
@@ -72,7 +88,10 @@ inline Adjusted adjust(const std::vector<double>& share, double adapted, const T
     double all_above = 0, all_below = 0;
     for (size_t i = 0; i < steps; ++i) {
         // Simpson's rule.
-        const auto visibility = [&](double at_step) { const double l = std::exp(p.ln_low + at_step * delta); return l / threshold.scene(l); };
+        const auto visibility = [&](double at_step) {
+            const double l = std::exp(p.ln_low + at_step * delta);
+            return l / threshold.scene(l);
+        };
         const double k = double(i), n = delta / 6 * (visibility(k) + 4 * visibility(k + 0.5) + visibility(k + 1));
         const double part = std::clamp(double(i) + 1 - at, 0.0, 1.0);
         all_above += above[i] = part * n, all_below += below[i] = (1 - part) * n;
@@ -82,7 +101,8 @@ inline Adjusted adjust(const std::vector<double>& share, double adapted, const T
     const double first = std::exp(double(p.ln_low));
     if (!viewer.linear) all_below += first / threshold.scene(first);
     // Where the eye sees fewer differences than up to the anchor, it lies lower: no light is black.
-    const double start = std::min(anchor(adapted, threshold, p), all_below), room = viewer.differences(viewer.high) - start;
+    const double start = std::min(anchor(adapted, threshold, p), all_below),
+                 room = viewer.differences(viewer.high) - start;
 
     std::vector<double> base(steps), votes(steps);
     double counted = 0;
@@ -90,7 +110,8 @@ inline Adjusted adjust(const std::vector<double>& share, double adapted, const T
         const double from = compressed(counted, all_above, room), to = compressed(counted += above[i], all_above, room);
         base[i] = to - from;
         const double part = std::clamp(double(i) + 1 - at, 0.0, 1.0);
-        votes[i] = part * share[i] / std::max(viewer.lightness_slope(start + (from + to) / 2), viewer.lightness_slope(start + room));
+        votes[i] = part * share[i] /
+                   std::max(viewer.lightness_slope(start + (from + to) / 2), viewer.lightness_slope(start + room));
     }
     const auto rise = [&](size_t i, double l, double b) { return std::min(above[i], b * base[i] + l * votes[i]); };
     const auto fits = [&](double l, double b) {
@@ -99,7 +120,8 @@ inline Adjusted adjust(const std::vector<double>& share, double adapted, const T
         return sum <= room;
     };
     double l = 1, b = kLeastBase;
-    const double most = std::max(std::pow(all_above / room, 2), 1.0);  // base is nowhere less than its ceiling over that
+    const double most =
+        std::max(std::pow(all_above / room, 2), 1.0);  // base is nowhere less than its ceiling over that
     out.under = fits(1, most);
     if (!fits(l, b)) {
         double low = 0, high = 1;

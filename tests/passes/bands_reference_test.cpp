@@ -25,14 +25,18 @@ shared::ToneParameters display_parameters() {
 shared::ToneCurve power_curve(double factor, double power) {
     shared::ToneCurve c{};
     c.bins = 256, c.ln_low = float(std::log(1e-4)), c.bins_per_ln = float(256 / std::log(1e12));
-    for (int i = 0; i <= 256; ++i) c.node[i].x = float(std::log(factor) + power * (std::log(1e-4) + i / 256.0 * std::log(1e12)));
+    for (int i = 0; i <= 256; ++i)
+        c.node[i].x = float(std::log(factor) + power * (std::log(1e-4) + i / 256.0 * std::log(1e12)));
     return c;
 }
 
-std::vector<double> shown(const std::vector<double>& l, uint32_t width, uint32_t height, uint32_t top, const shared::ToneCurve& curve) {
+std::vector<double> shown(const std::vector<double>& l, uint32_t width, uint32_t height, uint32_t top,
+                          const shared::ToneCurve& curve) {
     std::vector<dvec3> rgb;
     for (const double y : l) rgb.emplace_back(y);
-    std::vector<double> made = bands(l, width, height, pyramid(std::span<const dvec3>(rgb), width, height), top, curve, display_parameters()).shown;
+    std::vector<double> made =
+        bands(l, width, height, pyramid(std::span<const dvec3>(rgb), width, height), top, curve, display_parameters())
+            .shown;
     for (double& m : made) m = std::exp(m);
     return made;
 }
@@ -40,7 +44,8 @@ std::vector<double> shown(const std::vector<double>& l, uint32_t width, uint32_t
 TEST(BandsReference, WhatIsEvenFollowsTheCurve) {
     for (const double l : {1e-3, 0.5, 40.0, 3e4})
         for (const uint32_t top : {1u, 3u, 5u})
-            for (const double s : shown(std::vector<double>(40 * 30, l), 40, 30, top, power_curve(3, 0.6))) ASSERT_NEAR(s / (3 * std::pow(l, 0.6)), 1, 1e-6) << l;
+            for (const double s : shown(std::vector<double>(40 * 30, l), 40, 30, top, power_curve(3, 0.6)))
+                ASSERT_NEAR(s / (3 * std::pow(l, 0.6)), 1, 1e-6) << l;
 }
 
 // A display too dark for the visibility of the scene: ratios are kept, whatever the picture.
@@ -53,8 +58,9 @@ TEST(BandsReference, NoContrastIsMoreThanInTheScene) {
     for (size_t i = 0; i < l.size(); ++i) EXPECT_NEAR(s[i] / (5e-4 * l[i]), 1, 1e-5);  // nodes are floats
 }
 
-// A target smaller than the finest band: its difference is as many thresholds on the display as in the scene, as far as a contrast
-// of 0.01 is its logarithm; or as many as the same contrast has. What of it is left in the mean of the topmost texels, 1 / 4^top, is mapped by the curve instead.
+// A target smaller than the finest band: its difference is as many thresholds on the display as in the scene, as far as
+// a contrast of 0.01 is its logarithm; or as many as the same contrast has. What of it is left in the mean of the
+// topmost texels, 1 / 4^top, is mapped by the curve instead.
 TEST(BandsReference, SmallTargetsKeepTheirVisibilityLevel) {
     for (const double background : {0.02, 0.5, 5.0, 300.0})
         for (const double contrast : {-0.01, 0.01}) {
@@ -62,9 +68,13 @@ TEST(BandsReference, SmallTargetsKeepTheirVisibilityLevel) {
             l[64 * 31 + 33] *= 1 + contrast;
             const double field = std::exp(node_at(background, power_curve(6, 0.5)).x);
             const double difference = shown(l, 64, 64, 5, power_curve(6, 0.5))[64 * 31 + 33] - field;
-            const double in_scene = contrast * background / cone_threshold(background, kBreaks), on_display = difference / kViewer.threshold(field, kViewer.adapted_sigma(kViewerSees));
-            const double same_contrast = contrast * field / kViewer.threshold(field, kViewer.adapted_sigma(kViewerSees));
-            EXPECT_NEAR(on_display / std::copysign(std::min(std::abs(in_scene), std::abs(same_contrast)), contrast), 1, 0.02) << background;
+            const double in_scene = contrast * background / cone_threshold(background, kBreaks),
+                         on_display = difference / kViewer.threshold(field, kViewer.adapted_sigma(kViewerSees));
+            const double same_contrast =
+                contrast * field / kViewer.threshold(field, kViewer.adapted_sigma(kViewerSees));
+            EXPECT_NEAR(on_display / std::copysign(std::min(std::abs(in_scene), std::abs(same_contrast)), contrast), 1,
+                        0.02)
+                << background;
         }
 }
 
@@ -81,7 +91,8 @@ TEST(BandsReference, LargeFieldsFollowTheCurve) {
     }
 }
 
-// A lamp that covers a thousandth of a degree hardly moves the log average there, and so neither the ground beside it: no halo.
+// A lamp that covers a thousandth of a degree hardly moves the log average there, and so neither the ground beside it:
+// no halo.
 TEST(BandsReference, ALampLeavesTheGroundBesideIt) {
     std::vector<double> l(64 * 64, 1.0);
     l[64 * 31 + 33] = 1e5;
@@ -103,7 +114,8 @@ TEST(BandsReference, DarkThingsHaveNoGlowAroundThem) {
 
 TEST(BandsReference, NoLightIsGrey) {
     EXPECT_EQ(banded({0, 0, 0}, 3, shared::kToneCurve, {}), dvec3(3));
-    EXPECT_NEAR(glm::length(banded({1, 2, 4}, luminance({2, 4, 8}), shared::kToneCurve, {}) - dvec3(2, 4, 8)), 0, 1e-12);
+    EXPECT_NEAR(glm::length(banded({1, 2, 4}, luminance({2, 4, 8}), shared::kToneCurve, {}) - dvec3(2, 4, 8)), 0,
+                1e-12);
 }
 
 }  // namespace

@@ -40,9 +40,12 @@ inline uint32_t class_of(const Block& block, bool listed) {
 }
 
 /// The plane, if all that is drawn lies within `lift` of its distance from the eye and `tilt`, rad, of its normal.
-inline std::optional<BlockPlane> plane_of(const Block& block, const shared::ClusterGrid& grid, double tilt = 3e-4, double lift = 2e-4) {
+inline std::optional<BlockPlane> plane_of(const Block& block, const shared::ClusterGrid& grid, double tilt = 3e-4,
+                                          double lift = 2e-4) {
     if (block.texels.empty()) return {};
-    const auto point = [&](size_t i) { return view_position(grid, dvec2(block.pixels[i]) + 0.5, block.texels[i].surface.z); };
+    const auto point = [&](size_t i) {
+        return view_position(grid, dvec2(block.pixels[i]) + 0.5, block.texels[i].surface.z);
+    };
     const dvec3 normal = octahedral_decode(dvec2(block.texels[0].surface));
     const BlockPlane plane{normal, glm::dot(normal, point(0)), block.texels[0].reflectance.w};
     for (size_t i = 0; i < block.texels.size(); ++i) {
@@ -94,9 +97,10 @@ inline Extremes extremes_of(const Block& block, const OfPlace& f) {
     return found;
 }
 
-/// Whether the nodes and points between tell all of a lamp: they lie in a cone of directions no wider than half its beam (to where a
-/// ramp ends, or a power has fallen to exp(-1/2)) and 0.35 rad from its axis.
-inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, const Block& block, const shared::Lamp& light, LightKind kind, double slack = 1) {
+/// Whether the nodes and points between tell all of a lamp: they lie in a cone of directions no wider than half its
+/// beam (to where a ramp ends, or a power has fallen to exp(-1/2)) and 0.35 rad from its axis.
+inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, const Block& block,
+                     const shared::Lamp& light, LightKind kind, double slack = 1) {
     const auto point = [&](dvec2 place) {
         const dvec3 ray = view_position(grid, place, 1);
         return ray * (plane.away / glm::dot(plane.normal, ray));
@@ -109,13 +113,15 @@ inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, c
     for (int n = 0; n < 9; ++n) look_at(node(block, n % 3, n / 3));
     for (const dvec2 place : between_nodes(block)) look_at(place);
     double beam = std::numbers::pi;
-    if (kind == LightKind::Cone && light.lobe_a > 0) beam = std::acos(std::clamp(-double(light.lobe_b) / light.lobe_a, -1.0, 1.0));
+    if (kind == LightKind::Cone && light.lobe_a > 0)
+        beam = std::acos(std::clamp(-double(light.lobe_b) / light.lobe_a, -1.0, 1.0));
     if (kind == LightKind::Power) beam = 1 / std::sqrt(std::max(double(light.lobe_a), 0.1));
     return radius / nearest <= slack * std::min(0.5 * beam, 0.35);
 }
 
 /// The illuminance, lx, of a lamp on the plane where a pixel sees it.
-inline double light_on_plane(const BlockPlane& plane, const shared::ClusterGrid& grid, const shared::Lamp& light, LightKind kind, dvec2 place) {
+inline double light_on_plane(const BlockPlane& plane, const shared::ClusterGrid& grid, const shared::Lamp& light,
+                             LightKind kind, dvec2 place) {
     const dvec3 ray = view_position(grid, place, 1), point = ray * (plane.away / glm::dot(plane.normal, ray));
     const dvec3 path = dvec3(light.position) - point;
     const double d = glm::length(path), cosine = glm::dot(plane.normal, path) / d;

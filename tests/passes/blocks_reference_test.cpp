@@ -12,13 +12,16 @@ SurfaceTexel texel(double metallic, double roughness, dvec3 normal = {0, 1, 0}, 
 
 TEST(BlocksReference, ThePolynomialMeetsItsNodesAndEveryQuadratic) {
     const Block block{{16, 8}, {}, {}};
-    const OfPlace quadratic = [](dvec2 p) { return 3 + p.x - 2 * p.y + 0.5 * p.x * p.x + p.x * p.y - p.y * p.y + 0.1 * p.x * p.x * p.y * p.y; };
+    const OfPlace quadratic = [](dvec2 p) {
+        return 3 + p.x - 2 * p.y + 0.5 * p.x * p.x + p.x * p.y - p.y * p.y + 0.1 * p.x * p.x * p.y * p.y;
+    };
     for (const dvec2 place : {dvec2(16.5, 8.5), dvec2(20, 12), dvec2(23.5, 15.5), dvec2(17.3, 14.9)})
         EXPECT_NEAR(polynomial(block, quadratic, place), quadratic(place), 1e-9 * std::abs(quadratic(place)));
     EXPECT_LT(extremes_of(block, [&](dvec2 p) { return 1e6 + quadratic(p); }).error, 1e-6);
     const OfPlace exponential = [](dvec2 p) { return std::exp(p.x + p.y); };
     for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) EXPECT_NEAR(polynomial(block, exponential, node(block, i, j)) / exponential(node(block, i, j)), 1, 1e-12);
+        for (int i = 0; i < 3; ++i)
+            EXPECT_NEAR(polynomial(block, exponential, node(block, i, j)) / exponential(node(block, i, j)), 1, 1e-12);
 }
 
 // t (t - 1) (t - 2) is zero at the nodes 0, 1, 2; at 2/7 and 12/7 it is 120/343 and -120/343.
@@ -56,7 +59,8 @@ TEST(BlocksReference, APlaneHasOneNormalAndOneHeight) {
                 const dvec3 ray = view_position(grid, dvec2(x, y) + 0.5, 1);
                 const bool last = block.pixels.size() == 63;
                 block.pixels.emplace_back(x, y);
-                block.texels.push_back(texel(0, 1, glm::normalize(dvec3(last ? lean : 0, 1, 0)), -1.2 / ray.y * (last ? 1 + lift : 1)));
+                block.texels.push_back(
+                    texel(0, 1, glm::normalize(dvec3(last ? lean : 0, 1, 0)), -1.2 / ray.y * (last ? 1 + lift : 1)));
             }
         return plane_of(block, grid);
     };
@@ -74,7 +78,8 @@ TEST(BlocksReference, LightOnAPlaneIsTheInverseSquareLaw) {
     const shared::Lamp lamp{{0, 4, -1.2f}, 1000, {0, -1, 0}, 0, {1, 1, 1}, 1};
     const BlockPlane road{{0, 1, 0}, -1.0, 0};
     EXPECT_NEAR(light_on_plane(road, grid, lamp, LightKind::Cone, {0, 1 / 1.2}), 40, 1e-5);
-    EXPECT_NEAR(light_on_plane(road, grid, lamp, LightKind::Cone, {2 / 1.2, 1 / 1.2}), 40 * std::pow(5 / std::sqrt(29.0), 3), 1e-5);
+    EXPECT_NEAR(light_on_plane(road, grid, lamp, LightKind::Cone, {2 / 1.2, 1 / 1.2}),
+                40 * std::pow(5 / std::sqrt(29.0), 3), 1e-5);
     EXPECT_EQ(light_on_plane({{0, -1, 0}, 1.0, 0}, grid, lamp, LightKind::Cone, {0, 1 / 1.2}), 0) << "from behind";
 }
 

@@ -16,7 +16,9 @@ struct LightImage {
 };
 
 /// What glares of displayed light: all of it from where a channel reaches `threshold`, nothing below.
-inline dvec3 glaring(dvec3 shown, double threshold) { return std::max({shown.x, shown.y, shown.z}) >= threshold ? shown : dvec3(0); }
+inline dvec3 glaring(dvec3 shown, double threshold) {
+    return std::max({shown.x, shown.y, shown.z}) >= threshold ? shown : dvec3(0);
+}
 
 /// Means of what glares over blocks of kGlareShrink^2 pixels, those that exist.
 inline LightImage bright(const LightImage& shown, double threshold) {

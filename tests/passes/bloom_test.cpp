@@ -27,8 +27,8 @@ Picture glare(PassRig& rig, const Inputs& in, uint32_t tone) {
     FrameGraph graph;
     const Resource scene = rig.image(graph, "scene", kSceneFormat, in.view.extent, in.scene);
     const Resource curve = graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource kept = keep<uint64_t>(
-        graph, add_bloom(rig.frame(graph, in.view), scene, curve, tone, in.display, in.settings));
+    const Resource kept =
+        keep<uint64_t>(graph, add_bloom(rig.frame(graph, in.view), scene, curve, tone, in.display, in.settings));
     rig.run(graph);
     const uint32_t w = (in.view.extent.width + 3) / 4, h = (in.view.extent.height + 3) / 4;
     const auto texels = from_halves(rig.got<uint64_t>(kept));
@@ -78,7 +78,9 @@ TEST(Bloom, MatchesTheReferenceForEveryOperatorAndSize) {
         for (uint32_t tone : kEveryTone) {
             SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
             const float high = tone == shared::kToneLdr ? 0.3f : 5;
-            expect_reference(rig, {view_of(extent), night_pixels(extent, extent.width + tone, -2, high), crooked_curve_of(tone, {})}, tone);
+            expect_reference(
+                rig, {view_of(extent), night_pixels(extent, extent.width + tone, -2, high), crooked_curve_of(tone, {})},
+                tone);
         }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -127,7 +129,8 @@ TEST(Bloom, SpreadsTheLampsLightAndMakesNone) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// A field of view of hardly any angle is narrower than the Gaussian, whose radius stays at 256 texels: weights of 1/513.
+// A field of view of hardly any angle is narrower than the Gaussian, whose radius stays at 256 texels: weights of
+// 1/513.
 TEST(Bloom, ViewsOfHardlyAnyAngleGlareEvenly) {
     PassRig rig;
     Inputs in = lamp({240, 200}, {0, 0}, {240, 200}, 1e6f);

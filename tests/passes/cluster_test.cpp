@@ -19,10 +19,11 @@ struct Lists {
     std::vector<std::vector<uint32_t>> lamps;  ///< cones, then powers; of an overflowed froxel: empty
     std::vector<bool> overflowed;
     std::vector<uint32_t> cones;
-    std::vector<reference::Drawn> drawn;        ///< what is drawn in a froxel
+    std::vector<reference::Drawn> drawn;  ///< what is drawn in a froxel
 };
 
-/// Depths of all sizes, m, and pixels without any: nothing is drawn in every third column of tiles beyond 30 m, nor above tile 1 of every fifth.
+/// Depths of all sizes, m, and pixels without any: nothing is drawn in every third column of tiles beyond 30 m, nor
+/// above tile 1 of every fifth.
 std::vector<float> depths(VkExtent2D extent) {
     Noise random(extent.width);
     std::vector<float> depths;
@@ -44,7 +45,8 @@ Resource surface_of(FrameGraph& graph, VkExtent2D extent) {
 
 Lists cluster(PassRig& rig, const LampList& list, const View& view, const ClusterSettings& settings) {
     FrameGraph graph;
-    const Clusters clusters = add_clusters(rig.frame(graph, view), surface_of(graph, view.extent), list, no_tables(graph), settings);
+    const Clusters clusters =
+        add_clusters(rig.frame(graph, view), surface_of(graph, view.extent), list, no_tables(graph), settings);
     const Resource counts = keep<uint32_t>(graph, clusters.counts), indices = keep<uint32_t>(graph, clusters.indices),
                    report = keep<shared::ClusterReport>(graph, clusters.report);
     rig.run(graph);
@@ -236,7 +238,8 @@ TEST(Cluster, ALampDarkerThanTheThresholdEverywhereIsNotListed) {
         const double begin = reference::slice_depth(lists.push.grid, slice),
                      end = reference::slice_depth(lists.push.grid, slice + 1);
         const auto& got = lists.lamps[reference::froxel_index(lists.push.grid, 0, 0, slice)];
-        if (begin < 50 && end > 50 && lists.drawn[reference::froxel_index(lists.push.grid, 0, 0, slice)] == reference::Drawn::Something) {
+        if (begin < 50 && end > 50 &&
+            lists.drawn[reference::froxel_index(lists.push.grid, 0, 0, slice)] == reference::Drawn::Something) {
             EXPECT_EQ(got.size(), 1u);
         }
         if (end < 10) {
@@ -249,9 +252,8 @@ TEST(Cluster, ALampDarkerThanTheThresholdEverywhereIsNotListed) {
 TEST(Cluster, GridMapsDepthsFromAMetreToTheEnd) {
     PassRig rig;
     FrameGraph graph;
-    const Clusters c =
-        add_clusters(rig.frame(graph, view_of({1680, 1050})), surface_of(graph, {1680, 1050}), street_lamps({3, 0, 0}, 100),
-                     no_tables(graph), {.far = 400});
+    const Clusters c = add_clusters(rig.frame(graph, view_of({1680, 1050})), surface_of(graph, {1680, 1050}),
+                                    street_lamps({3, 0, 0}, 100), no_tables(graph), {.far = 400});
     EXPECT_EQ(c.push.grid.tiles_x, 27u);
     EXPECT_EQ(c.push.grid.tiles_y, 17u);
     EXPECT_EQ(reference::slice_of(c.push.grid, 0.01), 0u);

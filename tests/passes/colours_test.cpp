@@ -16,10 +16,13 @@ TEST(Colours, AreMeansOfTheFinitePixelsOfTiles) {
         std::vector<glm::vec4> scene(size_t(extent.width) * extent.height);
         std::mt19937 random(extent.width);
         std::uniform_real_distribution<float> decades(-3, 5);
-        for (size_t i = 0; i < scene.size(); ++i) scene[i] = {std::pow(10.0f, decades(random)), std::pow(10.0f, decades(random)), i % 5 ? 1.0f : -1.0f, 1};
-        if (scene.size() > 9) scene[3].y = std::numeric_limits<float>::quiet_NaN(), scene[9].x = std::numeric_limits<float>::infinity();
+        for (size_t i = 0; i < scene.size(); ++i)
+            scene[i] = {std::pow(10.0f, decades(random)), std::pow(10.0f, decades(random)), i % 5 ? 1.0f : -1.0f, 1};
+        if (scene.size() > 9)
+            scene[3].y = std::numeric_limits<float>::quiet_NaN(), scene[9].x = std::numeric_limits<float>::infinity();
         FrameGraph graph;
-        const Colours colours = add_colours(rig.frame(graph, extent), rig.image(graph, "scene", kSceneFormat, extent, scene));
+        const Colours colours =
+            add_colours(rig.frame(graph, extent), rig.image(graph, "scene", kSceneFormat, extent, scene));
         const Resource kept = keep<glm::vec4>(graph, colours.tiles);
         rig.run(graph);
         const auto got = rig.got<glm::vec4>(kept);
@@ -27,7 +30,8 @@ TEST(Colours, AreMeansOfTheFinitePixelsOfTiles) {
         ASSERT_EQ(got.size(), want.texels.size());
         // Sums of 1024 floats, row by row: 64 roundings at most.
         for (size_t i = 0; i < got.size(); ++i)
-            for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[i][c], want.texels[i][c], 1e-5 * std::abs(want.texels[i][c]) + 1e-6) << i;
+            for (int c = 0; c < 4; ++c)
+                EXPECT_NEAR(got[i][c], want.texels[i][c], 1e-5 * std::abs(want.texels[i][c]) + 1e-6) << i;
     }
     EXPECT_EQ(rig.complaints(), "");
 }

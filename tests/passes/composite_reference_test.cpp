@@ -63,7 +63,8 @@ TEST(CompositeReference, LinearRunsFromLowToHigh) {
 constexpr uint32_t kCurveKept = shared::kToneCurve | shared::kGamutChromaticity;
 constexpr uint32_t kLinearKept = shared::kToneLinear | shared::kGamutChromaticity;
 
-// Whatever the colour, its chromaticity is kept, and its luminance unless the display is not that bright in that colour.
+// Whatever the colour, its chromaticity is kept, and its luminance unless the display is not that bright in that
+// colour.
 TEST(CompositeReference, ColoursAreKeptAndAsBrightAsTheDisplayIsInThem) {
     const shared::ToneCurve c = identity();
     std::mt19937 random(1);
@@ -72,11 +73,16 @@ TEST(CompositeReference, ColoursAreKeptAndAsBrightAsTheDisplayIsInThem) {
         const dvec3 rgb =
             dvec3(uniform(random), uniform(random), uniform(random)) * std::pow(10, 4 * uniform(random) - 1);
         const dvec3 shown = displayed(rgb, kCurveKept, c, 1, 100);
-        const double most = std::max({shown.x, shown.y, shown.z}), want = tone_mapped(luminance(rgb), shared::kToneCurve, c, 1, 100);
+        const double most = std::max({shown.x, shown.y, shown.z}),
+                     want = tone_mapped(luminance(rgb), shared::kToneCurve, c, 1, 100);
         EXPECT_LE(most, 1 + 1e-12);
         EXPECT_LE(luminance(shown), want + 1e-12);
-        if (most < 1 - 1e-9) { EXPECT_NEAR(luminance(shown), want, 1e-12); }
-        if (want > 0) { EXPECT_NEAR(glm::length(shown / luminance(shown) - rgb / luminance(rgb)), 0, 1e-9); }
+        if (most < 1 - 1e-9) {
+            EXPECT_NEAR(luminance(shown), want, 1e-12);
+        }
+        if (want > 0) {
+            EXPECT_NEAR(glm::length(shown / luminance(shown) - rgb / luminance(rgb)), 0, 1e-9);
+        }
     }
 }
 
@@ -104,7 +110,8 @@ TEST(CompositeReference, OklabIsThePublishedOne) {
     EXPECT_NEAR(glm::length(Oklab{.white = warm}.of(warm) - dvec3(1, 0, 0)), 0, 1e-7);
 }
 
-dvec3 bright(dvec3 colour, double d, uint32_t gamut = shared::kGamutLuminance, const glm::dmat3& to_own = glm::dmat3(1)) {
+dvec3 bright(dvec3 colour, double d, uint32_t gamut = shared::kGamutLuminance,
+             const glm::dmat3& to_own = glm::dmat3(1)) {
     shared::ToneCurve c{};
     c.block[0].y = 1;
     return displayed(colour * (d / luminance(colour)), shared::kToneLinear | gamut, c, 0, 1, to_own);
@@ -118,12 +125,15 @@ double chroma_over_lightness(dvec3 rgb) {
 TEST(CompositeReference, GreysAreNeitherPrimariesBelowTheKnee) {
     for (double d = 0; d <= 1; d += 1.0 / 64) EXPECT_NEAR(glm::length(bright(dvec3(3), d) - dvec3(d)), 0, 1e-12) << d;
     EXPECT_NEAR(glm::length(bright(dvec3(3), 1e9) - dvec3(1)), 0, 1e-12);
-    for (dvec3 colour : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1), dvec3(0, 1, 1), dvec3(1, 0, 1), dvec3(1, 0.3, 0)})
-        EXPECT_NEAR(glm::length(bright(colour, 0.85 * luminance(colour)) - 0.85 * colour), 0, 1e-12) << "its largest channel is 0.85";
+    for (dvec3 colour :
+         {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1), dvec3(0, 1, 1), dvec3(1, 0, 1), dvec3(1, 0.3, 0)})
+        EXPECT_NEAR(glm::length(bright(colour, 0.85 * luminance(colour)) - 0.85 * colour), 0, 1e-12)
+            << "its largest channel is 0.85";
 }
 
-// Light as bright as white loses 0.2 of its chroma and half of its own luminance, on the display's edge; in the middle of the knee, where the largest channel would just
-// end, it has 1 - knee / 4 and a quarter of a knee is lost of what is lost beyond.
+// Light as bright as white loses 0.2 of its chroma and half of its own luminance, on the display's edge; in the middle
+// of the knee, where the largest channel would just end, it has 1 - knee / 4 and a quarter of a knee is lost of what is
+// lost beyond.
 TEST(CompositeReference, PrimariesHaveClosedForms) {
     for (dvec3 colour : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1), dvec3(0, 1, 1), dvec3(1, 0, 1)}) {
         const double own = luminance(colour), lost = (0.2 + 0.5 * own) * std::min((1 / own - 1) / 0.3, 1.0);
@@ -135,8 +145,10 @@ TEST(CompositeReference, PrimariesHaveClosedForms) {
         }
         const dvec3 knee = bright(colour, own), half = bright(colour, (1 + own) / 2);
         EXPECT_NEAR(std::max({knee.x, knee.y, knee.z}), 1 - 0.15 / 4, 1e-12);
-        EXPECT_NEAR(chroma_over_lightness(knee) / chroma_over_lightness(colour), 1 - lost * 0.15 / 4 / (1 / own - 1), 2e-3);
-        EXPECT_NEAR(chroma_over_lightness(half) / chroma_over_lightness(colour), 1 - lost / 2, 2e-3) << "half way from its own luminance to white's";
+        EXPECT_NEAR(chroma_over_lightness(knee) / chroma_over_lightness(colour), 1 - lost * 0.15 / 4 / (1 / own - 1),
+                    2e-3);
+        EXPECT_NEAR(chroma_over_lightness(half) / chroma_over_lightness(colour), 1 - lost / 2, 2e-3)
+            << "half way from its own luminance to white's";
     }
     // Red as bright as white, by hand: Oklab (0.62796, 0.69368 (0.22486, 0.12585)) over its largest channel.
     const dvec3 red = Oklab{}.rgb({0.62796, 0.155981, 0.087300});
@@ -148,13 +160,16 @@ std::vector<dvec3> every_hue(int steps) {
     std::vector<dvec3> colours;
     for (double purity : {1.0, 0.97, 0.8, 0.5, 0.2, 0.03})
         for (int i = 0; i < steps; ++i) {
-            const auto channel = [&](double at) { return 1 - purity * std::clamp(2 - std::abs(std::fmod(6.0 * i / steps + at, 6) - 3), 0.0, 1.0); };
+            const auto channel = [&](double at) {
+                return 1 - purity * std::clamp(2 - std::abs(std::fmod(6.0 * i / steps + at, 6) - 3), 0.0, 1.0);
+            };
             colours.emplace_back(channel(0), channel(4), channel(2));
         }
     return colours;
 }
 
-// For every hue: brighter is shown brighter, never brighter than asked, in [0, 1], of the same hue, and without a step or an edge.
+// For every hue: brighter is shown brighter, never brighter than asked, in [0, 1], of the same hue, and without a step
+// or an edge.
 TEST(CompositeReference, OrderAndHueAreKeptAndNothingJumps) {
     constexpr int kSteps = 2000;
     constexpr double kStep = 1.0 / kSteps;
@@ -169,15 +184,20 @@ TEST(CompositeReference, OrderAndHueAreKeptAndNothingJumps) {
             ASSERT_GE(std::min({shown.x, shown.y, shown.z}), 0);
             ASSERT_LE(std::max({shown.x, shown.y, shown.z}), 1 + 1e-12);
             ASSERT_LE(luminance(shown), d + 1e-12);
-            ASSERT_GT(luminance(shown), last_luminance + 0.03 * kStep) << "the least is of blue, which has 14 times its own luminance to go";
+            ASSERT_GT(luminance(shown), last_luminance + 0.03 * kStep)
+                << "the least is of blue, which has 14 times its own luminance to go";
             // 0.2 degrees: where blue is cut at the edge of Rec. 709.
-            const double turned = (now.y * lab.z - now.z * lab.y) / (std::hypot(now.y, now.z) * std::hypot(lab.y, lab.z));
+            const double turned =
+                (now.y * lab.z - now.z * lab.y) / (std::hypot(now.y, now.z) * std::hypot(lab.y, lab.z));
             ASSERT_LT(std::abs(turned), 0.2 / 57.3) << d;
             // 5: of colours nearly as bright as white, whose blue comes up over a short way.
-            ASSERT_LT(glm::length(shown - last), std::max(1.1 * std::sqrt(3.0) * most, 5.0) * kStep) << "no step at " << d;
-            // An edge would bend a channel by up to its slope, `most`, within a step; a parabola over two knees does by most^2 / (2 knee).
+            ASSERT_LT(glm::length(shown - last), std::max(1.1 * std::sqrt(3.0) * most, 5.0) * kStep)
+                << "no step at " << d;
+            // An edge would bend a channel by up to its slope, `most`, within a step; a parabola over two knees does by
+            // most^2 / (2 knee).
             if (i > 2 && most > 1.5) {
-                ASSERT_LT(glm::length(shown - 2.0 * last + before), 2 * std::sqrt(3.0) * most * most / 0.3 * kStep * kStep)
+                ASSERT_LT(glm::length(shown - 2.0 * last + before),
+                          2 * std::sqrt(3.0) * most * most / 0.3 * kStep * kStep)
                     << "no edge at " << d;
             }
             before = last, last = shown, last_luminance = luminance(shown);
@@ -185,14 +205,16 @@ TEST(CompositeReference, OrderAndHueAreKeptAndNothingJumps) {
     }
 }
 
-// Around the edge of the display, at every luminance: nowhere more of a step than where chromaticity is kept, which has its largest near blue.
+// Around the edge of the display, at every luminance: nowhere more of a step than where chromaticity is kept, which has
+// its largest near blue.
 TEST(CompositeReference, NeighbouringHuesLookAlike) {
     const std::vector<dvec3> colours = every_hue(720);
     const auto largest_step = [&](uint32_t gamut) {
         double largest = 0;
         for (double d = 0.01; d <= 1; d += 0.01)
             for (size_t i = 1; i < 720; ++i)
-                largest = std::max(largest, glm::length(bright(colours[i], d, gamut) - bright(colours[i - 1], d, gamut)));
+                largest =
+                    std::max(largest, glm::length(bright(colours[i], d, gamut) - bright(colours[i - 1], d, gamut)));
         return largest;
     };
     EXPECT_LT(largest_step(shared::kGamutLuminance), largest_step(shared::kGamutChromaticity));
@@ -200,10 +222,12 @@ TEST(CompositeReference, NeighbouringHuesLookAlike) {
 
 // What is white is the display's, also where it is another than the scene's.
 TEST(CompositeReference, OtherDisplaysHaveAWhiteOfTheirOwn) {
-    for (const Primaries& primaries : {kDisplayP3, kRec2020, Primaries{{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}}) {
+    for (const Primaries& primaries :
+         {kDisplayP3, kRec2020, Primaries{{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}}) {
         const glm::dmat3 to_own = from_rec709(primaries), from_own = glm::inverse(to_own);
         for (double d : {0.2, 0.9, 0.999})
-            EXPECT_NEAR(glm::length(bright(from_own * dvec3(1), d, shared::kGamutLuminance, to_own) - dvec3(d)), 0, 1e-5);
+            EXPECT_NEAR(glm::length(bright(from_own * dvec3(1), d, shared::kGamutLuminance, to_own) - dvec3(d)), 0,
+                        1e-5);
         for (dvec3 own : every_hue(30)) {
             double last = 0;
             for (double d = 0.01; d <= 1; d += 0.01) {
@@ -218,8 +242,10 @@ TEST(CompositeReference, OtherDisplaysHaveAWhiteOfTheirOwn) {
 }
 
 TEST(CompositeReference, ClippedChannelsEndOneByOne) {
-    EXPECT_NEAR(glm::length(bright({2, 1, 0.5}, luminance({2, 1, 0.5}) / 2, shared::kGamutClip) - dvec3(1, 0.5, 0.25)), 0, 1e-12);
-    EXPECT_NEAR(glm::length(bright({2, 1, 0.5}, 0.8 * luminance({2, 1, 0.5}), shared::kGamutClip) - dvec3(1, 0.8, 0.4)), 0, 1e-12);
+    EXPECT_NEAR(glm::length(bright({2, 1, 0.5}, luminance({2, 1, 0.5}) / 2, shared::kGamutClip) - dvec3(1, 0.5, 0.25)),
+                0, 1e-12);
+    EXPECT_NEAR(glm::length(bright({2, 1, 0.5}, 0.8 * luminance({2, 1, 0.5}), shared::kGamutClip) - dvec3(1, 0.8, 0.4)),
+                0, 1e-12);
     EXPECT_NEAR(bright({0.4, 0.6, -0.2}, 0.3, shared::kGamutClip).z, 0, 0);
 }
 
@@ -233,7 +259,8 @@ TEST(CompositeReference, ColoursOutsideGoTowardsGreyNoFartherThanTheyMust) {
     EXPECT_NEAR(glm::length(glm::cross(shown - grey, rgb - grey)), 0, 1e-7);
 }
 
-// Eyes adapted to an evening street, as adapt_reference.h makes their curves: Pattanaik's responses, and Ferwerda's gains.
+// Eyes adapted to an evening street, as adapt_reference.h makes their curves: Pattanaik's responses, and Ferwerda's
+// gains.
 shared::ToneCurve evening(uint32_t form) {
     shared::ToneCurve c{};
     if (form == shared::kToneRods) {
@@ -242,16 +269,20 @@ shared::ToneCurve evening(uint32_t form) {
         return c;
     }
     const pattanaik::Appearance appearance(pattanaik::adapted(1, 2.57), 5e5);
-    c.bins = shared::kMaxNodes, c.ln_low = float(std::log(1e-4)), c.bins_per_ln = float(shared::kMaxNodes / std::log(1e12));
+    c.bins = shared::kMaxNodes, c.ln_low = float(std::log(1e-4)),
+    c.bins_per_ln = float(shared::kMaxNodes / std::log(1e12));
     for (uint32_t i = 0; i <= shared::kMaxNodes; ++i) {
         const double luminance = std::pow(10, -4 + 12.0 * i / shared::kMaxNodes);
-        c.node[i] = glm::vec4(float(appearance.cones(luminance)), float(appearance(luminance, luminance).colour_exponent), float(appearance.rods(2.57 * luminance)), 0);
+        c.node[i] =
+            glm::vec4(float(appearance.cones(luminance)), float(appearance(luminance, luminance).colour_exponent),
+                      float(appearance.rods(2.57 * luminance)), 0);
     }
     c.block[0].x = float(appearance.offset()), c.block[0].y = float(pattanaik::cone_sigma(25) / 125);
     return c;
 }
 
-// From grey out of Rec. 709 to where nothing is left of its luminance: what lies beside each other looks alike all the way.
+// From grey out of Rec. 709 to where nothing is left of its luminance: what lies beside each other looks alike all the
+// way.
 TEST(CompositeReference, LightOutsideThePrimariesLeavesNoEdge) {
     constexpr int kSteps = 4000;
     for (uint32_t form : {shared::kToneColour, shared::kToneRods})
@@ -263,8 +294,8 @@ TEST(CompositeReference, LightOutsideThePrimariesLeavesNoEdge) {
                     const dvec3 shown = displayed(level * (1.0 + (hue - 1.0) * (2.5 * i / kSteps)), form, c, 1, 100);
                     // Blue of 3 cd/m^2 goes out with a slope of 19; powers of 1e-6 had one of 115 at the border.
                     ASSERT_LT(glm::length(shown - last), 25.0 / kSteps)
-                        << "form " << form << ", " << level << " cd/m^2, hue " << hue.x << " " << hue.y << " " << hue.z << " at "
-                        << 2.5 * i / kSteps;
+                        << "form " << form << ", " << level << " cd/m^2, hue " << hue.x << " " << hue.y << " " << hue.z
+                        << " at " << 2.5 * i / kSteps;
                     last = shown;
                 }
             }
@@ -274,11 +305,13 @@ TEST(CompositeReference, LightOutsideThePrimariesLeavesNoEdge) {
 TEST(CompositeReference, NoLightIsShownAsHardlyAny) {
     shared::ToneCurve c = identity();
     for (auto& node : c.node) node.x += 1;  // a curve that begins above the darkest
-    EXPECT_EQ(displayed(dvec3(0), shared::kToneCurve, c, 1, 100), displayed(dvec3(1e-9), shared::kToneCurve, c, 1, 100));
+    EXPECT_EQ(displayed(dvec3(0), shared::kToneCurve, c, 1, 100),
+              displayed(dvec3(1e-9), shared::kToneCurve, c, 1, 100));
     EXPECT_GT(displayed(dvec3(0), shared::kToneCurve, c, 1, 100).x, 0.01);
     c.block[0].x = 0.1f, c.block[0].y = 5;
     for (auto& node : c.node) node = {0.01f, 0.2f, 0.02f, 0};
-    EXPECT_EQ(displayed(dvec3(0), shared::kToneColour, c, 1, 100), displayed(dvec3(1e-9), shared::kToneColour, c, 1, 100));
+    EXPECT_EQ(displayed(dvec3(0), shared::kToneColour, c, 1, 100),
+              displayed(dvec3(1e-9), shared::kToneColour, c, 1, 100));
 }
 
 // Rods are blind to red lamps, and see blue ones well; white counts as its luminance.
@@ -322,7 +355,8 @@ TEST(CompositeReference, CodesInvertTheDisplay) {
     EXPECT_NEAR(code({0.01, 0.0203, 0.1}, pq).x / 1023, 0.508, 5e-4);
     EXPECT_NEAR(code({0.01, 0.0203, 0.1}, pq).y / 1023, 0.581, 5e-4);
     EXPECT_NEAR(code({0.01, 0.0203, 0.1}, pq).z / 1023, 0.752, 5e-4);
-    const Display table{.peak = 100, .black = 1, .eotf = Eotf::Table, .table = {{0, 1}, {0.25, 5}, {0.7, 60}, {1, 100}}};
+    const Display table{
+        .peak = 100, .black = 1, .eotf = Eotf::Table, .table = {{0, 1}, {0.25, 5}, {0.7, 60}, {1, 100}}};
     EXPECT_NEAR(code(dvec3(59.0 / 99), table).x, 0.7 * 255, 1e-6);
 }
 

@@ -15,7 +15,8 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::nume
 // Codes beyond the half that rounding takes. log, exp and pow in float, the curve's slope and the 8-bit store each move
 // a code by some thousandths.
 constexpr double kBeyond = 0.02;
-// What goes towards white is a sum of cubes of which much cancels: some units of the last place of 1, which near black are a good part of a code.
+// What goes towards white is a sum of cubes of which much cancels: some units of the last place of 1, which near black
+// are a good part of a code.
 constexpr double kCancelled = 3e-6;
 
 struct Inputs {
@@ -45,7 +46,8 @@ std::vector<uint16_t> composite(PassRig& rig, const Inputs& in, uint32_t tone) {
     rig.run(graph);
     std::vector<uint16_t> codes;
     for (const uint32_t word : rig.got<uint32_t>(kept)) {
-        for (uint32_t c = 0; c < 3; ++c) codes.push_back(uint16_t(word >> c * in.display.bits & in.display.largest_code()));
+        for (uint32_t c = 0; c < 3; ++c)
+            codes.push_back(uint16_t(word >> c * in.display.bits & in.display.largest_code()));
         codes.push_back(uint16_t(word >> 3 * in.display.bits));
     }
     return codes;
@@ -61,7 +63,9 @@ void expect_reference(const std::vector<uint16_t>& got, const Inputs& in, uint32
             const auto code = reference::code(light, in.display);
             const bool gives_way = (tone & shared::kGamutMask) == shared::kGamutLuminance &&
                                    std::max({light.x, light.y, light.z}) > 1 - shared::kGamutKnee;
-            const auto off = gives_way ? reference::code(light + kCancelled, in.display) - reference::code(light - kCancelled, in.display) : glm::dvec3(0);
+            const auto off = gives_way ? reference::code(light + kCancelled, in.display) -
+                                             reference::code(light - kCancelled, in.display)
+                                       : glm::dvec3(0);
             for (uint32_t c = 0; c < 3; ++c) {
                 rounding.at(x, y, c) = off[int(c)];
                 got_codes.at(x, y, c) = got[4 * (size_t(y) * w + x) + c];
@@ -94,7 +98,12 @@ TEST(Composite, AddsBloom) {
     PassRig rig;
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {66, 35}})
         for (uint32_t tone : kEveryTone) {
-            Inputs in{extent, night_pixels(extent, 2), night_pixels(quarter(extent), 21, -3, 0), crooked_curve_of(tone, {}), {}, 0.7f};
+            Inputs in{extent,
+                      night_pixels(extent, 2),
+                      night_pixels(quarter(extent), 21, -3, 0),
+                      crooked_curve_of(tone, {}),
+                      {},
+                      0.7f};
             for (auto& g : in.glare) g = glm::round(g * 1024.0f) / 1024.0f;  // exact in a 16-bit float
             expect_reference(composite(rig, in, tone), in, tone);
         }
@@ -143,7 +152,9 @@ TEST(Composite, SweepsOfHueAndLuminance) {
     for (uint32_t y = 0; y < extent.height; ++y)
         for (uint32_t x = 0; x < extent.width; ++x) {
             const float hue = 6 * float(x) / float(extent.width), purity = 1 - 0.4f * float(y % 3);
-            const auto channel = [&](float at) { return 1 - purity * glm::clamp(2 - std::abs(std::fmod(hue + at, 6.0f) - 3), 0.0f, 1.0f); };
+            const auto channel = [&](float at) {
+                return 1 - purity * glm::clamp(2 - std::abs(std::fmod(hue + at, 6.0f) - 3), 0.0f, 1.0f);
+            };
             const glm::vec3 colour(channel(0), channel(4), channel(2));
             in.scene.emplace_back(colour * (0.05f + float(y) / 30), 1);
         }
@@ -185,7 +196,8 @@ TEST(Composite, CodesAreTheNearest) {
     for (Display display : every_kind_of_display()) {
         display.primaries = kRec709;
         std::vector<float> lamps{0, -0.0f, 1};
-        for (int i = 0; i <= 20000; ++i) lamps.push_back(float(i) / 20000), lamps.push_back(std::pow(10.0f, -9 * float(i) / 20000));
+        for (int i = 0; i <= 20000; ++i)
+            lamps.push_back(float(i) / 20000), lamps.push_back(std::pow(10.0f, -9 * float(i) / 20000));
         const DisplayCurve curve(display);
         const double black = double(display.black), range = double(display.peak) - black;
         for (double code = 0.5; code < display.largest_code(); ++code) {
@@ -213,21 +225,25 @@ TEST(Composite, LightOfTheDisplayWithoutItsLimits) {
     const VkExtent2D extent{37, 21};
     for (uint32_t tone : kEveryTone) {
         Inputs in{extent, night_pixels(extent, tone), {}, crooked_curve_of(tone, {}), {}};
-        in.scene[5] = {kNan, 1, 1, 1}, in.scene[6] = {1, kInf, 1, 1}, in.scene[7] = {-5, -5, -5, 1}, in.scene[8] = {90, -1, 20, 1};
+        in.scene[5] = {kNan, 1, 1, 1}, in.scene[6] = {1, kInf, 1, 1}, in.scene[7] = {-5, -5, -5, 1},
+        in.scene[8] = {90, -1, 20, 1};
         FrameGraph graph;
         const CompositeInputs inputs = inputs_of(rig, graph, in);
-        const Resource kept = keep<glm::vec4>(graph, add_display_light(rig.frame(graph, extent), inputs, {.tone = tone, .display = in.display}));
+        const Resource kept = keep<glm::vec4>(
+            graph, add_display_light(rig.frame(graph, extent), inputs, {.tone = tone, .display = in.display}));
         rig.run(graph);
         const auto got = rig.got<glm::vec4>(kept);
         Picture got_light(extent.width, extent.height, 3), want = got_light;
         for (size_t i = 0; i < got.size(); ++i) {
             const auto light = reference::display_light(glm::dvec3(in.scene[i]), tone, in.curve, in.display);
-            for (size_t c = 0; c < 3; ++c) got_light.values[3 * i + c] = double(got[i][int(c)]), want.values[3 * i + c] = light[int(c)];
+            for (size_t c = 0; c < 3; ++c)
+                got_light.values[3 * i + c] = double(got[i][int(c)]), want.values[3 * i + c] = light[int(c)];
         }
-        // log and exp in float, as the curve is steep, and the sum with the black level; powers of colour beside that, or a
-        // matrix whose terms cancel.
+        // log and exp in float, as the curve is steep, and the sum with the black level; powers of colour beside that,
+        // or a matrix whose terms cancel.
         const uint32_t form = tone & shared::kToneForm;
-        EXPECT_TRUE(same_light("light " + std::to_string(tone), got_light, want, {form == shared::kToneColour || form == shared::kToneRods ? 5e-5 : 1e-5, 0.1}));
+        EXPECT_TRUE(same_light("light " + std::to_string(tone), got_light, want,
+                               {form == shared::kToneColour || form == shared::kToneRods ? 5e-5 : 1e-5, 0.1}));
     }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -241,7 +257,9 @@ TEST(Composite, GreyStaysGreyAndRampsStayMonotone) {
         in.curve = crooked_curve_of(tone, {});
         const auto got = composite(rig, in, tone);
         for (size_t i = 0; i < 512; ++i) {
-            EXPECT_TRUE((tone & shared::kToneForm) == shared::kToneRods || (got[4 * i] == got[4 * i + 1] && got[4 * i] == got[4 * i + 2])) << "rods may have a tint";
+            EXPECT_TRUE((tone & shared::kToneForm) == shared::kToneRods ||
+                        (got[4 * i] == got[4 * i + 1] && got[4 * i] == got[4 * i + 2]))
+                << "rods may have a tint";
             EXPECT_GE(got[4 * i], got[4 * (i ? i - 1 : 0)]) << "tone " << tone;
         }
         EXPECT_LE(got[0], 1);  // 1e-5 cd/m^2

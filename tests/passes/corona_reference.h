@@ -1,5 +1,5 @@
-// Needles and halo of the brightest lamps of a picture, in double: squares of light, which of them are lamps, what those add.
-// SPDX-License-Identifier: MIT
+// Needles and halo of the brightest lamps of a picture, in double: squares of light, which of them are lamps, what
+// those add. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using glm::dvec2, glm::dvec3;
 /// Light from one direction as wide as a box of `width` rad.
 struct CoronaLight {
     dvec3 direction{0, 0, -1}, illuminance{0};  // view frame; RGB lx
-    double width = 0;  // a pixel included
+    double width = 0;                           // a pixel included
 };
 
 inline dvec3 corona_ray(const View& view, dvec2 place) {
@@ -32,7 +32,8 @@ inline double corona_pixel(const View& view, dvec3 ray) {
     return span.x * span.y * std::pow(-ray.z, 3);
 }
 
-/// Of every square that has light, brightest first, kCoronaLamps of them, each without the share that the next one has of it.
+/// Of every square that has light, brightest first, kCoronaLamps of them, each without the share that the next one has
+/// of it.
 inline std::vector<CoronaLight> corona_lights(const View& view, const std::vector<dvec3>& scene) {
     struct Square {
         double luminance;
@@ -61,9 +62,11 @@ inline std::vector<CoronaLight> corona_lights(const View& view, const std::vecto
             each([&](dvec3, double l, dvec2 at) { square += l * glm::dot(at - place, at - place); });
             const dvec3 ray = corona_ray(view, place);
             const double pixel = corona_pixel(view, ray);
-            squares.push_back({sum, int(squares.size()), {ray, pixel * light, std::sqrt(pixel * (1 + 6 * square / sum))}});
+            squares.push_back(
+                {sum, int(squares.size()), {ray, pixel * light, std::sqrt(pixel * (1 + 6 * square / sum))}});
         }
-    std::stable_sort(squares.begin(), squares.end(), [](const Square& a, const Square& b) { return a.luminance > b.luminance; });
+    std::stable_sort(squares.begin(), squares.end(),
+                     [](const Square& a, const Square& b) { return a.luminance > b.luminance; });
     const double cut = squares.size() > shared::kCoronaLamps ? squares[shared::kCoronaLamps].luminance : 0;
     std::vector<CoronaLight> lamps;
     for (size_t i = 0; i < std::min(squares.size(), size_t(shared::kCoronaLamps)); ++i) {
@@ -75,12 +78,14 @@ inline std::vector<CoronaLight> corona_lights(const View& view, const std::vecto
 
 /// What one lamp adds in a direction, a pixel being as wide as a box of `pixel` rad.
 inline dvec3 corona_added(const std::vector<glm::vec4>& pattern, const CoronaLight& lamp, dvec3 ray, double pixel) {
-    const int columns = int(shared::kPatternColumns), rows = int(shared::kPatternRows), last = int(shared::kPatternLevels) - 1;
+    const int columns = int(shared::kPatternColumns), rows = int(shared::kPatternRows),
+              last = int(shared::kPatternLevels) - 1;
     const double step = 2 * std::numbers::pi / columns;
     const double theta = std::atan2(glm::length(glm::cross(ray, lamp.direction)), glm::dot(ray, lamp.direction));
     const double row = rows + std::log(theta * 180 / std::numbers::pi / double(shared::kPatternReach)) / step;
     if (!(row > 0 && row < rows)) return dvec3(0);
-    const dvec3 right = glm::normalize(dvec3(1, 0, 0) - lamp.direction * lamp.direction.x), up = glm::cross(right, lamp.direction);
+    const dvec3 right = glm::normalize(dvec3(1, 0, 0) - lamp.direction * lamp.direction.x),
+                up = glm::cross(right, lamp.direction);
     double turn = std::atan2(glm::dot(ray, up), glm::dot(ray, right)) / (2 * std::numbers::pi);
     if (turn < 0) turn += 1;
     const auto at_level = [&](int level) {
@@ -90,15 +95,17 @@ inline dvec3 corona_added(const std::vector<glm::vec4>& pattern, const CoronaLig
         const auto at = [&](int i) { return dvec3(pattern[first + size_t((left + i + across) % across)]); };
         return glm::mix(at(0), at(1), turn * across - 0.5 - left);
     };
-    const double level = std::clamp(std::log2(std::sqrt(pixel * pixel + lamp.width * lamp.width) / (theta * step)), 0.0, double(last));
+    const double level =
+        std::clamp(std::log2(std::sqrt(pixel * pixel + lamp.width * lamp.width) / (theta * step)), 0.0, double(last));
     const int lower = std::min(int(level), last - 1);
     const double degrees = theta * 180 / std::numbers::pi;
     return lamp.illuminance * glm::mix(at_level(lower), at_level(lower + 1), level - lower) / (degrees * degrees);
 }
 
-/// What single precision may do to each pixel: directions and middles of squares are good to 1e-6 rad, where another row of the pattern may be taken;
-/// azimuths to 4096 ulp (Vulkan's atan), 1e-3 rad; the light itself to 3e-5.
-inline std::vector<double> corona_doubt(const View& view, const std::vector<dvec3>& scene, const std::vector<glm::vec4>& pattern) {
+/// What single precision may do to each pixel: directions and middles of squares are good to 1e-6 rad, where another
+/// row of the pattern may be taken; azimuths to 4096 ulp (Vulkan's atan), 1e-3 rad; the light itself to 3e-5.
+inline std::vector<double> corona_doubt(const View& view, const std::vector<dvec3>& scene,
+                                        const std::vector<glm::vec4>& pattern) {
     std::vector<double> doubts;
     const std::vector<CoronaLight> lamps = corona_lights(view, scene);
     for (uint32_t y = 0; y < view.extent.height; ++y)
@@ -111,8 +118,11 @@ inline std::vector<double> corona_doubt(const View& view, const std::vector<dvec
                 doubt += 3e-5 * glm::length(here);
                 // Inwards, outwards, and to both sides.
                 for (const double turn : {0.0, 0.25, 0.5, 0.75}) {
-                    const dvec3 out = ray - light.direction, side = glm::cross(light.direction, out), size = dvec3(std::max(glm::length(out), 1e-12));
-                    const dvec3 step = (std::cos(2 * std::numbers::pi * turn) * out + std::sin(2 * std::numbers::pi * turn) * side) / size;
+                    const dvec3 out = ray - light.direction, side = glm::cross(light.direction, out),
+                                size = dvec3(std::max(glm::length(out), 1e-12));
+                    const dvec3 step =
+                        (std::cos(2 * std::numbers::pi * turn) * out + std::sin(2 * std::numbers::pi * turn) * side) /
+                        size;
                     const double far = turn == 0.25 || turn == 0.75 ? 1e-6 + 1e-3 * size.x : 1e-6 + 1e-5 * size.x;
                     doubt += glm::length(corona_added(pattern, light, glm::normalize(ray + far * step), pixel) - here);
                 }
@@ -123,7 +133,8 @@ inline std::vector<double> corona_doubt(const View& view, const std::vector<dvec
 }
 
 /// What all of them make of a veil.
-inline std::vector<dvec3> corona(const View& view, const std::vector<dvec3>& scene, std::vector<dvec3> veiled, const std::vector<glm::vec4>& pattern) {
+inline std::vector<dvec3> corona(const View& view, const std::vector<dvec3>& scene, std::vector<dvec3> veiled,
+                                 const std::vector<glm::vec4>& pattern) {
     const std::vector<CoronaLight> lamps = corona_lights(view, scene);
     for (uint32_t y = 0; y < view.extent.height; ++y)
         for (uint32_t x = 0; x < view.extent.width; ++x) {
@@ -131,7 +142,8 @@ inline std::vector<dvec3> corona(const View& view, const std::vector<dvec3>& sce
             if (!std::isfinite(pixel.r + pixel.g + pixel.b)) continue;
             const dvec3 ray = corona_ray(view, dvec2(x, y) + 0.5);
             dvec3 sum = pixel;
-            for (const CoronaLight& light : lamps) sum += corona_added(pattern, light, ray, std::sqrt(corona_pixel(view, ray)));
+            for (const CoronaLight& light : lamps)
+                sum += corona_added(pattern, light, ray, std::sqrt(corona_pixel(view, ray)));
             pixel = glm::max(sum, glm::min(pixel, dvec3(0)));
         }
     return veiled;

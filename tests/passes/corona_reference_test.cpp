@@ -1,4 +1,5 @@
-// The reference of needles and halo: which lamps are lamps, and that what they add has a mean of nothing. SPDX-License-Identifier: MIT
+// The reference of needles and halo: which lamps are lamps, and that what they add has a mean of nothing.
+// SPDX-License-Identifier: MIT
 #include "passes/corona_reference.h"
 
 #include <limits>
@@ -23,7 +24,8 @@ TEST(CoronaReference, ALampIsTheLightOfItsSquare) {
     scene[6 * 64 + 50] = dvec3(std::numeric_limits<double>::quiet_NaN());
     const auto lamps = reference::corona_lights(view, scene);
     ASSERT_EQ(lamps.size(), 2u);
-    EXPECT_LT(glm::length(lamps[0].direction - reference::corona_ray(view, {23.5, 20.5})), 1e-12) << "in the middle of both pixels";
+    EXPECT_LT(glm::length(lamps[0].direction - reference::corona_ray(view, {23.5, 20.5})), 1e-12)
+        << "in the middle of both pixels";
     const double pixel = reference::corona_pixel(view, lamps[0].direction);
     EXPECT_NEAR(lamps[0].illuminance.r, 6000 * pixel, 1e-12);
     EXPECT_NEAR(lamps[0].width, std::sqrt(pixel * (1 + 12 * 4 / 2.0)), 1e-12) << "4 px^2 along x, 0 along y";
@@ -50,7 +52,8 @@ TEST(CoronaReference, AddsNoLight) {
         const auto texels = cache.at(settings, 1, 0.5).texels;
         const EyeScatter smooth = eye_scatter(settings);
         const reference::CoronaLight lamp{glm::normalize(dvec3(0.3, -0.2, -1)), dvec3(1), 1e-4};
-        const dvec3 right = glm::normalize(glm::cross(lamp.direction, dvec3(0, 1, 0))), up = glm::cross(right, lamp.direction);
+        const dvec3 right = glm::normalize(glm::cross(lamp.direction, dvec3(0, 1, 0))),
+                    up = glm::cross(right, lamp.direction);
         dvec3 all(0);
         constexpr int kRings = 448, kParts = 1536;
         for (int ring = 0; ring < kRings; ++ring) {
@@ -58,13 +61,17 @@ TEST(CoronaReference, AddsNoLight) {
             dvec3 sum(0);
             for (int i = 0; i < kParts; ++i) {
                 const double turn = 2 * std::numbers::pi * i / kParts;
-                const dvec3 ray = std::cos(theta) * lamp.direction + std::sin(theta) * (std::cos(turn) * right + std::sin(turn) * up);
+                const dvec3 ray =
+                    std::cos(theta) * lamp.direction + std::sin(theta) * (std::cos(turn) * right + std::sin(turn) * up);
                 sum += reference::corona_added(texels, lamp, ray, 1e-4);
             }
             sum /= double(kParts);
             // 1e-4 of the veil: sums of single precision.
             if (model == ScatterSettings::Model::Temporal) {
-                EXPECT_NEAR((0.212639 * sum.r + 0.715169 * sum.g + 0.072192 * sum.b) / smooth(GlarePattern::angle(ring + 0.5)), 0, 1e-4) << ring;
+                EXPECT_NEAR(
+                    (0.212639 * sum.r + 0.715169 * sum.g + 0.072192 * sum.b) / smooth(GlarePattern::angle(ring + 0.5)),
+                    0, 1e-4)
+                    << ring;
             }
             const double step = 2 * std::numbers::pi / 512;
             all += sum * 2.0 * std::numbers::pi * theta * std::sin(theta) * step;

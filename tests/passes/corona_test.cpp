@@ -27,9 +27,11 @@ const std::vector<vec4>& pattern() {
     return cache.at({.model = ScatterSettings::Model::Temporal}, 1, 0.3).texels;
 }
 
-std::vector<vec4> seen(PassRig& rig, const View& view, const std::vector<vec4>& scene, const std::vector<vec4>& veiled, const std::vector<vec4>& texels) {
+std::vector<vec4> seen(PassRig& rig, const View& view, const std::vector<vec4>& scene, const std::vector<vec4>& veiled,
+                       const std::vector<vec4>& texels) {
     FrameGraph graph;
-    const Resource picture = rig.image(graph, "scene", kSceneFormat, view.extent, scene), veil = rig.image(graph, "veil", kSceneFormat, view.extent, veiled);
+    const Resource picture = rig.image(graph, "scene", kSceneFormat, view.extent, scene),
+                   veil = rig.image(graph, "veil", kSceneFormat, view.extent, veiled);
     const Resource kept = keep<vec4>(graph, add_corona(rig.frame(graph, view), picture, veil, texels));
     rig.run(graph);
     return rig.got<vec4>(kept);
@@ -49,7 +51,8 @@ void expect_reference(PassRig& rig, const View& view, const std::vector<vec4>& s
         for (size_t c = 0; c < 3; ++c) {
             a.values[3 * i + c] = double(got[i][int(c)]), b.values[3 * i + c] = want[i][int(c)];
             rounding.values[3 * i + c] = doubt[i];
-            if (std::isfinite(want[i][int(c)])) most = std::max(most, std::abs(want[i][int(c)] - double(veiled[i][int(c)])));
+            if (std::isfinite(want[i][int(c)]))
+                most = std::max(most, std::abs(want[i][int(c)] - double(veiled[i][int(c)])));
         }
     // 1e-6 of what was there: it is in single precision.
     EXPECT_TRUE(same_light("seen", a, b, {1e-6, 1e-6}, rounding));
@@ -57,7 +60,9 @@ void expect_reference(PassRig& rig, const View& view, const std::vector<vec4>& s
 }
 
 /// A veil that is brighter than what is taken off it, nearly everywhere.
-std::vector<vec4> even_veil(const View& view) { return std::vector<vec4>(size_t(view.extent.width) * view.extent.height, vec4(30, 60, 90, 1)); }
+std::vector<vec4> even_veil(const View& view) {
+    return std::vector<vec4>(size_t(view.extent.width) * view.extent.height, vec4(30, 60, 90, 1));
+}
 
 TEST(Corona, MatchesTheReferenceAtEverySize) {
     PassRig rig;
@@ -96,7 +101,8 @@ TEST(Corona, LightIsNeverNegative) {
     const View view = view_of({120, 90});
     std::vector<vec4> scene(120 * 90, vec4(0, 0, 0, 1));
     scene[45 * 120 + 60] = vec4(1e6f, 1e6f, 1e6f, 1);
-    for (const vec4& pixel : seen(rig, view, scene, std::vector<vec4>(scene.size(), vec4(1e-3f, 1e-3f, 1e-3f, 1)), pattern()))
+    for (const vec4& pixel :
+         seen(rig, view, scene, std::vector<vec4>(scene.size(), vec4(1e-3f, 1e-3f, 1e-3f, 1)), pattern()))
         EXPECT_TRUE(pixel.r >= 0 && pixel.g >= 0 && pixel.b >= 0);
 }
 
@@ -107,7 +113,8 @@ TEST(Corona, RunsAreAlikeToTheLastBit) {
     EXPECT_EQ(seen(rig, view, scene, veiled, pattern()), seen(rig, view, scene, veiled, pattern()));
 }
 
-// Issue: with its needles a picture has the light it had, and needles are where angles say, also far off the axis of a wide view.
+// Issue: with its needles a picture has the light it had, and needles are where angles say, also far off the axis of a
+// wide view.
 TEST(Corona, KeepsTheLightOfAWideView) {
     PassRig rig;
     View view = view_of({1000, 540});

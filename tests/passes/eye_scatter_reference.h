@@ -1,4 +1,5 @@
-// Light scattered in the eye: the definition, and the fitted pyramid step by step, in double. SPDX-License-Identifier: MIT
+// Light scattered in the eye: the definition, and the fitted pyramid step by step, in double. SPDX-License-Identifier:
+// MIT
 #pragma once
 
 #include <algorithm>
@@ -8,9 +9,9 @@
 
 #include <glm/glm.hpp>
 
+#include "gpu_scene/eye_scatter.h"
 #include "vision/light_elsewhere.h"
 #include "vision/scatter_fit.h"
-#include "gpu_scene/eye_scatter.h"
 
 namespace vesper::reference {
 
@@ -31,10 +32,13 @@ struct Plane {
 
 inline dvec3 direction_of(const ImageAngles& image, dvec2 pixels) {
     const dvec2 span = image.high - image.low;
-    return glm::normalize(dvec3(image.low.x + span.x * pixels.x / image.width, image.high.y - span.y * pixels.y / image.height, -1));
+    return glm::normalize(
+        dvec3(image.low.x + span.x * pixels.x / image.width, image.high.y - span.y * pixels.y / image.height, -1));
 }
 
-inline double degrees_apart(dvec3 a, dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi; }
+inline double degrees_apart(dvec3 a, dvec3 b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
+}
 
 /// sr, about a direction, of the part `scale` x `scale` of a pixel.
 inline double solid_angle(const ImageAngles& image, dvec3 direction, double scale = 1) {
@@ -43,8 +47,8 @@ inline double solid_angle(const ImageAngles& image, dvec3 direction, double scal
     return scale * scale * span.x * span.y / (double(image.width) * image.height) * cosine * cosine * cosine;
 }
 
-/// What a pixel of 1 cd/m^2 is seen with from the middle of another, by `parts` x `parts` midpoints. In its own middle the
-/// function is too sharp for that: rings about the axis, of which the pixel has a part.
+/// What a pixel of 1 cd/m^2 is seen with from the middle of another, by `parts` x `parts` midpoints. In its own middle
+/// the function is too sharp for that: rings about the axis, of which the pixel has a part.
 inline double exact_response(const EyeScatter& psf, const ImageAngles& image, ivec2 to, ivec2 from, int parts) {
     const dvec3 axis = direction_of(image, dvec2(to) + 0.5);
     if (to == from) {
@@ -59,7 +63,8 @@ inline double exact_response(const EyeScatter& psf, const ImageAngles& image, iv
                 const double t = 0.5 * (low + high), a = t * std::numbers::pi / 180;
                 const dvec3 d = std::cos(a) * axis + std::sin(a) * (std::cos(turn) * side + std::sin(turn) * up);
                 const dvec2 span = image.high - image.low, tangents = dvec2(d) / -d.z;
-                const dvec2 p((tangents.x - image.low.x) / span.x * image.width, (image.high.y - tangents.y) / span.y * image.height);
+                const dvec2 p((tangents.x - image.low.x) / span.x * image.width,
+                              (image.high.y - tangents.y) / span.y * image.height);
                 const bool within = d.z < 0 && std::abs(p.x - from.x - 0.5) < 0.5 && std::abs(p.y - from.y - 0.5) < 0.5;
                 (within ? low : high) = t;
             }
@@ -82,11 +87,13 @@ inline int parts_for(ivec2 to, ivec2 from) {
 }
 
 /// Seen at one pixel: every pixel, and lamps outside. Exact, and slow.
-inline dvec3 exact_at(const EyeScatter& psf, const ImageAngles& image, const Plane& scene, const std::vector<OffscreenLamp>& lamps, ivec2 to) {
+inline dvec3 exact_at(const EyeScatter& psf, const ImageAngles& image, const Plane& scene,
+                      const std::vector<OffscreenLamp>& lamps, ivec2 to) {
     dvec3 sum(0);
     for (int y = 0; y < scene.size.y; ++y)
         for (int x = 0; x < scene.size.x; ++x)
-            if (scene.at({x, y}) != dvec3(0)) sum += scene.at({x, y}) * exact_response(psf, image, to, {x, y}, parts_for(to, {x, y}));
+            if (scene.at({x, y}) != dvec3(0))
+                sum += scene.at({x, y}) * exact_response(psf, image, to, {x, y}, parts_for(to, {x, y}));
     const dvec3 axis = direction_of(image, dvec2(to) + 0.5);
     for (const OffscreenLamp& lamp : lamps) {
         if (lamp.direction.z < 0) sum += psf(degrees_apart(axis, lamp.direction)) * lamp.illuminance;
@@ -94,14 +101,16 @@ inline dvec3 exact_at(const EyeScatter& psf, const ImageAngles& image, const Pla
     return sum;
 }
 
-/// For whole frames: as exact_at within 64 pixels, sums over blocks of 4 x 4 at the middle of their light beyond. A block of
-/// 4 px seen from 64 px is off by n^2 / 2 * 1.25 / 64^2 for a function of power n: 0.1 % for n = 2.5.
+/// For whole frames: as exact_at within 64 pixels, sums over blocks of 4 x 4 at the middle of their light beyond. A
+/// block of 4 px seen from 64 px is off by n^2 / 2 * 1.25 / 64^2 for a function of power n: 0.1 % for n = 2.5.
 class ExactFrame {
 public:
-    ExactFrame(const EyeScatter& psf, const ImageAngles& image, const Plane& scene) : psf_(psf), image_(image), scene_(scene), blocks_((scene.size + 3) / 4), middles_(blocks_.size) {
+    ExactFrame(const EyeScatter& psf, const ImageAngles& image, const Plane& scene)
+        : psf_(psf), image_(image), scene_(scene), blocks_((scene.size + 3) / 4), middles_(blocks_.size) {
         for (int y = 0; y < scene.size.y; ++y)
             for (int x = 0; x < scene.size.x; ++x) {
-                const dvec3 direction = direction_of(image, dvec2(x, y) + 0.5), light = scene.at({x, y}) * solid_angle(image, direction);
+                const dvec3 direction = direction_of(image, dvec2(x, y) + 0.5),
+                            light = scene.at({x, y}) * solid_angle(image, direction);
                 blocks_[{x / 4, y / 4}] += light;
                 middles_[{x / 4, y / 4}] += (light.x + light.y + light.z) * direction;
             }
@@ -115,9 +124,11 @@ public:
             for (int u = 0; u < blocks_.size.x; ++u)
                 if (std::abs(u - block.x) > kNear || std::abs(v - block.y) > kNear)
                     sum += psf_(degrees_apart(axis, middles_.at({u, v}))) * blocks_.at({u, v});
-        const ivec2 low = glm::max(4 * (block - kNear), ivec2(0)), high = glm::min(4 * (block + kNear + 1), scene_.size);
+        const ivec2 low = glm::max(4 * (block - kNear), ivec2(0)),
+                    high = glm::min(4 * (block + kNear + 1), scene_.size);
         for (int y = low.y; y < high.y; ++y)
-            for (int x = low.x; x < high.x; ++x) sum += scene_.at({x, y}) * exact_response(psf_, image_, to, {x, y}, parts_for(to, {x, y}));
+            for (int x = low.x; x < high.x; ++x)
+                sum += scene_.at({x, y}) * exact_response(psf_, image_, to, {x, y}, parts_for(to, {x, y}));
         return sum;
     }
 
@@ -142,14 +153,17 @@ inline int floor_half(int i) { return int(std::floor(i / 2.0)); }
 
 /// One level up. `margin` is that of `from`, which begins there; lamps as GpuScatter::lamps_of has them.
 /// `beyond`: of each texel, from other pictures; or none.
-inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::vector<glm::vec4>& lamps, const std::vector<glm::vec4>& beyond = {}) {
+inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::vector<glm::vec4>& lamps,
+                        const std::vector<glm::vec4>& beyond = {}) {
     Plane to(size + 2 * kScatterMargin);
     for (int y = 0; y < to.size.y; ++y)
         for (int x = 0; x < to.size.x; ++x) {
             const ivec2 j = ivec2(x, y) - kScatterMargin;
             dvec3 sum(0);
             for (int v = 0; v < 6; ++v)
-                for (int u = 0; u < 6; ++u) sum += kScatterFilter[size_t(u)] * kScatterFilter[size_t(v)] / 1024 * from.at(2 * j - 2 + ivec2(u, v) + margin);
+                for (int u = 0; u < 6; ++u)
+                    sum += kScatterFilter[size_t(u)] * kScatterFilter[size_t(v)] / 1024 *
+                           from.at(2 * j - 2 + ivec2(u, v) + margin);
             for (size_t i = 0; i + 1 < lamps.size(); i += 2) {
                 const dvec2 d = dvec2(j) + 0.5 - dvec2(lamps[i]);
                 sum += quartic(d.x) * quartic(d.y) * dvec3(lamps[i + 1]);
@@ -174,7 +188,8 @@ inline std::vector<double> taps_at(const ScatterFit& fit, dvec2 pixels, int leve
     return taps;
 }
 
-/// What a pixel near the border keeps beyond that, linear between places: every one of those near a corner, some of the sides.
+/// What a pixel near the border keeps beyond that, linear between places: every one of those near a corner, some of the
+/// sides.
 inline double edge_light(const ScatterFit& fit, ivec2 pixel) {
     const EdgeLight& edge = fit.edge;
     const ivec2 size(fit.image.width, fit.image.height), last(edge.x.places() - 1, edge.y.places() - 1);
@@ -184,19 +199,21 @@ inline double edge_light(const ScatterFit& fit, ivec2 pixel) {
     const ivec2 first = glm::min(ivec2(place), last), next = glm::min(first + 1, last);
     const dvec2 part = place - dvec2(first);
     const auto at = [&](int x, int y) { return double(edge.kept[size_t(y * (last.x + 1) + x)]); };
-    return glm::mix(glm::mix(at(first.x, first.y), at(next.x, first.y), part.x), glm::mix(at(first.x, next.y), at(next.x, next.y), part.x), part.y);
+    return glm::mix(glm::mix(at(first.x, first.y), at(next.x, first.y), part.x),
+                    glm::mix(at(first.x, next.y), at(next.x, next.y), part.x), part.y);
 }
 
 /// The whole operator. Over strips of texels taps are linear from top to bottom, in the middle of their columns; every
 /// two rows have those of the line between them, for what they give. Not finite: scatters nothing, and is not finite.
-inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vector<std::vector<glm::vec4>>& lamps = {}, const std::vector<glm::vec4>& veil = {},
-                     const OffscreenLight& beyond = {}) {
+inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vector<std::vector<glm::vec4>>& lamps = {},
+                     const std::vector<glm::vec4>& veil = {}, const OffscreenLight& beyond = {}) {
     Plane clean = scene;
     for (dvec3& t : clean.texels)
         if (!(std::abs(t.x) <= 3.4e38 && std::abs(t.y) <= 3.4e38 && std::abs(t.z) <= 3.4e38)) t = dvec3(0);
     std::vector<Plane> levels{clean};
     for (int l = 1; l <= fit.levels; ++l)
-        levels.push_back(scatter_up(levels.back(), l == 1 ? 0 : kScatterMargin, scatter_size(fit.image, l), lamps.empty() ? std::vector<glm::vec4>{} : lamps[size_t(l)],
+        levels.push_back(scatter_up(levels.back(), l == 1 ? 0 : kScatterMargin, scatter_size(fit.image, l),
+                                    lamps.empty() ? std::vector<glm::vec4>{} : lamps[size_t(l)],
                                     beyond.levels.empty() ? std::vector<glm::vec4>{} : beyond.levels[size_t(l)]));
 
     Plane seen(fit.top_rows());
@@ -204,7 +221,8 @@ inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vecto
     for (size_t r = 0; r < seen.texels.size(); ++r) {
         if (!veil.empty()) seen.texels[r] = dvec3(veil[r]);
         if (!beyond.veil.empty()) seen.texels[r] += dvec3(beyond.veil[r]);
-        for (size_t c = 0; c < columns; ++c) seen.texels[r] += double(fit.top[r * columns + c]) * levels.back().texels[c];
+        for (size_t c = 0; c < columns; ++c)
+            seen.texels[r] += double(fit.top[r * columns + c]) * levels.back().texels[c];
     }
     const double spline[2][3]{{5.0 / 16, 10.0 / 16, 1.0 / 16}, {1.0 / 16, 10.0 / 16, 5.0 / 16}};
     for (int l = fit.levels - 1; l >= 0; --l) {
@@ -214,21 +232,26 @@ inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vecto
         const std::vector<ivec2> taps = scatter_taps(fit.reach);
         for (int sy = 0; sy < made.size.y; sy += strip.y)
             for (int sx = 0; sx < made.size.x; sx += strip.x) {
-                const dvec2 upper = dvec2(ivec2(sx, sy) - margin) + dvec2(0.5 * strip.x, 0), lower = upper + dvec2(0, strip.y);
-                const std::vector<double> above = taps_at(fit, std::exp2(l) * upper, l), below = taps_at(fit, std::exp2(l) * lower, l);
+                const dvec2 upper = dvec2(ivec2(sx, sy) - margin) + dvec2(0.5 * strip.x, 0),
+                            lower = upper + dvec2(0, strip.y);
+                const std::vector<double> above = taps_at(fit, std::exp2(l) * upper, l),
+                                          below = taps_at(fit, std::exp2(l) * lower, l);
                 for (int y = sy; y < std::min(sy + strip.y, made.size.y); ++y)
                     for (int x = sx; x < std::min(sx + strip.x, made.size.x); ++x) {
                         const ivec2 at = ivec2(x, y) - margin;
                         dvec3 sum(0);
                         for (int v = 0; v < 3; ++v)
                             for (int u = 0; u < 3; ++u)
-                                sum += spline[at.x & 1][u] * spline[at.y & 1][v] * seen.at(ivec2(floor_half(at.x), floor_half(at.y)) - 1 + ivec2(u, v) + kScatterReach);
+                                sum += spline[at.x & 1][u] * spline[at.y & 1][v] *
+                                       seen.at(ivec2(floor_half(at.x), floor_half(at.y)) - 1 + ivec2(u, v) +
+                                               kScatterReach);
                         for (size_t t = 0; t < above.size(); ++t)
                             for (const int side : {1, -1}) {
                                 const ivec2 d = side * taps[t];
                                 const double part = (2 * floor_half(y - sy + d.y) + 1.0) / strip.y;
                                 const Plane& from = l == 0 && t == 0 ? scene : levels[size_t(l)];
-                                if (t > 0 || side > 0) sum += glm::mix(above[t], below[t], part) * from.at(at + d + inner);
+                                if (t > 0 || side > 0)
+                                    sum += glm::mix(above[t], below[t], part) * from.at(at + d + inner);
                             }
                         if (l == 0) sum += edge_light(fit, at) * clean.at(at);
                         made[{x, y}] = sum;

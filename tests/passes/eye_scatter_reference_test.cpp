@@ -29,7 +29,9 @@ TEST(EyeScatterReference, APixelGivesAsMuchAsItHas) {
     const ivec2 from(160, 160);
     double sum = 0;
     for (int y = 0; y < 321; ++y)
-        for (int x = 0; x < 321; ++x) sum += exact_response(psf, wide, {x, y}, from, parts_for({x, y}, from)) * solid_angle(wide, direction_of(wide, dvec2(x, y) + 0.5));
+        for (int x = 0; x < 321; ++x)
+            sum += exact_response(psf, wide, {x, y}, from, parts_for({x, y}, from)) *
+                   solid_angle(wide, direction_of(wide, dvec2(x, y) + 0.5));
     EXPECT_NEAR(sum / solid_angle(wide, direction_of(wide, dvec2(from) + 0.5)), psf.within(86), 4e-3);
 }
 
@@ -37,16 +39,21 @@ TEST(EyeScatterReference, LightGoesBothWaysAlike) {
     const EyeScatter psf = eye(35);
     const ImageAngles image = driver(168, 105);
     const ivec2 a(3, 7), b(150, 44);
-    const auto per_steradian = [&](ivec2 to, ivec2 from) { return exact_response(psf, image, to, from, 4) / solid_angle(image, direction_of(image, dvec2(from) + 0.5)); };
+    const auto per_steradian = [&](ivec2 to, ivec2 from) {
+        return exact_response(psf, image, to, from, 4) / solid_angle(image, direction_of(image, dvec2(from) + 0.5));
+    };
     EXPECT_NEAR(per_steradian(a, b) / per_steradian(b, a), 1, 1e-3);
 }
 
-// The veil of a lamp at the same angle is the same in the middle of a picture and at its edge, where pixels are smaller.
+// The veil of a lamp at the same angle is the same in the middle of a picture and at its edge, where pixels are
+// smaller.
 TEST(EyeScatterReference, AnglesCountNotPixels) {
     const EyeScatter psf = eye(35);
     const ImageAngles image{2001, 11, {-1, -0.0055}, {1, 0.0055}};
     const auto veil = [&](double degrees, double beyond) {
-        const auto column = [](double theta) { return int(std::floor((std::tan(theta * std::numbers::pi / 180) + 1) / 2 * 2001)); };
+        const auto column = [](double theta) {
+            return int(std::floor((std::tan(theta * std::numbers::pi / 180) + 1) / 2 * 2001));
+        };
         const ivec2 from(column(degrees), 5), to(column(degrees + beyond), 5);
         const dvec3 a = direction_of(image, dvec2(from) + 0.5), b = direction_of(image, dvec2(to) + 0.5);
         const double per_lux = exact_response(psf, image, to, from, 4) / solid_angle(image, a);
@@ -61,7 +68,8 @@ TEST(EyeScatterReference, OwnPixelsAreIntegrated) {
     const EyeScatter psf = eye(35);
     const ImageAngles coarse = driver(21, 13), fine = driver(42, 26);
     double sum = 0;
-    for (int i = 0; i < 16; ++i) sum += exact_response(psf, fine, {20 + (i & 1), 12 + (i >> 1 & 1)}, {20 + (i >> 2 & 1), 12 + (i >> 3)}, 24) / 4;
+    for (int i = 0; i < 16; ++i)
+        sum += exact_response(psf, fine, {20 + (i & 1), 12 + (i >> 1 & 1)}, {20 + (i >> 2 & 1), 12 + (i >> 3)}, 24) / 4;
     EXPECT_NEAR(exact_response(psf, coarse, {10, 6}, {10, 6}, 24), sum, 0.02);
     EXPECT_GT(exact_response(psf, coarse, {10, 6}, {10, 6}, 24), 0.9);
     // glare-photometry: 0.31 at 1/32 degree per pixel, age 35.
@@ -85,7 +93,8 @@ struct Band {
 };
 
 /// Relative errors of the response to one pixel at distances from 1 to 500 px, and of all light in the picture.
-void expect_response(const EyeScatter& psf, const ScatterFit& fit, ivec2 from, double energy, double rms = 0.07, double largest = 0.2) {
+void expect_response(const EyeScatter& psf, const ScatterFit& fit, ivec2 from, double energy, double rms = 0.07,
+                     double largest = 0.2) {
     SCOPED_TRACE("source at " + std::to_string(from.x) + ", " + std::to_string(from.y));
     const ImageAngles& image = fit.image;
     Plane scene({image.width, image.height});
@@ -96,7 +105,8 @@ void expect_response(const EyeScatter& psf, const ScatterFit& fit, ivec2 from, d
     double got_light = 0, want_light = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
-            const double got = seen.at({x, y}).x, want = exact_response(psf, image, {x, y}, from, parts_for({x, y}, from));
+            const double got = seen.at({x, y}).x,
+                         want = exact_response(psf, image, {x, y}, from, parts_for({x, y}, from));
             const double steradians = solid_angle(image, direction_of(image, dvec2(x, y) + 0.5));
             got_light += got * steradians, want_light += want * steradians;
             const double away = glm::length(dvec2(ivec2(x, y) - from));
@@ -113,13 +123,15 @@ void expect_response(const EyeScatter& psf, const ScatterFit& fit, ivec2 from, d
     EXPECT_NEAR(got_light / want_light, 1, energy);
 }
 
-// The targets: 7 % rms, 20 % anywhere, light conserved to 0.1 %, also of what a pixel at the border leaves in the picture.
+// The targets: 7 % rms, 20 % anywhere, light conserved to 0.1 %, also of what a pixel at the border leaves in the
+// picture.
 TEST(ScatterFit, ResponseIsNearTheDefinition) {
     for (double age : {24.0, 70.0}) {
         const EyeScatter psf = eye(age);
         const ScatterFit fit = fit_scatter(psf, driver(840, 525), kStrip);
         for (const ivec2 from : {ivec2(420, 262), {421, 263}, {700, 101}}) expect_response(psf, fit, from, 1e-3);
-        for (const ivec2 from : {ivec2(839, 260), {0, 524}, {500, 0}, {837, 522}}) expect_response(psf, fit, from, 1e-3);
+        for (const ivec2 from : {ivec2(839, 260), {0, 524}, {500, 0}, {837, 522}})
+            expect_response(psf, fit, from, 1e-3);
     }
 }
 
@@ -137,8 +149,8 @@ TEST(ScatterFit, OddSizesKeepTheirLight) {
     for (const ivec2 from : {ivec2(800, 602), {798, 300}, {400, 601}}) expect_response(psf, fit, from, 1e-3);
 }
 
-// 107 x 80 degrees, and 80 x 107. In the corners pixels see twice as far across as along, which kernels of 7 x 7 follow.
-// Light: 0.3 %, of which 0.1 % is what the definition has more than 90 degrees from the source.
+// 107 x 80 degrees, and 80 x 107. In the corners pixels see twice as far across as along, which kernels of 7 x 7
+// follow. Light: 0.3 %, of which 0.1 % is what the definition has more than 90 degrees from the source.
 TEST(ScatterFit, WideViewsAreNearTheDefinition) {
     const EyeScatter psf = eye(24);
     const ImageAngles wide{840, 525, {-1.35, -0.84}, {1.35, 0.84}}, high{525, 840, {-0.84, -1.35}, {0.84, 1.35}};
@@ -153,11 +165,13 @@ TEST(ScatterFit, WideViewsAreNearTheDefinition) {
 TEST(ScatterFit, LowAndNarrowPicturesCostNoMore) {
     const EyeScatter psf = eye(35);
     const double y = 0.8 * 4 / 4096;
-    const ScatterFit low = fit_scatter(psf, {4096, 4, {-0.8, -y}, {0.8, y}}, kStrip), narrow = fit_scatter(psf, {3, 1000, {-0.001, -0.3}, {0.001, 0.3}}, kStrip);
+    const ScatterFit low = fit_scatter(psf, {4096, 4, {-0.8, -y}, {0.8, y}}, kStrip),
+                     narrow = fit_scatter(psf, {3, 1000, {-0.001, -0.3}, {0.001, 0.3}}, kStrip);
     for (const ScatterFit* fit : {&low, &narrow}) EXPECT_LT(fit->top.size(), 8'000'000u);
     for (const ivec2 from : {ivec2(2048, 2), {4095, 0}, {801, 3}}) expect_response(psf, low, from, 1e-3);
     expect_response(psf, narrow, {1, 300}, 1e-3);
-    for (const auto& [width, height, levels] : {std::tuple{640, 400, 4}, {1920, 1080, 6}, {3840, 960, 6}, {7680, 1080, 7}, {16384, 1024, 7}})
+    for (const auto& [width, height, levels] :
+         {std::tuple{640, 400, 4}, {1920, 1080, 6}, {3840, 960, 6}, {7680, 1080, 7}, {16384, 1024, 7}})
         EXPECT_EQ(scatter_levels({.width = width, .height = height}), levels) << width;
 }
 
@@ -193,7 +207,8 @@ Plane night(ivec2 size, uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
     for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) scene[{x, y}] = (y > size.y / 2 ? 0.8 : 0.01) * (0.5 + unit(random)) * dvec3(1, 0.9, 0.7);
+        for (int x = 0; x < size.x; ++x)
+            scene[{x, y}] = (y > size.y / 2 ? 0.8 : 0.01) * (0.5 + unit(random)) * dvec3(1, 0.9, 0.7);
     for (int i = 0; i < 12; ++i) {
         const ivec2 at(dvec2(size - 1) * dvec2(i < 3 ? double(i & 1) : unit(random), i == 3 ? 0 : unit(random)));
         scene[at] += std::pow(10, 3 + 5 * unit(random)) * dvec3(1, 0.8, 0.6);
@@ -227,7 +242,8 @@ TEST(ScatterFit, BlocksStandForPixelsFarAway) {
     const ImageAngles image = driver(230, 144);
     const Plane scene = night({230, 144}, 3);
     const ExactFrame blocks(psf, image, scene);
-    for (const ivec2 at : {ivec2(5, 5), {200, 100}, {115, 72}}) EXPECT_NEAR(blocks.at(at).y / exact_at(psf, image, scene, {}, at).y, 1, 2e-3);
+    for (const ivec2 at : {ivec2(5, 5), {200, 100}, {115, 72}})
+        EXPECT_NEAR(blocks.at(at).y / exact_at(psf, image, scene, {}, at).y, 1, 2e-3);
 }
 
 }  // namespace

@@ -17,11 +17,13 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::nume
 
 View view_of(VkExtent2D extent) { return View::symmetric(extent, 0.6435f, glm::mat4(1)); }
 
-std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const GpuScatter& fit, const std::vector<OffscreenLamp>& lamps, const OffscreenLight* beyond = nullptr) {
+std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const GpuScatter& fit,
+                            const std::vector<OffscreenLamp>& lamps, const OffscreenLight* beyond = nullptr) {
     FrameGraph graph;
     const VkExtent2D extent{uint32_t(fit.image().width), uint32_t(fit.image().height)};
     const Resource scene = rig.image(graph, "scene", kSceneFormat, extent, pixels);
-    const Resource kept = keep<glm::vec4>(graph, add_eye_scatter(rig.frame(graph, extent), scene, {&fit, lamps, beyond}));
+    const Resource kept =
+        keep<glm::vec4>(graph, add_eye_scatter(rig.frame(graph, extent), scene, {&fit, lamps, beyond}));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -30,27 +32,35 @@ std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, 
 std::vector<OffscreenLamp> some_lamps(const ImageAngles& image) {
     const auto towards = [&](dvec2 pixels) { return reference::direction_of(image, pixels); };
     const double w = image.width, h = image.height;
-    return {{towards({-2.5, h / 3}), {3, 2, 1}}, {towards({w / 2, -0.3 * h}), dvec3(10)}, {towards({w + 1, h + 2}), {0.2, 0.3, 0.5}},
-            {towards({6 * w, h / 2}), {1, 2, 3}}, {glm::normalize(dvec3(1, 0, 0.2)), dvec3(5)}};
+    return {{towards({-2.5, h / 3}), {3, 2, 1}},
+            {towards({w / 2, -0.3 * h}), dvec3(10)},
+            {towards({w + 1, h + 2}), {0.2, 0.3, 0.5}},
+            {towards({6 * w, h / 2}), {1, 2, 3}},
+            {glm::normalize(dvec3(1, 0, 0.2)), dvec3(5)}};
 }
 
-/// Light from beyond, of as many decades as a night has, wherever there may be some: not in the outermost texels of a margin.
+/// Light from beyond, of as many decades as a night has, wherever there may be some: not in the outermost texels of a
+/// margin.
 OffscreenLight some_light(const ImageAngles& image, uint32_t seed) {
     OffscreenLight beyond;
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> exponent(-4, 4);
     const auto fill = [&](ivec2 size) {
         std::vector<glm::vec4> texels;
-        for (int i = 0; i < size.x * size.y; ++i) texels.push_back(glm::vec4(std::pow(10.0f, exponent(random)) * glm::vec3(1, 0.8f, 0.5f), 0));
+        for (int i = 0; i < size.x * size.y; ++i)
+            texels.push_back(glm::vec4(std::pow(10.0f, exponent(random)) * glm::vec3(1, 0.8f, 0.5f), 0));
         return texels;
     };
     const auto margin = [&](ivec2 size) {
         std::vector<glm::vec4> texels = fill(size);
         for (int i = 0; i < size.x * size.y; ++i)
-            if (const ivec2 at(i % size.x, i / size.x); at.x == 0 || at.y == 0 || at.x == size.x - 1 || at.y == size.y - 1) texels[size_t(i)] = glm::vec4(0);
+            if (const ivec2 at(i % size.x, i / size.x);
+                at.x == 0 || at.y == 0 || at.x == size.x - 1 || at.y == size.y - 1)
+                texels[size_t(i)] = glm::vec4(0);
         return texels;
     };
-    for (int l = 0; l <= scatter_levels(image); ++l) beyond.levels.push_back(l < 2 ? std::vector<glm::vec4>{} : margin(scatter_size(image, l) + 2 * kScatterMargin));
+    for (int l = 0; l <= scatter_levels(image); ++l)
+        beyond.levels.push_back(l < 2 ? std::vector<glm::vec4>{} : margin(scatter_size(image, l) + 2 * kScatterMargin));
     beyond.veil = fill(scatter_size(image, scatter_levels(image)) + 2 * kScatterReach);
     return beyond;
 }
@@ -73,9 +83,10 @@ void expect_reference(PassRig& rig, VkExtent2D extent, std::vector<glm::vec4> pi
 
     Picture a(extent.width, extent.height, 3), b = a;
     for (size_t i = 0; i < got.size(); ++i)
-        for (size_t c = 0; c < 3; ++c) a.values[3 * i + c] = got[i][int(c)], b.values[3 * i + c] = want.texels[i][int(c)];
-    // 2e-5: sums of some hundred floats of one sign, over seven levels. Negative weights of some corners take a hundredth of
-    // what others give.
+        for (size_t c = 0; c < 3; ++c)
+            a.values[3 * i + c] = got[i][int(c)], b.values[3 * i + c] = want.texels[i][int(c)];
+    // 2e-5: sums of some hundred floats of one sign, over seven levels. Negative weights of some corners take a
+    // hundredth of what others give.
     EXPECT_TRUE(same_light("seen", a, b, {2e-5, 1e-6}));
 }
 
@@ -101,7 +112,8 @@ TEST(EyeScatter, WhatIsNotFiniteStaysAndScattersNothing) {
 TEST(EyeScatter, LightOfOthersComesInFromBeyond) {
     PassRig rig;
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {2, 9}, {65, 33}, {131, 67}, {300, 190}})
-        for (bool lamps : {false, true}) expect_reference(rig, extent, night_pixels(extent, extent.width, -4, -1), lamps, true);
+        for (bool lamps : {false, true})
+            expect_reference(rig, extent, night_pixels(extent, extent.width, -4, -1), lamps, true);
     const VkExtent2D extent{131, 67};
     auto pixels = night_pixels(extent, 3);
     for (size_t i = 0; i < pixels.size(); i += 7) pixels[i][int(i % 3)] = i % 2 ? kNan : kInf;
@@ -148,7 +160,8 @@ TEST(EyeScatter, LampsOutsideGoOnWhereThoseInsideEnd) {
         int count = 0;
         for (int y = 3; y < 190; y += 6)
             for (int x = 3; x < 300; x += 6) {
-                const double theta = reference::degrees_apart(direction, reference::direction_of(image, dvec2(x, y) + 0.5));
+                const double theta =
+                    reference::degrees_apart(direction, reference::direction_of(image, dvec2(x, y) + 0.5));
                 if (theta < 0.6) continue;  // 3 pixels
                 const double error = got[size_t(y * 300 + x)].g / psf(theta) - 1;
                 EXPECT_LT(std::abs(error), 0.2) << beyond << " px outside, at " << x << ", " << y;

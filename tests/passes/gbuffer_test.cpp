@@ -5,8 +5,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "passes/shade_reference.h"
 #include "gpu_scene/gpu_scene.h"
+#include "passes/shade_reference.h"
 #include "render/passes/gbuffer.h"
 #include "support/compare.h"
 #include "support/scene_geometry.h"
@@ -94,8 +94,8 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
 }
 
 size_t expect_scene(PassRig& rig, const Scene& scene, const View& view, Nearness near = {}) {
-    return expect_reference(draw(rig, scene, view, near.pictures), geometry_of(scene, world_transforms(scene, 0), view.world_to_view),
-                            view, near);
+    return expect_reference(draw(rig, scene, view, near.pictures),
+                            geometry_of(scene, world_transforms(scene, 0), view.world_to_view), view, near);
 }
 
 View view_of(VkExtent2D extent, float fov = 0.9f) { return View::symmetric(extent, fov, glm::mat4(1)); }
@@ -343,11 +343,13 @@ TEST(Gbuffer, DarkVertexColoursStayWhatTheyAre) {
     Scene scene = wall(plain({1, 1, 1}), {});
     for (Vertex& v : scene.meshes[0].primitives[0].vertices) v.colour = {66, 197, 1000, 65535};
     for (const glm::vec4& seen : draw(rig, scene, view_of({8, 8})).reflectance)
-        for (const auto& [c, want] : {std::pair(0, 66.0), {1, 197.0}, {2, 1000.0}}) EXPECT_NEAR(seen[c] * 65535 / want, 1, 0.002);
+        for (const auto& [c, want] : {std::pair(0, 66.0), {1, 197.0}, {2, 1000.0}})
+            EXPECT_NEAR(seen[c] * 65535 / want, 1, 0.002);
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// The table says how much a road reflects: colours of its vertices, and where in an atlas it lies, only how that varies.
+// The table says how much a road reflects: colours of its vertices, and where in an atlas it lies, only how that
+// varies.
 TEST(Gbuffer, RoadsReflectWhatTheirTableSaysWhateverTheirColourIs) {
     PassRig rig;
     Material road = plain({0.5f, 0.5f, 0.5f});

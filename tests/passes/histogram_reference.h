@@ -17,15 +17,17 @@ inline uint32_t bin_at(double position, uint32_t bins) {
 
 /// Votes in double, as the pass must give them but for rounding.
 struct Votes {
-    shared::Histogram counted{};   ///< finite, non_finite, votes; not count
-    std::vector<double> count;     ///< per bin
+    shared::Histogram counted{};  ///< finite, non_finite, votes; not count
+    std::vector<double> count;    ///< per bin
 
     /// True if `got` has the right totals, every vote once, and every bin within `allowed` votes.
     bool admits(const shared::Histogram& got, double allowed) const {
-        if (got.finite != counted.finite || got.non_finite != counted.non_finite || got.votes != counted.votes) return false;
+        if (got.finite != counted.finite || got.non_finite != counted.non_finite || got.votes != counted.votes)
+            return false;
         uint64_t sum = 0;
         for (size_t i = 0; i < shared::kMaxBins; ++i) {
-            if (std::abs(got.count[i] - (i < count.size() ? count[i] : 0)) > (i < count.size() ? allowed : 0)) return false;
+            if (std::abs(got.count[i] - (i < count.size() ? count[i] : 0)) > (i < count.size() ? allowed : 0))
+                return false;
             sum += got.count[i];
         }
         return sum == counted.votes;
@@ -56,9 +58,12 @@ void vote(Votes& out, std::span<const Texel> level, const shared::HistogramPush&
         for (uint32_t x = 0; x < p.level_size.x; ++x) {
             const auto& texel = level[size_t(y) * p.level_size.x + x];
             const uint32_t pixels = uint32_t(texel.y);
-            if (p.census) out.counted.finite += pixels, out.counted.non_finite += covered(p.image_size.x, p.image_size.y, p.level, x, y) - pixels;
+            if (p.census)
+                out.counted.finite += pixels,
+                    out.counted.non_finite += covered(p.image_size.x, p.image_size.y, p.level, x, y) - pixels;
             if (pixels == 0) continue;
-            const double votes = std::floor(double(pixels) * p.votes / double(1u << p.overlap) + 0.5), at = bin_position(texel.x, p);
+            const double votes = std::floor(double(pixels) * p.votes / double(1u << p.overlap) + 0.5),
+                         at = bin_position(texel.x, p);
             out.counted.votes += uint32_t(votes);
             if (p.split) {
                 const double middle = std::clamp(at - 0.5, 0.0, p.bins - 1.0);

@@ -12,7 +12,15 @@ namespace {
 /// 100 bins of a tenth of a decade from 1e-4 to 1e6 cd/m^2. One vote per pixel.
 shared::HistogramPush tenths(shared::uvec2 image, uint32_t level, bool split = false) {
     const uint32_t side = 1u << level;
-    return {image, {(image.x + side - 1) / side, (image.y + side - 1) / side}, level, 100, float(std::log(1e-4)), float(10 / std::log(10.0)), 1, split ? 1u : 0u, 1};
+    return {image,
+            {(image.x + side - 1) / side, (image.y + side - 1) / side},
+            level,
+            100,
+            float(std::log(1e-4)),
+            float(10 / std::log(10.0)),
+            1,
+            split ? 1u : 0u,
+            1};
 }
 
 Votes histogram(const std::vector<dvec4>& level, const shared::HistogramPush& p) {
@@ -73,11 +81,14 @@ TEST(HistogramReference, VotesAreSharedByTheNearestTwo) {
     const Votes three = histogram({{quarter, 4, 0, 0}}, tenths({2, 2}, 1, true));
     EXPECT_NEAR(three.count[40], 3, 1e-5);
     EXPECT_NEAR(three.count[41], 1, 1e-5);
-    for (double outside : {0.0, 1e-9, 1.01e-4}) EXPECT_EQ(histogram({{outside, 4, 0, 0}}, tenths({2, 2}, 1, true)).count[0], 4) << outside;
-    for (double outside : {0.99e6, 1e30}) EXPECT_EQ(histogram({{outside, 4, 0, 0}}, tenths({2, 2}, 1, true)).count[99], 4) << outside;
+    for (double outside : {0.0, 1e-9, 1.01e-4})
+        EXPECT_EQ(histogram({{outside, 4, 0, 0}}, tenths({2, 2}, 1, true)).count[0], 4) << outside;
+    for (double outside : {0.99e6, 1e30})
+        EXPECT_EQ(histogram({{outside, 4, 0, 0}}, tenths({2, 2}, 1, true)).count[99], 4) << outside;
 }
 
-// A pixel counts in as many overlapping texels wherever it is; an edge gives the same votes, within the width of a finer texel, wherever it is.
+// A pixel counts in as many overlapping texels wherever it is; an edge gives the same votes, within the width of a
+// finer texel, wherever it is.
 TEST(HistogramReference, OverlappingTexelsHaveNoGrid) {
     const auto level_of = [](uint32_t edge) {
         std::vector<dvec3> image;

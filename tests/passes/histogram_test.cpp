@@ -45,13 +45,15 @@ shared::HistogramPush push_of(VkExtent2D image, uint32_t level, const HistogramS
 }
 
 /// `fine`: texels of level 1, if it votes too.
-shared::Histogram count(PassRig& rig, const std::vector<glm::vec4>& texels, VkExtent2D image, const shared::HistogramPush& p,
-                        const HistogramSettings& s, const std::vector<glm::vec4>& fine = {}) {
+shared::Histogram count(PassRig& rig, const std::vector<glm::vec4>& texels, VkExtent2D image,
+                        const shared::HistogramPush& p, const HistogramSettings& s,
+                        const std::vector<glm::vec4>& fine = {}) {
     FrameGraph graph;
     const VkExtent2D size{p.level_size.x, p.level_size.y}, first{(image.width + 1) / 2, (image.height + 1) / 2};
     const Resource level = rig.image(graph, "level", kSceneFormat, size, texels);
     Pyramid pyramid{std::vector<Resource>(p.level, level), std::vector<VkExtent2D>(p.level, size)};
-    if (!fine.empty()) pyramid.levels[0] = rig.image(graph, "first", kSceneFormat, first, fine), pyramid.extents[0] = first;
+    if (!fine.empty())
+        pyramid.levels[0] = rig.image(graph, "first", kSceneFormat, first, fine), pyramid.extents[0] = first;
     const Resource kept = keep<shared::Histogram>(graph, add_histogram(rig.frame(graph, image), pyramid, p.level, s));
     rig.run(graph);
     return rig.got<shared::Histogram>(kept).at(0);
@@ -74,10 +76,11 @@ TEST(Histogram, MatchesTheReferenceAtEverySizeAndLevel) {
                     fine = random_level(first, -6, 9, image.width);
                     reference::vote(want, std::span<const glm::vec4>(fine), first);
                 }
-                // Each texel rounds its votes, and its position is in doubt; errors of many add up like a random walk, so
-                // that a thousandth of a bin's votes is far more than they come to.
+                // Each texel rounds its votes, and its position is in doubt; errors of many add up like a random walk,
+                // so that a thousandth of a bin's votes is far more than they come to.
                 const double rounding = std::sqrt(double(texels.size() + fine.size())) + 1;
-                const double allowed = rounding + kDoubt * want.counted.votes / std::sqrt(double(texels.size() + fine.size()));
+                const double allowed =
+                    rounding + kDoubt * want.counted.votes / std::sqrt(double(texels.size() + fine.size()));
                 EXPECT_TRUE(want.admits(count(rig, texels, image, p, settings, fine), allowed))
                     << image.width << " x " << image.height << " level " << level << ", " << bins << " bins";
             }
@@ -92,7 +95,10 @@ TEST(Histogram, OverlappingTexelsMatchTheReference) {
     for (VkExtent2D image : {VkExtent2D{2, 1}, {7, 5}, {131, 67}, {250, 1}})
         for (uint32_t level : {2u, 3u, 5u}) {
             std::vector<glm::vec4> pixels;
-            for (uint32_t i = 0; i < image.width * image.height; ++i) pixels.emplace_back(glm::vec3(i % 17 == 3 ? std::numeric_limits<float>::quiet_NaN() : std::pow(10.0f, decades(random))), 1);
+            for (uint32_t i = 0; i < image.width * image.height; ++i)
+                pixels.emplace_back(
+                    glm::vec3(i % 17 == 3 ? std::numeric_limits<float>::quiet_NaN() : std::pow(10.0f, decades(random))),
+                    1);
             const auto levels = reference::pyramid(std::span<const glm::vec4>(pixels), image.width, image.height);
             if (level > levels.size()) continue;
             const HistogramSettings settings;
@@ -105,12 +111,16 @@ TEST(Histogram, OverlappingTexelsMatchTheReference) {
             reference::vote(want, std::span<const glm::dvec4>(levels[0].texels), first);
 
             FrameGraph graph;
-            const Pyramid pyramid = add_pyramid(rig.frame(graph, image), rig.image(graph, "scene", kSceneFormat, image, pixels));
-            const Resource kept = keep<shared::Histogram>(graph, add_histogram(rig.frame(graph, image), pyramid, level, settings));
+            const Pyramid pyramid =
+                add_pyramid(rig.frame(graph, image), rig.image(graph, "scene", kSceneFormat, image, pixels));
+            const Resource kept =
+                keep<shared::Histogram>(graph, add_histogram(rig.frame(graph, image), pyramid, level, settings));
             rig.run(graph);
             // As above: texels round, and their positions are in doubt.
             const double count = std::sqrt(double(texels.texels.size() + levels[0].texels.size()));
-            EXPECT_TRUE(want.admits(rig.got<shared::Histogram>(kept).at(0), count + 1 + 10 * kDoubt * want.counted.votes / count)) << image.width << " x " << image.height << " level " << level;
+            EXPECT_TRUE(want.admits(rig.got<shared::Histogram>(kept).at(0),
+                                    count + 1 + 10 * kDoubt * want.counted.votes / count))
+                << image.width << " x " << image.height << " level " << level;
         }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -187,7 +197,8 @@ TEST(Histogram, CountsThePyramidsTexels) {
     EXPECT_EQ(got.finite, 561u - 51u);
     // log10 0.3 = -0.5229: 0.27 bins above the middle of bin 34. Both levels vote.
     EXPECT_EQ(got.count[34] + got.count[35], got.votes);
-    EXPECT_NEAR(got.votes / (2.0 * got.finite * push_of(image, 3, {}).votes), 1, 1e-3) << "texels that overlap round their votes";
+    EXPECT_NEAR(got.votes / (2.0 * got.finite * push_of(image, 3, {}).votes), 1, 1e-3)
+        << "texels that overlap round their votes";
     EXPECT_NEAR(double(got.count[35]) / got.votes, 0.271213, kDoubt);
     EXPECT_EQ(rig.complaints(), "");
 }

@@ -1,5 +1,6 @@
 // Lamps seen directly, pixel by pixel and lamp by lamp. SPDX-License-Identifier: MIT
-// Coverage by cutting the outline with the pixel's four sides (Sutherland and Hodgman 1974), solid angles in closed form.
+// Coverage by cutting the outline with the pixel's four sides (Sutherland and Hodgman 1974), solid angles in closed
+// form.
 #pragma once
 
 #include <algorithm>

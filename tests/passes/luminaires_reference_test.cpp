@@ -65,15 +65,16 @@ std::vector<dvec3> image_of(const Lamps& lamps, const View& view) {
     return pixels;
 }
 
-// The sum over the image is I(direction) / d^2 for discs and rectangles, facing the eye or not, in the middle of the image
-// or in its corner, from many pixels to a thousandth of one.
+// The sum over the image is I(direction) / d^2 for discs and rectangles, facing the eye or not, in the middle of the
+// image or in its corner, from many pixels to a thousandth of one.
 TEST(LuminairesReference, TheImageHoldsTheIlluminance) {
     const View view = narrow({96, 64});
     for (const bool round : {false, true})
         for (const double distance : {8.0, 20.0, 75.0, 400.0, 3000.0})
             for (const dvec2 at : {dvec2(0), dvec2(0.012, -0.008)})
                 for (const double turn : {0.0, 0.7, 1.3}) {
-                    SCOPED_TRACE(std::to_string(round) + ", " + std::to_string(distance) + " m, " + std::to_string(turn));
+                    SCOPED_TRACE(std::to_string(round) + ", " + std::to_string(distance) + " m, " +
+                                 std::to_string(turn));
                     Lamps lamps;
                     const dvec3 position = distance * dvec3(at, -1);
                     lamps.add(lamp_with_opening(900, 0.19, 0.12, round),

@@ -50,8 +50,8 @@ Lamps many_lamps(uint32_t count, uint32_t seed) {
     Lamps lamps;
     for (uint32_t i = 0; i < count; ++i) {
         const float depth = 2 * std::pow(300.0f, unit(random));
-        Lamp light = lamp_with_opening(1000 * unit(random), 0.05 + 0.3 * unit(random), 0.05 + 0.3 * unit(random), i % 2 == 0,
-                                        i % 3 == 0 ? Lamp::Kind::Point : Lamp::Kind::CosinePower);
+        Lamp light = lamp_with_opening(1000 * unit(random), 0.05 + 0.3 * unit(random), 0.05 + 0.3 * unit(random),
+                                       i % 2 == 0, i % 3 == 0 ? Lamp::Kind::Point : Lamp::Kind::CosinePower);
         light.colour = glm::vec3(0.5f + unit(random), 0.5f + unit(random), 0.5f + unit(random));
         const glm::vec3 position(depth * 0.03f * normal(random), depth * 0.03f * normal(random), -depth);
         lamps.add(light, aimed(position, {normal(random), normal(random), 0.2f + std::abs(normal(random))}));
@@ -157,7 +157,8 @@ TEST(Luminaires, SurfacesHideLamps) {
     EXPECT_EQ(behind([](uint32_t, uint32_t) { return 39.0f; }), 0) << "a metre before the lamp";
     EXPECT_NEAR(behind([](uint32_t, uint32_t) { return 39.8f; }), open, 1e-4) << "its own glass";
     EXPECT_NEAR(behind([](uint32_t, uint32_t) { return 80.0f; }), open, 1e-4) << "a wall behind it";
-    EXPECT_NEAR(behind([](uint32_t x, uint32_t) { return x < 16 ? 10.0f : 0.0f; }), open / 2, 1e-3 * open) << "half a car";
+    EXPECT_NEAR(behind([](uint32_t x, uint32_t) { return x < 16 ? 10.0f : 0.0f; }), open / 2, 1e-3 * open)
+        << "half a car";
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -11,7 +11,8 @@ namespace {
 TEST(PictureReference, IsLinear) {
     EXPECT_EQ(reference::add_picture({1, 0.5, 2}, 100), glm::dvec4(100, 50, 200, 1));
     EXPECT_EQ(reference::add_picture({0, 0, 0}, 1e9), glm::dvec4(0, 0, 0, 1));
-    EXPECT_EQ(reference::add_picture({std::numeric_limits<double>::infinity(), 1, 1}, 2).r, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(reference::add_picture({std::numeric_limits<double>::infinity(), 1, 1}, 2).r,
+              std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

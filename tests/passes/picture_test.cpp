@@ -16,7 +16,10 @@ namespace {
 /// An image that no graph knows of.
 struct Stranger {
     Stranger(const Device& device, VkFormat format, VkExtent2D extent)
-        : arena(device), image(make_image(device, image_info(format, extent, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT))),
+        : arena(device),
+          image(make_image(device, image_info(format, extent, 1,
+                                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT))),
           described{image.get(), format, extent, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL} {
         arena.bind(image.get());
     }
@@ -48,7 +51,8 @@ std::vector<glm::vec4> map(PassRig& rig, const Stranger& stranger, float scale) 
 
 std::vector<glm::vec4> texels_of(VkExtent2D extent) {
     std::vector<glm::vec4> texels;
-    for (uint32_t i = 0; i < extent.width * extent.height; ++i) texels.emplace_back(std::pow(10.0f, -4 + 0.13f * float(i % 60)), float(i), 0.25f, float(i % 2));
+    for (uint32_t i = 0; i < extent.width * extent.height; ++i)
+        texels.emplace_back(std::pow(10.0f, -4 + 0.13f * float(i % 60)), float(i), 0.25f, float(i % 2));
     return texels;
 }
 
@@ -57,7 +61,8 @@ void expect_reference(const std::vector<glm::vec4>& got, const std::vector<glm::
     ASSERT_EQ(got.size(), texels.size());
     for (size_t i = 0; i < got.size(); ++i) {
         const glm::dvec4 want = reference::add_picture(glm::dvec3(texels[i]), double(scale));
-        for (int c = 0; c < 4; ++c) ASSERT_NEAR(double(got[i][c]), want[c], 6e-8 * std::abs(want[c])) << "texel " << i << ", " << c;
+        for (int c = 0; c < 4; ++c)
+            ASSERT_NEAR(double(got[i][c]), want[c], 6e-8 * std::abs(want[c])) << "texel " << i << ", " << c;
     }
 }
 
@@ -92,7 +97,8 @@ TEST(Picture, WhatIsNotFiniteStaysSo) {
 TEST(Picture, FramesFollowOneAnother) {
     PassRig rig;
     constexpr VkExtent2D extent{33, 17};
-    Stranger one(rig.device(), VK_FORMAT_R32G32B32A32_SFLOAT, extent), other(rig.device(), VK_FORMAT_R32G32B32A32_SFLOAT, extent);
+    Stranger one(rig.device(), VK_FORMAT_R32G32B32A32_SFLOAT, extent),
+        other(rig.device(), VK_FORMAT_R32G32B32A32_SFLOAT, extent);
     fill(rig, one, std::vector<glm::vec4>(33 * 17, glm::vec4(1)));
     Resource kept;
     for (int frame = 0; frame < 7; ++frame) {
@@ -111,12 +117,19 @@ TEST(Picture, FramesFollowOneAnother) {
 
 TEST(Picture, ImagesOfOthersAreReadOrWrittenNotBoth) {
     FrameGraph graph;
-    const ExternalImage described{VK_NULL_HANDLE, VK_FORMAT_R32G32B32A32_SFLOAT, {2, 2}, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL};
+    const ExternalImage described{
+        VK_NULL_HANDLE, VK_FORMAT_R32G32B32A32_SFLOAT, {2, 2}, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL};
     const Resource read = graph.external("read", described), texels = graph.upload("texels", std::vector<float>(16));
     EXPECT_THROW(graph.copy("write", texels, read), Error);
     const Resource written = graph.target("written", described);
-    EXPECT_THROW(graph.copy("read", written, graph.transient("copy", image_shape(VK_FORMAT_R32G32B32A32_SFLOAT, {2, 2}))), Error) << "before anything wrote it";
-    EXPECT_THROW(graph.compile([](const Shape&, uint32_t) { return Footprint{1, 1, 1}; }), Error) << "nothing writes what is to be shown";
+    EXPECT_THROW(
+        graph.copy("read", written, graph.transient("copy", image_shape(VK_FORMAT_R32G32B32A32_SFLOAT, {2, 2}))), Error)
+        << "before anything wrote it";
+    EXPECT_THROW(graph.compile([](const Shape&, uint32_t) {
+        return Footprint{1, 1, 1};
+    }),
+                 Error)
+        << "nothing writes what is to be shown";
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ inline uint32_t covered(uint32_t width, uint32_t height, uint32_t level, uint32_
 
 /// Level k >= 1 of an image of RGB luminances (rows from the top). Logarithms of L + epsilon if that is not 0.
 template <class Rgb>
-PyramidLevel pyramid_level(std::span<const Rgb> image, uint32_t width, uint32_t height, uint32_t level, double epsilon = 0) {
+PyramidLevel pyramid_level(std::span<const Rgb> image, uint32_t width, uint32_t height, uint32_t level,
+                           double epsilon = 0) {
     const uint64_t side = uint64_t(1) << level;
     PyramidLevel out;
     out.width = uint32_t((width + side - 1) / side);
@@ -56,7 +57,8 @@ PyramidLevel pyramid_level(std::span<const Rgb> image, uint32_t width, uint32_t 
                     const dvec3 rgb(p.x, p.y, p.z);
                     if (!finite(rgb)) continue;
                     const double l = luminance(rgb);
-                    sum += l, sum_ln += std::log(epsilon > 0 ? std::max(l, 0.0) + epsilon : std::max(l, kFloor)), count += 1, largest = std::max(largest, l);
+                    sum += l, sum_ln += std::log(epsilon > 0 ? std::max(l, 0.0) + epsilon : std::max(l, kFloor)),
+                        count += 1, largest = std::max(largest, l);
                 }
             out.texels.push_back(count > 0 ? dvec4(sum / count, count, sum_ln / count, largest) : dvec4(0));
         }

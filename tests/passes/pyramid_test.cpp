@@ -33,7 +33,8 @@ void expect_pyramid(const std::vector<glm::vec4>& pixels, VkExtent2D extent, flo
     for (Resource level : pyramid.levels) kept.push_back(keep<glm::vec4>(graph, level));
     rig.run(graph);
 
-    const auto want = reference::pyramid(std::span<const glm::vec4>(pixels), extent.width, extent.height, double(log_epsilon));
+    const auto want =
+        reference::pyramid(std::span<const glm::vec4>(pixels), extent.width, extent.height, double(log_epsilon));
     ASSERT_EQ(kept.size(), want.size());
     for (size_t k = 0; k < want.size(); ++k) {
         ASSERT_EQ(pyramid.extents[k].width, want[k].width);

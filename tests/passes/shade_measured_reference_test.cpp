@@ -10,7 +10,8 @@ namespace {
 
 const dvec3 kUp(0, 1, 0);
 
-/// The direction at which an observer sees the road `degrees` below the horizon, looking along -Z: from the point to the eye.
+/// The direction at which an observer sees the road `degrees` below the horizon, looking along -Z: from the point to
+/// the eye.
 dvec3 sight(double degrees) { return {0, std::sin(glm::radians(degrees)), std::cos(glm::radians(degrees))}; }
 
 TEST(ShadeMeasuredReference, ARoadSeenAtOneDegreeHasTheTablesLuminance) {
@@ -21,13 +22,16 @@ TEST(ShadeMeasuredReference, ARoadSeenAtOneDegreeHasTheTablesLuminance) {
         // From the observer on is -Z, so a lamp beyond the point is at beta 0.
         const double beta = glm::degrees(std::atan2(std::abs(lamp.x), -lamp.z));
         const double luminance = candela / d2 * road_coefficient(extended(table), kUp, glm::normalize(lamp), sight(1));
-        EXPECT_NEAR(luminance, reduced_luminance_coefficient(table, tan_gamma, beta) * candela / (height * height), 1e-9);
+        EXPECT_NEAR(luminance, reduced_luminance_coefficient(table, tan_gamma, beta) * candela / (height * height),
+                    1e-9);
     }
 }
 
 TEST(ShadeMeasuredReference, BeyondTheTableItsLastValueStays) {
     const ReflectionTable table = extended(find_reflection_table("R3"));
-    const auto at = [&](double tan_gamma) { return road_coefficient(table, kUp, glm::normalize(dvec3(0, 1, -tan_gamma)), sight(1)); };
+    const auto at = [&](double tan_gamma) {
+        return road_coefficient(table, kUp, glm::normalize(dvec3(0, 1, -tan_gamma)), sight(1));
+    };
     EXPECT_NEAR(at(12), reduced_luminance_coefficient(table, 12, 0) * 145, 1e-6);
     EXPECT_NEAR(at(40), at(12), 1e-9);
 }
@@ -36,7 +40,8 @@ TEST(ShadeMeasuredReference, SheenIsGoneAtTenDegrees) {
     const ReflectionTable table = extended(find_reflection_table("W4"));
     const auto at = [&](double degrees, double beta) {
         const double b = glm::radians(beta);
-        return road_coefficient(table, kUp, glm::normalize(dvec3(5 * std::sin(b), 1, -5 * std::cos(b))), sight(degrees));
+        return road_coefficient(table, kUp, glm::normalize(dvec3(5 * std::sin(b), 1, -5 * std::cos(b))),
+                                sight(degrees));
     };
     EXPECT_GT(at(1, 0), 10 * at(1, 90));
     EXPECT_NEAR(at(1.5, 0), at(0.6, 0), 1e-12);
@@ -44,7 +49,8 @@ TEST(ShadeMeasuredReference, SheenIsGoneAtTenDegrees) {
     EXPECT_NEAR(at(30, 180), at(1, 90), 1e-9);
     EXPECT_LT(at(4, 0), at(2, 0));
     // Of narrow lobes and wide ones, dark and bright ones alike.
-    for (const double beta : {0.0, 7.0, 30.0, 140.0}) EXPECT_NEAR(at(3, beta), std::lerp(at(10, beta), at(1, beta), sheen_seen(std::sin(glm::radians(3.0)))), 1e-9);
+    for (const double beta : {0.0, 7.0, 30.0, 140.0})
+        EXPECT_NEAR(at(3, beta), std::lerp(at(10, beta), at(1, beta), sheen_seen(std::sin(glm::radians(3.0)))), 1e-9);
     EXPECT_NEAR(sheen_seen((std::sin(glm::radians(1.5)) + std::sin(glm::radians(10.0))) / 2), 0.5, 1e-12);
 }
 
@@ -52,7 +58,8 @@ TEST(ShadeMeasuredReference, SheenIsGoneAtTenDegrees) {
 TEST(ShadeMeasuredReference, LightFromAllSidesIsTheSumOfItsDirections) {
     for (const char* name : {"R3", "W4"}) {
         const RoadSurface road(extended(find_reflection_table(name)));
-        const double plain = diffuse_luminance_coefficient(without_sheen(road.table)) / diffuse_luminance_coefficient(road.table);
+        const double plain =
+            diffuse_luminance_coefficient(without_sheen(road.table)) / diffuse_luminance_coefficient(road.table);
         EXPECT_LT(plain, 0.7);
         for (const double degrees : {1.0, 3.0, 6.0, 20.0}) {
             const double step = glm::radians(0.5);
@@ -60,8 +67,14 @@ TEST(ShadeMeasuredReference, LightFromAllSidesIsTheSumOfItsDirections) {
             for (double gamma = step / 2; gamma < std::numbers::pi / 2; gamma += step)
                 for (double beta = step / 2; beta < std::numbers::pi; beta += step)
                     luminance += 2 * step * step * std::sin(gamma) *
-                                 road_coefficient(road.table, kUp, {std::sin(gamma) * std::sin(beta), std::cos(gamma), -std::sin(gamma) * std::cos(beta)}, sight(degrees));
-            EXPECT_NEAR(luminance / std::numbers::pi / (road.diffuse * road_in_diffuse(plain, std::sin(glm::radians(degrees)))), 1, 3e-3) << name << " " << degrees;
+                                 road_coefficient(road.table, kUp,
+                                                  {std::sin(gamma) * std::sin(beta), std::cos(gamma),
+                                                   -std::sin(gamma) * std::cos(beta)},
+                                                  sight(degrees));
+            EXPECT_NEAR(
+                luminance / std::numbers::pi / (road.diffuse * road_in_diffuse(plain, std::sin(glm::radians(degrees)))),
+                1, 3e-3)
+                << name << " " << degrees;
         }
     }
 }

@@ -14,8 +14,8 @@ namespace {
 
 const std::filesystem::path kData = std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry";
 
-/// A luminaire, two beams, a floodlight of type B, two lamps that are dark on their axis and one that shines here and there, on nodes of every pose;
-/// and some lamps of other kinds.
+/// A luminaire, two beams, a floodlight of type B, two lamps that are dark on their axis and one that shines here and
+/// there, on nodes of every pose; and some lamps of other kinds.
 struct Street {
     Scene scene;
     SceneFrame frame;
@@ -37,12 +37,15 @@ struct Street {
         Distribution ring, behind;
         ring.horizontal = {0}, ring.vertical = {0, 40, 60, 80, 180}, ring.candela = {0, 0, 900, 0, 0};
         behind.goniometry = Goniometry::TypeA;
-        behind.horizontal = {100, 140, 180}, behind.vertical = {-40, 0, 40}, behind.candela = {0, 0, 0, 0, 700, 0, 0, 0, 0};
+        behind.horizontal = {100, 140, 180}, behind.vertical = {-40, 0, 40},
+        behind.candela = {0, 0, 0, 0, 700, 0, 0, 0, 0};
         scene.distributions.push_back(ring), scene.distributions.push_back(behind);
         Distribution spots;
         for (int c = 0; c <= 360; c += 6) spots.horizontal.push_back(c);
         for (int gamma = 0; gamma <= 180; gamma += 3) spots.vertical.push_back(gamma);
-        for (size_t i = 0; i < 61 * 61; ++i) spots.candela.push_back(i % 61 > 4 && i % 61 < 56 && i / 61 % 60 * 37 % 13 == 0 && i % 61 * 5 % 7 == 3 ? 900 : 0);
+        for (size_t i = 0; i < 61 * 61; ++i)
+            spots.candela.push_back(i % 61 > 4 && i % 61 < 56 && i / 61 % 60 * 37 % 13 == 0 && i % 61 * 5 % 7 == 3 ? 900
+                                                                                                                   : 0);
         scene.distributions.push_back(spots);
         scene.reflection_tables = {find_reflection_table("R3"), find_reflection_table("W4")};
         for (const ReflectionTable& table : scene.reflection_tables) roads.emplace_back(extended(table));
@@ -56,8 +59,10 @@ struct Street {
             Node node;
             node.lamp = i;
             scene.nodes.push_back(node);
-            glm::mat4 pose = glm::translate(glm::mat4(1), glm::vec3(40 * unit(random) - 20, 8 * unit(random) - 1, 10 - 300 * unit(random)));
-            pose = glm::rotate(pose, 6.28f * unit(random), glm::normalize(glm::vec3(normal(random), normal(random), normal(random))));
+            glm::mat4 pose = glm::translate(
+                glm::mat4(1), glm::vec3(40 * unit(random) - 20, 8 * unit(random) - 1, 10 - 300 * unit(random)));
+            pose = glm::rotate(pose, 6.28f * unit(random),
+                               glm::normalize(glm::vec3(normal(random), normal(random), normal(random))));
             if (i % 3 == 0) pose = glm::scale(pose, glm::vec3(-2, 2, 2));  // mirrored
             frame.world.push_back(pose);
         }
@@ -73,7 +78,8 @@ struct Street {
         const LampList more = street_lamps(others, 300, seed);
         list.lamps.insert(list.lamps.begin(), more.lamps.begin(), more.lamps.begin() + others.cones + others.powers);
         list.lamps.insert(list.lamps.end(), more.lamps.end() - others.directional, more.lamps.end());
-        list.counts.cones = others.cones, list.counts.powers = others.powers, list.counts.directional = others.directional;
+        list.counts.cones = others.cones, list.counts.powers = others.powers,
+        list.counts.directional = others.directional;
     }
 };
 
@@ -85,10 +91,14 @@ Surfaces noise(VkExtent2D extent, uint32_t seed) {
         const bool road = i % 3 != 0, sky = random.unit() < 0.05f;
         const float kind = road ? (i % 2 ? -1.0f : -2.0f) : i % 5 == 0 ? random.fine() : 0.0f;
         p.reflectance.emplace_back(random.fine(), random.fine(), random.fine(), kind);
-        const glm::dvec3 up = glm::normalize(glm::dvec3(0.05 * random.normal(), 1, 0.02 + 0.3 * random.unit() * random.unit()));
+        const glm::dvec3 up =
+            glm::normalize(glm::dvec3(0.05 * random.normal(), 1, 0.02 + 0.3 * random.unit() * random.unit()));
         const glm::dvec3 wall = random.facing(0.1);
-        p.surface.emplace_back(glm::vec2(reference::octahedral_encode(road ? up : wall)), sky ? 0 : 2 * std::pow(60.0f, random.unit()),
-                               road ? -1.8f * random.unit() : i % 4 == 0 ? 1.0f : 0.2f + 0.8f * random.unit());
+        p.surface.emplace_back(glm::vec2(reference::octahedral_encode(road ? up : wall)),
+                               sky ? 0 : 2 * std::pow(60.0f, random.unit()),
+                               road         ? -1.8f * random.unit()
+                               : i % 4 == 0 ? 1.0f
+                                            : 0.2f + 0.8f * random.unit());
         p.emission.emplace_back(0);
     }
     return p;
@@ -101,14 +111,15 @@ Surfaces ground(VkExtent2D extent) {
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         const double ray = double(view.ray_scale().y) * (double(p.pixel(i).y) + 0.5) + double(view.ray_offset().y);
         p.reflectance.emplace_back(0.5, 0.5, 0.5, 0);
-        p.surface.emplace_back(glm::vec2(reference::octahedral_encode(glm::dvec3(0, 1, 0))), ray < -0.005 ? float(1.5 / -ray) : 0.0f, 1);
+        p.surface.emplace_back(glm::vec2(reference::octahedral_encode(glm::dvec3(0, 1, 0))),
+                               ray < -0.005 ? float(1.5 / -ray) : 0.0f, 1);
         p.emission.emplace_back(0);
     }
     return p;
 }
 
-// 2e-3 for the device's angles, which are polynomials, where edges are steep: at the cut-off of a low beam intensity changes
-// by a factor of e within 0.12 degrees, 480 per rad, and directions are known to some 1e-6 rad.
+// 2e-3 for the device's angles, which are polynomials, where edges are steep: at the cut-off of a low beam intensity
+// changes by a factor of e within 0.12 degrees, 480 per rad, and directions are known to some 1e-6 rad.
 void expect_reference(PassRig& rig, const Street& street, const Surfaces& s, const ShadeSettings& settings) {
     const Shot shot = shade(rig, s, street.list, {}, settings, street.tables);
     test::expect_reference(shot, s, street.list, settings, {street.measured, street.roads, {}}, {2e-3, 1e-7});
@@ -137,7 +148,8 @@ TEST(ShadeMeasured, MatchesTheReferenceBesideEveryOtherKind) {
 TEST(ShadeMeasured, NoLampIsLostInTheDarkOfItsAxis) {
     PassRig rig;
     for (const VkExtent2D extent : {VkExtent2D{160, 100}, {64, 40}, {32, 20}})
-        for (const uint32_t seed : {1u, 2u}) expect_reference(rig, Street(extent, 140, seed, {}, 7), ground(extent), {.merge_tolerance = -1});
+        for (const uint32_t seed : {1u, 2u})
+            expect_reference(rig, Street(extent, 140, seed, {}, 7), ground(extent), {.merge_tolerance = -1});
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -148,20 +160,24 @@ TEST(ShadeMeasured, AThousandLampsOnRoadsEqualTheReference) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Maps have kinks at every node, where a polynomial that meets four pixels may be wrong by 3.5 times the tolerance between them; hardly a
-// pixel sees that of a lamp that gives most of its light.
+// Maps have kinks at every node, where a polynomial that meets four pixels may be wrong by 3.5 times the tolerance
+// between them; hardly a pixel sees that of a lamp that gives most of its light.
 TEST(ShadeMeasured, ShadingWithSumsIsShadingLampByLamp) {
     PassRig rig;
     const ShadeSettings settings;
     for (const VkExtent2D extent : {VkExtent2D{320, 200}, {840, 525}}) {
         const Street street(extent, 60, extent.width);
         const Surfaces s = ground(extent);
-        const auto luminance = [&](float tolerance) { return shade(rig, s, street.list, {.threshold = 1e-6f}, {.merge_tolerance = tolerance}, street.tables).pixels; };
+        const auto luminance = [&](float tolerance) {
+            return shade(rig, s, street.list, {.threshold = 1e-6f}, {.merge_tolerance = tolerance}, street.tables)
+                .pixels;
+        };
         const std::vector<glm::vec4> merged = luminance(settings.merge_tolerance), one_by_one = luminance(-1);
         size_t far_off = 0;
         for (size_t i = 0; i < merged.size(); ++i) {
             ASSERT_NEAR(merged[i].y, one_by_one[i].y, 3.5f * settings.merge_tolerance * one_by_one[i].y + 1e-7f) << i;
-            far_off += std::abs(merged[i].y - one_by_one[i].y) > settings.merge_tolerance * one_by_one[i].y + 1e-7f ? 1 : 0;
+            far_off +=
+                std::abs(merged[i].y - one_by_one[i].y) > settings.merge_tolerance * one_by_one[i].y + 1e-7f ? 1 : 0;
         }
         EXPECT_LT(far_off, merged.size() / 1000);
         EXPECT_NE(merged, one_by_one) << "nothing was added up";

@@ -60,10 +60,11 @@ inline Specular specular(dvec3 n, dvec3 l, dvec3 v, dvec3 f0, double roughness, 
     const double masking = 0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
     const double f90 = std::clamp(25 * std::max({f0.x, f0.y, f0.z}), 0.0, 1.0);
     const dvec3 fresnel = f0 + (f90 - f0) * std::pow(1 - vh, 5);
-    // q = a2 nh^2 + |n x h|^2 as the shader has it, so d(1/q^2) = 2 dq / q with dq = 2 sqrt(q) d(n x h); l + v is the shorter the more its direction
-    // is rounded; masking moves with n.l and n.v relative to their size.
+    // q = a2 nh^2 + |n x h|^2 as the shader has it, so d(1/q^2) = 2 dq / q with dq = 2 sqrt(q) d(n x h); l + v is the
+    // shorter the more its direction is rounded; masking moves with n.l and n.v relative to their size.
     const double half_rounding = epsilon * (1 + 1 / std::max(glm::length(l + v), 1e-9));
-    const double rounding = 4 * half_rounding / std::sqrt(q) + 2 * half_rounding * half_rounding / q + epsilon / std::max(nl, a) + epsilon / std::max(nv, a);
+    const double rounding = 4 * half_rounding / std::sqrt(q) + 2 * half_rounding * half_rounding / q +
+                            epsilon / std::max(nl, a) + epsilon / std::max(nv, a);
     return {distribution * masking * fresnel, std::min(rounding, 1.0)};
 }
 
@@ -79,8 +80,9 @@ struct Sheet {
     dvec3 base{0};
 };
 
-/// Adds one light. A lamp counts where it gives at least `threshold` lx on a surface facing it, or, where the surface is
-/// matt, on the surface itself; a directional light always does. Light that arrives from below the surface does not count.
+/// Adds one light. A lamp counts where it gives at least `threshold` lx on a surface facing it, or, where the surface
+/// is matt, on the surface itself; a directional light always does. Light that arrives from below the surface does not
+/// count.
 inline void add_light(const shared::Lamp& light, LightKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
                       double roughness, double threshold, Shaded& sum, const MeasuredLamp* measured = nullptr,
                       const RoadSurface* road = nullptr, const Sheet& sheet = {}) {
@@ -94,9 +96,12 @@ inline void add_light(const shared::Lamp& light, LightKind kind, dvec3 point, dv
     const double epsilon = 3e-7 * (lamp ? 1 + (glm::length(point) + glm::length(dvec3(light.position))) / d : 1);
     const double cosine = glm::dot(dvec3(light.axis), -l), d2 = lamp ? d * d : 1.0;
     const double e = (measured ? measured->intensity(-l) : intensity(light, kind, cosine)) / d2;
-    // The device takes angles from polynomials (glsl/maps.glsl): 6e-4 of the value, and 2^-24 of the largest beside an edge.
-    const double more = measured ? e * 1.0006 + light.intensity / d2 * std::exp2(-24) : intensity(light, kind, std::min(cosine + epsilon, 1.0)) / d2 * (1 + 3 * epsilon);
-    const double less = measured ? e * 0.9994 - light.intensity / d2 * std::exp2(-24) : intensity(light, kind, cosine - epsilon) / d2 * (1 - 3 * epsilon);
+    // The device takes angles from polynomials (glsl/maps.glsl): 6e-4 of the value, and 2^-24 of the largest beside an
+    // edge.
+    const double more = measured ? e * 1.0006 + light.intensity / d2 * std::exp2(-24)
+                                 : intensity(light, kind, std::min(cosine + epsilon, 1.0)) / d2 * (1 + 3 * epsilon);
+    const double less = measured ? e * 0.9994 - light.intensity / d2 * std::exp2(-24)
+                                 : intensity(light, kind, cosine - epsilon) / d2 * (1 - 3 * epsilon);
     const double nl = glm::dot(n, l);
     const double arriving = roughness < 1 ? 1 : std::max(nl, 0.0), blur = roughness < 1 ? 0 : epsilon;
     const bool may_count = !lamp || std::max(more, less) * (arriving + blur) >= threshold;
@@ -106,12 +111,17 @@ inline void add_light(const shared::Lamp& light, LightKind kind, dvec3 point, dv
     if (road) {
         const dvec3 reflected = dvec3(light.colour) * rho_lambert / road->diffuse;
         const ReflectionTable& table = road->table;
-        if (nl > 0 && (!lamp || e * arriving >= threshold)) sum.luminance += reflected * e * road_coefficient(table, n, l, v);
+        if (nl > 0 && (!lamp || e * arriving >= threshold))
+            sum.luminance += reflected * e * road_coefficient(table, n, l, v);
         const double largest = *std::max_element(table.r.begin(), table.r.end()) * 145;
         const double value = nl > epsilon ? road_coefficient(table, n, l, v) : largest;
         // Cosines are known to 2e-7, so that beta is to 0.04 degrees near 0; W4 falls by 39 % a degree there.
-        if (nl > epsilon) sum.rounding += reflected * std::max(more, less) * std::abs(road_coefficient(table, n, l, v, 2e-7) - road_coefficient(table, n, l, v, -2e-7));
-        sum.rounding += reflected * value * (uncertain ? std::max(more, less) : more - less + 0.001 * e + e * epsilon / std::max(nl * nl, epsilon));
+        if (nl > epsilon)
+            sum.rounding += reflected * std::max(more, less) *
+                            std::abs(road_coefficient(table, n, l, v, 2e-7) - road_coefficient(table, n, l, v, -2e-7));
+        sum.rounding +=
+            reflected * value *
+            (uncertain ? std::max(more, less) : more - less + 0.001 * e + e * epsilon / std::max(nl * nl, epsilon));
         return;
     }
     const Specular s = specular(n, l, v, f0, roughness, epsilon);
@@ -122,7 +132,8 @@ inline void add_light(const shared::Lamp& light, LightKind kind, dvec3 point, dv
         const Returned back = returned(*sheet.retroreflector, n, l, v, epsilon);
         const dvec3 colour = sheet.base * dvec3(light.colour);
         if (!lamp || e * arriving >= threshold) sum.luminance += colour * e * back.value;
-        sum.rounding += colour * ((uncertain ? brightest : std::abs(more - less)) * back.value + brightest * back.rounding);
+        sum.rounding +=
+            colour * ((uncertain ? brightest : std::abs(more - less)) * back.value + brightest * back.rounding);
     }
     sum.rounding +=
         uncertain ? reflected * brightest * std::max(nl, 0.0) : reflected * std::abs(more - less) * std::max(nl, 0.0);
@@ -138,9 +149,11 @@ inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<co
     const dvec3 point = view_position(p.grid, dvec2(pixel) + 0.5, depth);
     const dvec3 n = octahedral_decode(dvec2(texel.surface));
     const dvec3 base(texel.reflectance);
-    const double kind = texel.reflectance.w, metallic = kind >= shared::kRetroCode ? 0 : std::max(kind, 0.0), roughness = texel.surface.w;
+    const double kind = texel.reflectance.w, metallic = kind >= shared::kRetroCode ? 0 : std::max(kind, 0.0),
+                 roughness = texel.surface.w;
     const RoadSurface* road = kind < 0 ? &measurements.roads[size_t(-1 - kind)] : nullptr;
-    const Sheet sheet{kind >= shared::kRetroCode ? &measurements.sheets[size_t(kind - shared::kRetroCode)] : nullptr, base};
+    const Sheet sheet{kind >= shared::kRetroCode ? &measurements.sheets[size_t(kind - shared::kRetroCode)] : nullptr,
+                      base};
     const dvec3 rho_lambert = base * (1 - metallic) * double(p.lambert);
     const dvec3 f0 = normal_reflectance(base, metallic, roughness);
 
@@ -150,7 +163,8 @@ inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<co
         add_light(lamps[i], kind_of(i, p.lamps), point, n, rho_lambert, f0, roughness, p.threshold, sum,
                   kind_of(i, p.lamps) == LightKind::Map ? &measurements.lamps[i - tables] : nullptr, road, sheet);
     // A metal reflects its base colour too.
-    sum.luminance += dvec3(p.ambient) * base * double(p.lambert) * (road ? road_in_diffuse(-roughness, glm::dot(n, glm::normalize(-point))) : 1);
+    sum.luminance += dvec3(p.ambient) * base * double(p.lambert) *
+                     (road ? road_in_diffuse(-roughness, glm::dot(n, glm::normalize(-point))) : 1);
     sum.luminance += glm::min(texel.emission, dvec3(double(p.emission_limit)));
     return sum;
 }

@@ -28,7 +28,8 @@ inline Returned returned(const Retroreflector& r, glm::dvec3 n, glm::dvec3 l, gl
     const double value = luminance(observation, nl, nv), shift = 2 * epsilon, turn = shift * degrees;
     double moved = 0;
     for (const double sign : {-1.0, 1.0})
-        moved += std::abs(luminance(observation + sign * turn, nl, nv) - value) + std::abs(luminance(observation, nl + sign * shift, nv) - value) +
+        moved += std::abs(luminance(observation + sign * turn, nl, nv) - value) +
+                 std::abs(luminance(observation, nl + sign * shift, nv) - value) +
                  std::abs(luminance(observation, nl, nv + sign * shift) - value);
     // 3e-6: logarithms of up to 10 bits. 1e-6: what the device leaves out.
     return {value, moved + 3e-6 * value + 1e-6 / (r.marking ? 1 : std::max(nv, 0.05))};

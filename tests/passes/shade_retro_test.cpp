@@ -29,7 +29,9 @@ Surfaces signs(VkExtent2D extent, uint32_t seed, bool roads) {
             glm::normalize(glm::dvec3(0.5 * random.normal(), 0.5 * random.normal(), std::abs(random.normal()) + 0.3));
         p.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)),
                                random.unit() < 0.1f ? 0 : 2 * std::pow(100.0f, random.unit()),
-                               kind < 0 ? -0.6f : i % 2 ? 1.0f : 0.2f + 0.8f * random.unit());
+                               kind < 0 ? -0.6f
+                               : i % 2  ? 1.0f
+                                        : 0.2f + 0.8f * random.unit());
         p.emission.emplace_back(0);
     }
     return p;
@@ -49,10 +51,13 @@ LampList headlamps(LampMix others, uint32_t seed) {
 }
 
 // 2e-3 on roads for the device's angles, which are polynomials.
-void expect_reference(PassRig& rig, const LampList& list, const Surfaces& s, bool roads, const ShadeSettings& settings) {
+void expect_reference(PassRig& rig, const LampList& list, const Surfaces& s, bool roads,
+                      const ShadeSettings& settings) {
     Scene scene;
     std::vector<reference::RoadSurface> tables;
-    if (roads) scene.reflection_tables = {find_reflection_table("R3")}, tables.emplace_back(extended(scene.reflection_tables[0]));
+    if (roads)
+        scene.reflection_tables = {find_reflection_table("R3")},
+        tables.emplace_back(extended(scene.reflection_tables[0]));
     const Shot shot = shade(rig, s, list, {}, settings, intensity_tables(scene), kClasses);
     test::expect_reference(shot, s, list, settings, {{}, tables, kClasses}, {2e-5, 1e-7}, 2e-3);
 }
@@ -63,7 +68,8 @@ TEST(ShadeRetro, MatchesTheReferenceAtEverySize) {
     settings.ambient = {0.2f, 0.3f, 0.4f}, settings.sky = {0.01f, 0.02f, 0.03f};
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {67, 65}}) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
-        expect_reference(rig, headlamps({10, 6, 1}, extent.width), signs(extent, extent.height, false), false, settings);
+        expect_reference(rig, headlamps({10, 6, 1}, extent.width), signs(extent, extent.height, false), false,
+                         settings);
     }
     EXPECT_EQ(rig.complaints(), "");
 }

@@ -1,11 +1,11 @@
 // A sky that is a picture, one pixel after another, in double. SPDX-License-Identifier: MIT
-// L = sky(ray) where nothing is drawn; elsewhere L + E(n) rho lambert + sky blurred to the lobe about the reflected ray times
-// the fraction F0 A + F90 B that the lobe reflects (B. Karis, "Real Shading in Unreal Engine 4", 2013).
+// L = sky(ray) where nothing is drawn; elsewhere L + E(n) rho lambert + sky blurred to the lobe about the reflected ray
+// times the fraction F0 A + F90 B that the lobe reflects (B. Karis, "Real Shading in Unreal Engine 4", 2013).
 #pragma once
 
+#include "gpu_scene/view.h"
 #include "passes/shade_reference.h"
 #include "photometry/sky_map.h"
-#include "gpu_scene/view.h"
 
 namespace vesper::reference {
 
@@ -19,8 +19,8 @@ inline dvec3 blurred_sky(const SkyMap& sky, dvec3 direction, double roughness) {
 
 /// One pixel in the view frame; `luminance` is what the lamps and emission gave it. Fractions are integrated here, not
 /// looked up.
-inline dvec3 add_sky(const SkyMap& sky, const SurfaceTexel& texel, dvec3 luminance, glm::dvec2 pixel_centre, const View& view,
-                     double lambert) {
+inline dvec3 add_sky(const SkyMap& sky, const SurfaceTexel& texel, dvec3 luminance, glm::dvec2 pixel_centre,
+                     const View& view, double lambert) {
     const glm::dmat3 world = glm::transpose(glm::dmat3(view.world_to_view));
     const glm::dvec2 slope = glm::dvec2(view.ray_scale()) * pixel_centre + glm::dvec2(view.ray_offset());
     const dvec3 ray = world * glm::normalize(dvec3(slope, -1));
@@ -28,12 +28,14 @@ inline dvec3 add_sky(const SkyMap& sky, const SurfaceTexel& texel, dvec3 luminan
     const double code = texel.reflectance.w, metallic = code >= 0 && code <= 1 ? code : 0, roughness = texel.surface.w;
     const dvec3 n = world * octahedral_decode(dvec2(texel.surface)), base(texel.reflectance);
     const bool road = code <= shared::kRoadKind;
-    luminance += evaluate(sky.irradiance, n) * base * ((road ? road_in_diffuse(-roughness, -glm::dot(n, ray)) : 1 - metallic) * lambert);
+    luminance += evaluate(sky.irradiance, n) * base *
+                 ((road ? road_in_diffuse(-roughness, -glm::dot(n, ray)) : 1 - metallic) * lambert);
     if (road || (roughness >= 1 && metallic == 0)) return luminance;
     const dvec3 f0 = normal_reflectance(base, metallic, roughness);
     const double f90 = std::clamp(25 * std::max({f0.x, f0.y, f0.z}), 0.0, 1.0);
     const Reflected fraction = specular_reflectance(std::clamp(-glm::dot(n, ray), 0.0, 1.0), roughness, 1024);
-    return luminance + blurred_sky(sky, glm::reflect(ray, n), roughness) * (f0 * fraction.scale + f90 * fraction.offset);
+    return luminance +
+           blurred_sky(sky, glm::reflect(ray, n), roughness) * (f0 * fraction.scale + f90 * fraction.offset);
 }
 
 }  // namespace vesper::reference

@@ -61,14 +61,16 @@ TEST(SkyReference, ReflectsUniformLightLikeTheSumOfManyLamps) {
         }
 }
 
-// Codes above 1 are dielectrics, retroreflective sheets; those of measured roads reflect their colour seen flat, and what their
-// roughness says of it seen steeply.
+// Codes above 1 are dielectrics, retroreflective sheets; those of measured roads reflect their colour seen flat, and
+// what their roughness says of it seen steeply.
 TEST(SkyReference, CodesOfMaterialsAreNotMetals) {
     const SkyMap sky = uniform(1);
     const dvec3 plain = reference::add_sky(sky, facing_eye(dvec3(0.5), 0, 0.5), dvec3(0), kCentre, kView, 1);
     for (const double code : {2.0, 5.0})
         EXPECT_EQ(reference::add_sky(sky, facing_eye(dvec3(0.5), code, 0.5), dvec3(0), kCentre, kView, 1), plain);
-    EXPECT_NEAR(reference::add_sky(sky, facing_eye(dvec3(0.2), -2, -0.7), dvec3(0), kCentre, kView, 1 / std::numbers::pi).g, 0.7 * 0.2, 1e-4);
+    EXPECT_NEAR(
+        reference::add_sky(sky, facing_eye(dvec3(0.2), -2, -0.7), dvec3(0), kCentre, kView, 1 / std::numbers::pi).g,
+        0.7 * 0.2, 1e-4);
 }
 
 }  // namespace

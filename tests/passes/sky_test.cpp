@@ -39,7 +39,9 @@ Lit noise(VkExtent2D extent, uint32_t seed) {
         s.reflectance.emplace_back(random.fine(), random.fine(), random.fine(), codes[i % 8]);
         const glm::dvec3 n = random.facing(0.3);
         s.surface.emplace_back(glm::vec2(reference::octahedral_encode(n)), i % 4 == 1 ? 0.0f : 1 + 50 * random.unit(),
-                               codes[i % 8] < 0 ? -1.5f * random.unit() : i % 3 == 0 ? 1.0f : random.unit());
+                               codes[i % 8] < 0 ? -1.5f * random.unit()
+                               : i % 3 == 0     ? 1.0f
+                                                : random.unit());
         s.scene.emplace_back(random.unit(), random.unit(), random.unit(), 1);
     }
     return s;
@@ -56,7 +58,8 @@ std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const SkyMap& sky, const 
     return rig.got<glm::vec4>(wanted);
 }
 
-void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const SkyMap& sky, const View& view, float lambert) {
+void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const SkyMap& sky, const View& view,
+                      float lambert) {
     // Lamps in the sky are edges: a direction off by 3e-7 moves on the sharp map by a small part of a texel, and
     // what differs between neighbours comes in. Found by turning the ray. The table of fractions is within 0.008.
     const glm::dmat3 off = glm::dmat3(glm::rotate(glm::dmat4(1), 1e-6, glm::dvec3(0.6, 0.64, 0.48)));

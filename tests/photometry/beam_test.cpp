@@ -11,8 +11,9 @@ namespace {
 
 /// 1000 cd times cos^n of the angle to the nadir, below the horizontal.
 Distribution cosine_lamp(double exponent) {
-    return tabulate(Goniometry::CGamma, {0}, steps(0, 90, 0.25),
-                    [=](double, double g) { return 1000 * std::pow(std::cos(std::min(g, 89.9999) * kRadiansPerDegree), exponent); });
+    return tabulate(Goniometry::CGamma, {0}, steps(0, 90, 0.25), [=](double, double g) {
+        return 1000 * std::pow(std::cos(std::min(g, 89.9999) * kRadiansPerDegree), exponent);
+    });
 }
 
 TEST(Beam, WidthsOfACosineLobe) {
@@ -22,7 +23,8 @@ TEST(Beam, WidthsOfACosineLobe) {
         for (const double share : {0.5, 0.1}) {
             const auto width = width_of(cut, share);
             ASSERT_TRUE(width);
-            EXPECT_NEAR(width->angle(), 2 * std::acos(std::pow(share, 1 / n)) / kRadiansPerDegree, 0.02) << n << " " << share;
+            EXPECT_NEAR(width->angle(), 2 * std::acos(std::pow(share, 1 / n)) / kRadiansPerDegree, 0.02)
+                << n << " " << share;
             EXPECT_NEAR(width->from, -width->to, 1e-9);
         }
     }
@@ -49,9 +51,11 @@ TEST(Beam, FiguresOfALambertianLamp) {
 TEST(Beam, ClassesByTheirLimits) {
     // 100 cd everywhere below 85 deg, then `over` up to 100 deg.
     const auto lamp = [](double over) {
-        return tabulate(Goniometry::CGamma, {0}, steps(0, 180, 1), [=](double, double g) { return g <= 85 ? 100 : g <= 100 ? over : 0; });
+        return tabulate(Goniometry::CGamma, {0}, steps(0, 180, 1), [=](double, double g) {
+            return g <= 85 ? 100 : g <= 100 ? over : 0;
+        });
     };
-    EXPECT_EQ(beam_figures(lamp(0)).glare_class, "G*1");   // 80 deg: 174 cd/klm
+    EXPECT_EQ(beam_figures(lamp(0)).glare_class, "G*1");  // 80 deg: 174 cd/klm
     EXPECT_EQ(beam_figures(lamp(100)).glare_class, "");
     EXPECT_GT(beam_figures(lamp(100)).upward_share, 0.1);
     // A full sphere: half the light is above.
@@ -62,18 +66,22 @@ TEST(Beam, ClassesByTheirLimits) {
 TEST(Beam, FindsSymmetries) {
     const auto lamp = [](double about_c0, double about_c90) {
         return tabulate(Goniometry::CGamma, steps(0, 360, 15), steps(0, 90, 5), [=](double c, double g) {
-            return 100 + std::sin(g * kRadiansPerDegree) * (20 * std::cos(2 * c * kRadiansPerDegree) + about_c90 * std::sin(c * kRadiansPerDegree) + about_c0 * std::cos(c * kRadiansPerDegree));
+            return 100 + std::sin(g * kRadiansPerDegree) *
+                             (20 * std::cos(2 * c * kRadiansPerDegree) + about_c90 * std::sin(c * kRadiansPerDegree) +
+                              about_c0 * std::cos(c * kRadiansPerDegree));
         });
     };
     EXPECT_EQ(symmetry_of(lamp(0, 0)), BeamSymmetry::Quadrants);
     EXPECT_EQ(symmetry_of(lamp(30, 0)), BeamSymmetry::AboutC0);
     Distribution noisy = lamp(30, 0);
-    for (size_t h = 0; h < noisy.horizontal.size(); ++h) noisy.candela[h * noisy.vertical.size()] += double(h % 3);  // nadir as each plane has measured it
+    for (size_t h = 0; h < noisy.horizontal.size(); ++h)
+        noisy.candela[h * noisy.vertical.size()] += double(h % 3);  // nadir as each plane has measured it
     EXPECT_EQ(symmetry_of(noisy), BeamSymmetry::AboutC0);
     EXPECT_EQ(symmetry_of(lamp(0, 30)), BeamSymmetry::AboutC90);
     EXPECT_EQ(symmetry_of(lamp(30, 30)), BeamSymmetry::None);
     const auto beam = [](double skew) {
-        return tabulate(Goniometry::TypeA, steps(-20, 20, 1), steps(-5, 5, 1), [=](double h, double v) { return 1000 + skew * h + 10 * v - h * h; });
+        return tabulate(Goniometry::TypeA, steps(-20, 20, 1), steps(-5, 5, 1),
+                        [=](double h, double v) { return 1000 + skew * h + 10 * v - h * h; });
     };
     EXPECT_EQ(symmetry_of(beam(0)), BeamSymmetry::LeftRight);
     EXPECT_EQ(symmetry_of(beam(5)), BeamSymmetry::None);

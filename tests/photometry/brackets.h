@@ -35,7 +35,8 @@ struct KnownCamera {
 };
 
 inline KnownCamera gamma_camera(double noise = 0) {
-    return {[](double x, size_t) { return std::pow(x, 1 / 2.2); }, [](double v, size_t) { return std::pow(v, 2.2); }, noise};
+    return {[](double x, size_t) { return std::pow(x, 1 / 2.2); }, [](double v, size_t) { return std::pow(v, 2.2); },
+            noise};
 }
 
 inline KnownCamera srgb_camera(double noise = 0) {

@@ -61,7 +61,9 @@ TEST(Distribution, FluxConvergesToCosinePowers) {
 }
 
 TEST(Distribution, FluxIsTheIntegralOfIntensity) {
-    const auto uneven = [](double h, double v) { return 50 + 30 * std::sin(h * kRadiansPerDegree) + 20 * std::cos(v * 0.05); };
+    const auto uneven = [](double h, double v) {
+        return 50 + 30 * std::sin(h * kRadiansPerDegree) + 20 * std::cos(v * 0.05);
+    };
     for (const auto& [goniometry, h, v] :
          {std::tuple(Goniometry::CGamma, kPlanes, std::vector<double>{0, 30, 70, 71, 110}),
           std::tuple(Goniometry::TypeA, std::vector<double>{-100, -3, 0, 40}, std::vector<double>{-20, 5, 60}),
@@ -102,7 +104,9 @@ TEST(Distribution, IsBilinearPeriodicAndDarkOutside) {
 }
 
 TEST(Distribution, MirroringExchangesLeftAndRight) {
-    const auto uneven = [](double h, double v) { return 300 + std::fmod(h, 360) + v * std::sin(h * kRadiansPerDegree + 1); };
+    const auto uneven = [](double h, double v) {
+        return 300 + std::fmod(h, 360) + v * std::sin(h * kRadiansPerDegree + 1);
+    };
     const auto check = [](const Distribution& d) {
         const Distribution other = mirrored(d);
         for (const auto& way : {type_a(7, 3), type_a(-8, -2), type_a(1, -30), c_gamma(200, 120), c_gamma(5, 60)})
@@ -111,8 +115,9 @@ TEST(Distribution, MirroringExchangesLeftAndRight) {
     };
     check(tabulate(Goniometry::TypeA, {-10, -5, 12, 20}, {-40, 0, 40}, uneven));
     check(tabulate(Goniometry::TypeB, {-10, -5, 12, 20}, {-40, 0, 40}, uneven));
-    check(tabulate(Goniometry::CGamma, kPlanes, kGammas,
-                   [](double h, double v) { return 300 + 100 * std::cos(h * kRadiansPerDegree - 1) * std::sin(v * kRadiansPerDegree); }));
+    check(tabulate(Goniometry::CGamma, kPlanes, kGammas, [](double h, double v) {
+        return 300 + 100 * std::cos(h * kRadiansPerDegree - 1) * std::sin(v * kRadiansPerDegree);
+    }));
 }
 
 TEST(Distribution, AreaOfTheOpening) {

@@ -15,7 +15,6 @@
 
 namespace vesper::test {
 
-
 inline std::span<const uint8_t> bytes_of(const std::string& text) {
     return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
 }
@@ -41,7 +40,8 @@ inline Distribution tabulate(Goniometry goniometry, std::vector<double> horizont
 
 /// The direction of C and gamma in the luminaire's frame.
 inline glm::dvec3 c_gamma(double c, double gamma) {
-    return {std::sin(gamma * kRadiansPerDegree) * std::cos(c * kRadiansPerDegree), std::sin(gamma * kRadiansPerDegree) * std::sin(c * kRadiansPerDegree),
+    return {std::sin(gamma * kRadiansPerDegree) * std::cos(c * kRadiansPerDegree),
+            std::sin(gamma * kRadiansPerDegree) * std::sin(c * kRadiansPerDegree),
             -std::cos(gamma * kRadiansPerDegree)};
 }
 

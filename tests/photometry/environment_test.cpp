@@ -114,7 +114,8 @@ TEST(Environment, ThePolynomialIsExactUpToOrderTwo) {
 }
 
 // Half a sky is the smoothest of the hard cases: within 3 % of the largest illuminance. A single spot is the hardest
-// there is: 12 % of what it gives at best, since the orders left out begin with the fourth. docs/design/lamps.md states both.
+// there is: 12 % of what it gives at best, since the orders left out begin with the fourth. docs/design/lamps.md states
+// both.
 TEST(Environment, ThePolynomialsErrorIsAsStated) {
     std::mt19937 random(5);
     const Environment half = sky_of(64, [](dvec3 d) { return dvec3(d.y > 0); });
@@ -127,7 +128,18 @@ TEST(Environment, ThePolynomialsErrorIsAsStated) {
             const dvec3 n = random_direction(random);
             error = std::max(error, std::abs(evaluate(polynomial, n).g - irradiance(e, n).g) / largest);
         }
-        EXPECT_NEAR(evaluate(polynomial, {0, 1, 0}).g / horizontal_illuminance({.width = e.width, .height = e.height, .rgb = [&] { auto grey = e.rgb; for (size_t i = 0; i < grey.size(); ++i) grey[i] = e.rgb[i / 3 * 3 + 1]; return grey; }()}), 1, 1e-9) << "level ground";
+        EXPECT_NEAR(
+            evaluate(polynomial, {0, 1, 0}).g / horizontal_illuminance({.width = e.width,
+                                                                        .height = e.height,
+                                                                        .rgb =
+                                                                            [&] {
+                                                                                auto grey = e.rgb;
+                                                                                for (size_t i = 0; i < grey.size(); ++i)
+                                                                                    grey[i] = e.rgb[i / 3 * 3 + 1];
+                                                                                return grey;
+                                                                            }()}),
+            1, 1e-9)
+            << "level ground";
         return error;
     };
     EXPECT_LT(worst(half, kPi), 0.03);

@@ -110,7 +110,8 @@ TEST(Eulumdat, ScalesByFluxAndConversionOnly) {
     EXPECT_EQ(first.lamp_flux, 2000);
     EXPECT_NEAR(at(second, 0), 10 * 5 * 1.5, 1e-9);
     EXPECT_EQ(second.lamp_flux, 0);  // absolute
-    EXPECT_TRUE(contains(ldt_complaint(file.text(), 2), "x.ldt: line 26: there are 2 sets of lamps: none has the number 2"));
+    EXPECT_TRUE(
+        contains(ldt_complaint(file.text(), 2), "x.ldt: line 26: there are 2 sets of lamps: none has the number 2"));
 }
 
 TEST(Eulumdat, TakesWhatFilesReallyHold) {
@@ -145,13 +146,17 @@ TEST(Eulumdat, ReadsTheLuminousArea) {
 TEST(Eulumdat, SaysWhereAndWhy) {
     const std::string text = plain().text();
     // 32 lines to the end of the lamps, 10 ratios, 4 planes, 3 gammas, 12 intensities.
-    EXPECT_TRUE(contains(ldt_complaint(text.substr(0, text.size() - 2)), "x.ldt: line 61: the file ends where an intensity"));
+    EXPECT_TRUE(
+        contains(ldt_complaint(text.substr(0, text.size() - 2)), "x.ldt: line 61: the file ends where an intensity"));
     EXPECT_TRUE(contains(ldt_complaint(text + "5\n"), "line 62: more intensities"));
-    EXPECT_TRUE(contains(ldt_complaint(replaced(text, "Company\n1\n0\n", "Company\n1\n5\n")), "line 3: the symmetry must be"));
+    EXPECT_TRUE(
+        contains(ldt_complaint(replaced(text, "Company\n1\n0\n", "Company\n1\n5\n")), "line 3: the symmetry must be"));
     EXPECT_TRUE(contains(ldt_complaint(replaced(text, "\n0\n4\n0", "\n0\n5000\n0")), "line 4: the number of C planes"));
     EXPECT_TRUE(contains(ldt_complaint(replaced(text, "\n0\n4\n0", "\n0\nfour\n0")), "line 4: 'four' stands where"));
-    EXPECT_TRUE(contains(ldt_complaint(replaced(text, "0\n45\n90\n", "0\n45\n40\n")), "line 47: gamma angles do not ascend"));
-    EXPECT_TRUE(contains(ldt_complaint(replaced(text, "0\n90\n180\n270\n", "0\n90\n80\n270\n")), "line 45: the C angles"));
+    EXPECT_TRUE(
+        contains(ldt_complaint(replaced(text, "0\n45\n90\n", "0\n45\n40\n")), "line 47: gamma angles do not ascend"));
+    EXPECT_TRUE(
+        contains(ldt_complaint(replaced(text, "0\n90\n180\n270\n", "0\n90\n80\n270\n")), "line 45: the C angles"));
     EXPECT_TRUE(contains(ldt_complaint(replaced(text, "1.0\n0\n1\n", "0\n0\n1\n")), "line 24: the conversion factor"));
     EXPECT_TRUE(contains(ldt_complaint(replaced(text, "1000\n", "0\n")), "line 32: the flux"));
     EXPECT_TRUE(contains(ldt_complaint(""), "x.ldt: line 1: the file ends"));

@@ -42,7 +42,8 @@ TEST(Grid, TakesWhatLaboratoriesWrite) {
              ";-10;0;20\n\n-5;1,0;2,0;3\n5;4;5;6;\n",                                // semicolons and decimal commas
              "\t-10\t0\t20\n-5\t1\t2\t3\n5\t4\t5\t6\n",                              // tabs
              "H_deg,V_deg,cd\n0,5,5\n-10,5,4\n20,5,6\n-10,-5,1\n0,-5,2\n20,-5,3\n",  // a list
-             "V_deg,H_deg,cd\n5,0,5\n5,-10,4\n5,20,6\n-5,-10,1\n-5,0,2\n-5,20,3\n",  // in another order, and by other names
+             "V_deg,H_deg,cd\n5,0,5\n5,-10,4\n5,20,6\n-5,-10,1\n-5,0,2\n-5,20,3\n",  // in another order, and by other
+                                                                                     // names
              "I [cd],\"Vertical angle (deg)\",horizontal [°]\n5,5,0\n4,5,-10\n6,5,20\n1,-5,-10\n2,-5,0\n3,-5,20\n",
              "Luminous intensity/cd;V (\xb0);H\xb0\n5;5;0\n4;5;-10\n6;5;20\n1;-5;-10\n2;-5;0\n3;-5;20\n",
          }) {
@@ -128,7 +129,8 @@ TEST(Grid, ReadsOpenExr) {
     write_picture(folder / "e.exr", "", false);
     EXPECT_TRUE(contains(complaint_of([&] { read_grid_exr(folder / "e.exr"); }), "verticalTop"));
 
-    for (const char* name : {"a.exr", "d.exr", "e.exr"}) EXPECT_TRUE(is_grid_exr(bytes_of(read_text(folder / name)))) << name;
+    for (const char* name : {"a.exr", "d.exr", "e.exr"})
+        EXPECT_TRUE(is_grid_exr(bytes_of(read_text(folder / name)))) << name;
     EXPECT_TRUE(is_grid_exr(bytes_of(read_text(folder / "a.exr").substr(0, 300))));
     EXPECT_FALSE(is_grid_exr(bytes_of("no OpenEXR file at all")));
     // A header that states more than is there is refused before anything is allocated for it.

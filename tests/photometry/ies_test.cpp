@@ -71,24 +71,37 @@ TEST(Ies, ExpandsSymmetry) {
     EXPECT_NEAR(at(open, 300), 130, 1e-9);
     EXPECT_TRUE(contains(ies_complaint(file("IES:LM-63-2019", "2", "0 100", "1 1 1 1 1 1")), "C planes from 0 to 100"));
     // What is missing is no more than a closing plane.
-    EXPECT_TRUE(contains(ies_complaint(file("IES:LM-63-2019", "3", "0 95 190", "1 1 1\n1 1 1\n1 1 1")), "C planes from 0 to 190 are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round"));
+    EXPECT_TRUE(contains(
+        ies_complaint(file("IES:LM-63-2019", "3", "0 95 190", "1 1 1\n1 1 1\n1 1 1")),
+        "C planes from 0 to 190 are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round"));
     EXPECT_NO_THROW(parsed_ies(file("IES:LM-63-2019", "3", "0 95 240", "1 1 1\n1 1 1\n1 1 1")));
     // Both ends are one plane.
     const std::string ends = file("IES:LM-63-2019", "3", "0 120 360", "1 100 0\n1 50 0\n1 91 0");
     EXPECT_NEAR(at(parsed_ies(ends), 0), 95.5, 1e-9);
-    EXPECT_TRUE(contains(ies_complaint(replaced(ends, "1 91 0", "1 89 0")), "line 11: C0 and C360 are one plane, but at gamma 45 have 100 and 89 cd"));
+    EXPECT_TRUE(contains(ies_complaint(replaced(ends, "1 91 0", "1 89 0")),
+                         "line 11: C0 and C360 are one plane, but at gamma 45 have 100 and 89 cd"));
 }
 
 TEST(Ies, KnowsVersionLinesFromLabels) {
-    const auto first = [](const std::string& start) { return parsed_ies(replaced(file("IESNA91", "1", "0", "100 50 25", "1 0.8 20"), "IESNA91\n", start)).candela[0]; };
-    for (const char* old : {"", "IES PHOTOMETRIC REPORT NO. 4711\n", "IES 99\n", "IESNA91\n", "IESNA86\n", "iesna:lm-63-1995\n", "\n\nIESNA:LM-63-1995\n", "IESNA:LM63-1995\n", "IESNA LM 63 95\n", "IESNA REPORT 2002\n"}) EXPECT_NEAR(first(old), 80, 1e-9) << old;
-    for (const char* since : {"IESNA02\n", "\n \nIES:LM-63-2019\n", "ies:lm-63-2019\n", "IESNA:LM-63-2002\n", "IES:LM-63-2031\n", "IESNA:LM63-2002\n", "IESNA LM 63-2002\n", "IESNA:LM-63\n"}) EXPECT_NEAR(first(since), 100, 1e-9) << since;
-    EXPECT_EQ(parsed_ies(replaced(file("", "1", "0", "1 1 1"), "\n[TEST]", "IES REPORT 12\n[TEST]")).name, "IES REPORT 12");
+    const auto first = [](const std::string& start) {
+        return parsed_ies(replaced(file("IESNA91", "1", "0", "100 50 25", "1 0.8 20"), "IESNA91\n", start)).candela[0];
+    };
+    for (const char* old :
+         {"", "IES PHOTOMETRIC REPORT NO. 4711\n", "IES 99\n", "IESNA91\n", "IESNA86\n", "iesna:lm-63-1995\n",
+          "\n\nIESNA:LM-63-1995\n", "IESNA:LM63-1995\n", "IESNA LM 63 95\n", "IESNA REPORT 2002\n"})
+        EXPECT_NEAR(first(old), 80, 1e-9) << old;
+    for (const char* since : {"IESNA02\n", "\n \nIES:LM-63-2019\n", "ies:lm-63-2019\n", "IESNA:LM-63-2002\n",
+                              "IES:LM-63-2031\n", "IESNA:LM63-2002\n", "IESNA LM 63-2002\n", "IESNA:LM-63\n"})
+        EXPECT_NEAR(first(since), 100, 1e-9) << since;
+    EXPECT_EQ(parsed_ies(replaced(file("", "1", "0", "1 1 1"), "\n[TEST]", "IES REPORT 12\n[TEST]")).name,
+              "IES REPORT 12");
 }
 
 // LM-63-2002 and -2019, Table 1: what lies, and what stands, in m.
 TEST(Ies, CylindersLieAndDiscsStand) {
-    const auto opening = [](const char* version, const char* sizes) { return parsed_ies(replaced(file(version, "1", "0", "1 1 1"), "1 2 0 0 0", std::string("1 2 ") + sizes)).opening; };
+    const auto opening = [](const char* version, const char* sizes) {
+        return parsed_ies(replaced(file(version, "1", "0", "1 1 1"), "1 2 0 0 0", std::string("1 2 ") + sizes)).opening;
+    };
     for (const char* version : {"IESNA:LM-63-2002", "IES:LM-63-2019"}) {
         EXPECT_NEAR(opening(version, "-2 3 -2").area(), 6, 1e-12);
         EXPECT_NEAR(opening(version, "3 -2 -2").area(), 6, 1e-12);
@@ -134,11 +147,13 @@ TEST(Ies, TakesWhatFilesReallyHold) {
     same(replaced(kPlainIes, "1 -1 1 3", "-1 -1 1 3"));
     same(replaced(kPlainIes, "100 50 25", "100 50" + std::string(70, '0') + "e-70 25." + std::string(400, '0')));
     EXPECT_EQ(parsed_ies(replaced(kPlainIes, "100 50 25", "100 50 1e-400")).candela.back(), 0);
-    EXPECT_EQ(parsed_ies(replaced(kPlainIes, "100 50 25", "100 50 0." + std::string(400, '0') + "1")).candela.back(), 0);
+    EXPECT_EQ(parsed_ies(replaced(kPlainIes, "100 50 25", "100 50 0." + std::string(400, '0') + "1")).candela.back(),
+              0);
     same(replaced(kPlainIes, "IESNA:LM-63-2002\n", ""));
     same(replaced(kPlainIes, "IESNA:LM-63-2002\n[TEST] 1\n[MANUFAC] M\n", ""));
     // Decimal commas.
-    EXPECT_EQ(parsed_ies(replaced(kPlainIes, "100 50 25", "100,5 50 25,25")).candela, (std::vector<double>{100.5, 50, 25.25}));
+    EXPECT_EQ(parsed_ies(replaced(kPlainIes, "100 50 25", "100,5 50 25,25")).candela,
+              (std::vector<double>{100.5, 50, 25.25}));
     // Noise below nothing; small negatives only.
     EXPECT_EQ(parsed_ies(replaced(kPlainIes, "50 25", "50 -0.2")).candela.back(), 0);
     EXPECT_TRUE(contains(ies_complaint(replaced(kPlainIes, "50 25", "50 -20")), "x.ies: line 9: a negative intensity"));
@@ -156,7 +171,8 @@ TEST(Ies, AppliesTiltForTheLampAsMeasured) {
     const std::string table = "1\n3\n-30 10 20\n0.6 1.0 0.9\n";
     EXPECT_NEAR(parsed_ies(replaced(kPlainIes, "TILT=NONE\n", "TILT=INCLUDE\n" + table)).candela[0], 90, 1e-9);
     EXPECT_NEAR(parsed_ies(replaced(kPlainIes, "TILT=NONE\n", "TILT=INCLUDE\n1 2 0 45 1 0.5\n")).candela[0], 100, 1e-9);
-    EXPECT_TRUE(contains(ies_complaint(replaced(kPlainIes, "TILT=NONE\n", "TILT=INCLUDE\n1 2 45 0 1 0.5\n")), "do not ascend"));
+    EXPECT_TRUE(
+        contains(ies_complaint(replaced(kPlainIes, "TILT=NONE\n", "TILT=INCLUDE\n1 2 45 0 1 0.5\n")), "do not ascend"));
 
     const TempFolder folder;
     const auto lamp = folder.write("lamp.ies", replaced(kPlainIes, "TILT=NONE", "TILT=lamp.tlt"));
@@ -166,7 +182,8 @@ TEST(Ies, AppliesTiltForTheLampAsMeasured) {
     EXPECT_EQ(read_ies(lamp).name, "lamp");
     const auto outside = folder.write("outside.ies", replaced(kPlainIes, "TILT=NONE", "TILT=../lamp.tlt"));
     EXPECT_TRUE(contains(complaint_of([&] { read_ies(outside); }), "neither NONE"));
-    EXPECT_NEAR(parsed_ies(replaced(kPlainIes, "TILT=NONE", "TILT=lamp.tlt")).candela[0], 100, 1e-9);  // no folder to look in
+    EXPECT_NEAR(parsed_ies(replaced(kPlainIes, "TILT=NONE", "TILT=lamp.tlt")).candela[0], 100,
+                1e-9);  // no folder to look in
 }
 
 TEST(Ies, ReadsTheLuminousOpening) {
@@ -217,13 +234,16 @@ TEST(Ies, SaysWhereAndWhy) {
         {"1 -1 1 3 1", "1 -1 1e9 3 1", "line 6: multiplier"},
         {"1 -1 1 3 1", "-7 -1 1 3 1", "line 5: the number of lamps"},
         {"1 -1 1 3 1", "1.5 -1 1 3 1", "line 5: the number of lamps"},
-        {"TILT=NONE", "TILT=INCLUDE\n7\n2\n0 45\n1 0.9", "line 5: the lamp-to-luminaire geometry is none of 1, 2 and 3"},
+        {"TILT=NONE", "TILT=INCLUDE\n7\n2\n0 45\n1 0.9",
+         "line 5: the lamp-to-luminaire geometry is none of 1, 2 and 3"},
         {"0 45 90", "0 45 45", "line 7: gamma angle 45 is there twice, with other intensities"},
         {"1 -1 1 3 1 1 2", "1 -1 1 3 1 4 2", "line 5: the photometric type"},
         {"1 -1 1 3 1 1 2", "1 -1 1 3 1 1 3", "line 5: the type of units"},
     };
-    for (const auto& c : cases) EXPECT_TRUE(contains(ies_complaint(replaced(kPlainIes, c.what, c.with)), c.wanted)) << c.with;
-    EXPECT_TRUE(contains(ies_complaint(file("IES:LM-63-2019", "2", "0 0", "100 50 25 100 60 25")), "line 8: C angle 0 is there twice, with other intensities"));
+    for (const auto& c : cases)
+        EXPECT_TRUE(contains(ies_complaint(replaced(kPlainIes, c.what, c.with)), c.wanted)) << c.with;
+    EXPECT_TRUE(contains(ies_complaint(file("IES:LM-63-2019", "2", "0 0", "100 50 25 100 60 25")),
+                         "line 8: C angle 0 is there twice, with other intensities"));
     EXPECT_EQ(parsed_ies(file("IES:LM-63-2019", "2", "0 0", "100 50 25 100 50 25")).horizontal.size(), 1u);
     EXPECT_TRUE(contains(ies_complaint(""), "x.ies: line 1: the file ends"));
     const std::string many(60'000, '\n');

@@ -37,7 +37,9 @@ TEST(LuminancePicture, RefusesWhatIsNoNumber) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), inf, -inf, 2e30f}) {
         HdrImage image = grey(3, 2, {1, 1, 1, 1, 1, 1});
         image.rgb[3 * 5 + 1] = bad;
-        EXPECT_EQ(test::complaint_of([&] { make_luminance_picture(image); }), "pixel (2, 1) is not finite, or beyond 1e30") << bad;
+        EXPECT_EQ(test::complaint_of([&] { make_luminance_picture(image); }),
+                  "pixel (2, 1) is not finite, or beyond 1e30")
+            << bad;
     }
 }
 

@@ -45,23 +45,28 @@ TEST(Merge, RecoversRadianceWithinFivePercent) {
     }
 }
 
-// 95 % of the values: single dark ones are off by more than noise of one code is of code 40, 5.5 % of light where that goes with its power 2.2.
+// 95 % of the values: single dark ones are off by more than noise of one code is of code 40, 5.5 % of light where that
+// goes with its power 2.2.
 TEST(Merge, RecoversRadianceThroughNoiseOfOneCode) {
     std::vector<HdrImage> scenes = {night(160, 120)};
     for (const char* name : {"hdr/polyhaven/dikhololo_night_1k.hdr", "hdr/polyhaven/potsdamer_platz_1k.hdr"})
-        if (const std::filesystem::path file = shared_data(name); is_here(file)) scenes.push_back(every_fourth(read_hdr_image(file)));
+        if (const std::filesystem::path file = shared_data(name); is_here(file))
+            scenes.push_back(every_fourth(read_hdr_image(file)));
     for (const HdrImage& scene : scenes)
         for (const KnownCamera& camera : {gamma_camera(1), srgb_camera(1), film_camera(1), filmic_camera(1)})
-            for (const auto& [ratio, count] : {std::pair(2, 3), std::pair(2, 5), std::pair(2, 9), std::pair(4, 3), std::pair(4, 5), std::pair(4, 9)}) {
+            for (const auto& [ratio, count] : {std::pair(2, 3), std::pair(2, 5), std::pair(2, 9), std::pair(4, 3),
+                                               std::pair(4, 5), std::pair(4, 9)}) {
                 // Code 128 in the middle of the bracket is what most of the picture is about.
                 std::vector<float> greens;
                 for (size_t i = 1; i < scene.rgb.size(); i += 3) greens.push_back(scene.rgb[i]);
                 std::nth_element(greens.begin(), greens.begin() + ptrdiff_t(greens.size() / 2), greens.end());
                 const double middle = camera.exposure(128 / 255.0, 1) / double(greens[greens.size() / 2]);
-                const auto exposures = bracket(scene, camera, middle * std::pow(ratio, -(count - 1) / 2.0), ratio, count);
+                const auto exposures =
+                    bracket(scene, camera, middle * std::pow(ratio, -(count - 1) / 2.0), ratio, count);
                 const MergedImage merged = merge_exposures(exposures, recover_response(exposures).response);
                 const RadianceError error = radiance_error(merged, scene, camera, exposures);
-                const std::string name = std::to_string(&scene - scenes.data()) + ", " + std::to_string(count) + " by " + std::to_string(ratio);
+                const std::string name = std::to_string(&scene - scenes.data()) + ", " + std::to_string(count) +
+                                         " by " + std::to_string(ratio);
                 EXPECT_GT(error.values, scene.rgb.size() / 2) << name;
                 EXPECT_LT(error.p95, 0.045) << name;
                 EXPECT_LT(error.median, 0.0175) << name;
@@ -92,7 +97,8 @@ TEST(Merge, WithAKnownResponseWeighsByPrecision) {
     const MergedImage merged = merge_exposures(exposures, gamma_response(1));
     // 1 / slope^2, the slope over 8 codes; less within 32 of an end; 250 is no good code.
     const double weights[] = {20 / 32.0 * std::pow(8 / std::log(24 / 16.0), 2), std::pow(8 / std::log(94 / 86.0), 2)};
-    const double wanted = (weights[0] * std::log(20 / 128.0 / 0.25) + weights[1] * std::log(90 / 128.0)) / (weights[0] + weights[1]);
+    const double wanted =
+        (weights[0] * std::log(20 / 128.0 / 0.25) + weights[1] * std::log(90 / 128.0)) / (weights[0] + weights[1]);
     EXPECT_NEAR(merged.image.rgb[1], std::exp(wanted), 1e-6);
     EXPECT_EQ(merged.held[0], 1);
     EXPECT_EQ(merged.image.white_luminance, 0.0);

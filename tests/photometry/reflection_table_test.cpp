@@ -82,7 +82,8 @@ TEST(ReflectionTable, AverageOfLambertIsItsCoefficient) {
 
 // A sum over directions of its own, 0.5 degrees apart.
 TEST(ReflectionTable, LightFromAllSidesIsReflectedByQd) {
-    EXPECT_NEAR(diffuse_luminance_coefficient(extended(lambert(0.05))), 0.05, 2e-4);  // what is beyond tan 20 is not Lambert's
+    EXPECT_NEAR(diffuse_luminance_coefficient(extended(lambert(0.05))), 0.05,
+                2e-4);  // what is beyond tan 20 is not Lambert's
     for (const std::string& name : standard_reflection_tables()) {
         const ReflectionTable table = extended(find_reflection_table(name)), plain = without_sheen(table);
         EXPECT_EQ(reduced_luminance_coefficient(plain, 3.3, 17), reduced_luminance_coefficient(table, 3.3, 90)) << name;
@@ -91,7 +92,8 @@ TEST(ReflectionTable, LightFromAllSidesIsReflectedByQd) {
             double luminance = 0, illuminance = 0;  // of a sky of 1 cd/m^2
             for (double gamma = 0.25; gamma < 90; gamma += 0.5)
                 for (double beta = 0.25; beta < 360; beta += 0.5) {
-                    const double solid = std::sin(gamma * radian) * 0.25 * radian * radian, horizontal = solid * std::cos(gamma * radian);
+                    const double solid = std::sin(gamma * radian) * 0.25 * radian * radian,
+                                 horizontal = solid * std::cos(gamma * radian);
                     luminance += horizontal * luminance_coefficient(t, std::tan(gamma * radian), beta);
                     illuminance += horizontal;
                 }
@@ -122,7 +124,8 @@ TEST(ReflectionTable, ExtensionLeavesCoveredCellsAndFallsSmoothly) {
             }
         EXPECT_LT(reduced_luminance_coefficient(smooth, 1000, 0), 1e-5);
         // L per illuminance facing the lamp stays beyond the table.
-        EXPECT_NEAR(luminance_coefficient(smooth, 30, 40) * std::sqrt(145.0), luminance_coefficient(smooth, 12, 40) * std::sqrt(901.0), 1e-9);
+        EXPECT_NEAR(luminance_coefficient(smooth, 30, 40) * std::sqrt(145.0),
+                    luminance_coefficient(smooth, 12, 40) * std::sqrt(901.0), 1e-9);
     }
 }
 
@@ -133,13 +136,16 @@ TEST(ReflectionTable, ReadsWhatSpreadsheetsWrite) {
     EXPECT_EQ(table.name, "t.csv");
     EXPECT_EQ(table.beta, (std::vector<double>{0, 180}));
     EXPECT_EQ(table.at(1, 1), 0);
-    for (const char* q0 : {"# Q0: 0.09", "#q0=0.09", "# q0\t0.09", "# Q0 = 0.09"}) EXPECT_EQ(parse(std::string(q0) + "\nt,0,180\n0,3,3\n2,1,1\n").stated_q0, 0.09) << q0;
+    for (const char* q0 : {"# Q0: 0.09", "#q0=0.09", "# q0\t0.09", "# Q0 = 0.09"})
+        EXPECT_EQ(parse(std::string(q0) + "\nt,0,180\n0,3,3\n2,1,1\n").stated_q0, 0.09) << q0;
     EXPECT_EQ(parse("# Q0: nominal value of the class\nt,0,180\n0,3,3\n2,1,1\n").stated_q0, 0);
     EXPECT_FALSE(table.wet);
     EXPECT_TRUE(parse("# Wet\nbeta\\tan(gamma),0,180\n0,3,3\n2,1,1\n").wet);
     EXPECT_TRUE(find_reflection_table("W3").wet);
-    for (const char* start : {"tan_gamma,0,180\n", "\xef\xbb\xbf# x\r\"tan gamma\",0\r", "\n#\n TG ,0,180"}) EXPECT_TRUE(is_reflection_table(bytes_of(start))) << start;
-    for (const char* start : {"", "# tan_gamma\n", "gamma,0,90\ntan_gamma\n", "A,0,1\n", "T,0,180\n"}) EXPECT_FALSE(is_reflection_table(bytes_of(start))) << start;
+    for (const char* start : {"tan_gamma,0,180\n", "\xef\xbb\xbf# x\r\"tan gamma\",0\r", "\n#\n TG ,0,180"})
+        EXPECT_TRUE(is_reflection_table(bytes_of(start))) << start;
+    for (const char* start : {"", "# tan_gamma\n", "gamma,0,90\ntan_gamma\n", "A,0,1\n", "T,0,180\n"})
+        EXPECT_FALSE(is_reflection_table(bytes_of(start))) << start;
     const TempFolder folder;
     folder.write("mine.csv", "t,0,180\n0,3,3\n1,2,1");
     EXPECT_EQ(find_reflection_table("mine.csv", folder.path()).name, "mine");

@@ -127,7 +127,8 @@ TEST(Response, FilesComeBackOrSayWhyNot) {
     folder.write("crlf.csv", replaced("\n9,", "\r\n 9 , "));
     EXPECT_NO_THROW(read_response(folder / "crlf.csv"));
     // Columns go by their names.
-    for (const char* headings : {"code,ln_exposure_b,ln_exposure_g,ln_exposure_r", "code, B, G, R", "code,g(blue),g(green),g(red)"}) {
+    for (const char* headings :
+         {"code,ln_exposure_b,ln_exposure_g,ln_exposure_r", "code, B, G, R", "code,g(blue),g(green),g(red)"}) {
         folder.write("swapped.csv", replaced("code,ln_exposure_r,ln_exposure_g,ln_exposure_b", headings) + "\n\n");
         const Response swapped = read_response(folder / "swapped.csv");
         for (size_t c = 0; c < 3; ++c) EXPECT_EQ(swapped.ln_exposure[c], read.ln_exposure[2 - c]) << headings;

@@ -39,22 +39,28 @@ TEST_F(EsminiRuns, PosesLieBetweenRows) {
     EXPECT_FALSE(is_there(car, 0.6));
 }
 
-// The CSV logger has all entities in a row. One is gone after the first row, another comes later and is none of the header's.
+// The CSV logger has all entities in a row. One is gone after the first row, another comes later and is none of the
+// header's.
 TEST_F(EsminiRuns, TheTableOfTheCsvLoggerIsReadToo) {
     std::string header = "Index [-], TimeStamp [s], ";
     for (const std::string entity : {"#1 ", "#2 "})
-        for (const char* column : {"Entity_Name [-]", "Entity_ID [-]", "Current_Speed [m/s]", "Wheel_Angle [deg]", "bb_x [m]", "bb_y [m]", "bb_z [m]", "bb_length [m]", "bb_width [m]",
-                                   "bb_height [m]", "World_Position_X [m]", "World_Position_Y [m]", "World_Position_Z [m]", "lane_offset[m]", "World_Heading_Angle [rad]",
-                                   "World_Pitch_Angle [rad]", "collision_ids"})
+        for (const char* column :
+             {"Entity_Name [-]", "Entity_ID [-]", "Current_Speed [m/s]", "Wheel_Angle [deg]", "bb_x [m]", "bb_y [m]",
+              "bb_z [m]", "bb_length [m]", "bb_width [m]", "bb_height [m]", "World_Position_X [m]",
+              "World_Position_Y [m]", "World_Position_Z [m]", "lane_offset[m]", "World_Heading_Angle [rad]",
+              "World_Pitch_Angle [rad]", "collision_ids"})
             header += entity + column + ", ";
     const auto block = [](const char* name, int id, double x) {
         char text[200];
-        std::snprintf(text, sizeof text, "%s, %d, 12.5, 90, 1.4, 0, 0.7, 4.5, 1.9, 1.5, %g, 2, 0.3, 0.1, 0.5, 0.02, , ", name, id, x);
+        std::snprintf(text, sizeof text, "%s, %d, 12.5, 90, 1.4, 0, 0.7, 4.5, 1.9, 1.5, %g, 2, 0.3, 0.1, 0.5, 0.02, , ",
+                      name, id, x);
         return std::string(text);
     };
-    const auto run = read_esmini_run(write("run.csv", "esmini GIT REV: v3.6.0\nScenario File Name: a, b.xosc\nNumber of Vehicles: 2\n" + header + "\n0, 0.000, " + block("Ego", 0, 10) +
-                                                          block("Gone", 1, 20) + "\n1, 0.100, " + block("Ego", 0, 11) + "\n2, 0.200, " + block("Ego", 0, 12) + block("Late", 7, 70) +
-                                                          block("Later", 8, 80) + "\n"));
+    const auto run = read_esmini_run(
+        write("run.csv", "esmini GIT REV: v3.6.0\nScenario File Name: a, b.xosc\nNumber of Vehicles: 2\n" + header +
+                             "\n0, 0.000, " + block("Ego", 0, 10) + block("Gone", 1, 20) + "\n1, 0.100, " +
+                             block("Ego", 0, 11) + "\n2, 0.200, " + block("Ego", 0, 12) + block("Late", 7, 70) +
+                             block("Later", 8, 80) + "\n"));
     ASSERT_EQ(run.entities.size(), 4u);
     const RunEntity &ego = run.entities[0], &late = run.entities[2], &later = run.entities[3];
     EXPECT_EQ(ego.name, "Ego");
@@ -76,8 +82,11 @@ TEST_F(EsminiRuns, TheTableOfTheCsvLoggerIsReadToo) {
 
 // Before 2.37.5 esmini's logger misspelt two of its columns.
 TEST_F(EsminiRuns, OldTablesOfTheCsvLoggerAreRead) {
-    const auto run = read_esmini_run(write("run.csv", "esmini GIT REV: v2.37.4\nIndex [-], TimeStamp [s], #1 Entitity_Name [-], #1 Entitity_ID [-], #1 Current_Speed [m/s], #1 World_Position_X [m], "
-                                                      "#1 World_Position_Y [m], #1 World_Position_Z [m], #1 World_Heading_Angle [rad], \n0, 0.000, Ego, 3, 5, 10, 0, 0, 0, \n"));
+    const auto run = read_esmini_run(write("run.csv",
+                                           "esmini GIT REV: v2.37.4\nIndex [-], TimeStamp [s], #1 Entitity_Name [-], "
+                                           "#1 Entitity_ID [-], #1 Current_Speed [m/s], #1 World_Position_X [m], "
+                                           "#1 World_Position_Y [m], #1 World_Position_Z [m], #1 World_Heading_Angle "
+                                           "[rad], \n0, 0.000, Ego, 3, 5, 10, 0, 0, 0, \n"));
     EXPECT_EQ(run.entities[0].id, 3);
     EXPECT_EQ(run.entities[0].name, "Ego");
 }
@@ -90,8 +99,12 @@ TEST_F(EsminiRuns, ScenariosThatSayNothingAreNoted) {
         for (const std::string& note : read_esmini_run(table, write("run.xosc", text)).notes) all += note + "\n";
         return all;
     };
-    EXPECT_NE(notes("<OpenSCENARIO><Catalog name=\"c\"/></OpenSCENARIO>").find("run.xosc:1: OpenSCENARIO: has no Storyboard"), std::string::npos);
-    EXPECT_NE(notes("<OpenSCENARIO>\n<FileHeader revMajor=\"0\" revMinor=\"9\"/><Storyboard/></OpenSCENARIO>").find("run.xosc:2: FileHeader: OpenSCENARIO 0.9"), std::string::npos);
+    EXPECT_NE(
+        notes("<OpenSCENARIO><Catalog name=\"c\"/></OpenSCENARIO>").find("run.xosc:1: OpenSCENARIO: has no Storyboard"),
+        std::string::npos);
+    EXPECT_NE(notes("<OpenSCENARIO>\n<FileHeader revMajor=\"0\" revMinor=\"9\"/><Storyboard/></OpenSCENARIO>")
+                  .find("run.xosc:2: FileHeader: OpenSCENARIO 0.9"),
+              std::string::npos);
     EXPECT_EQ(notes(scenario("")), "");
 }
 
@@ -128,7 +141,7 @@ TEST_F(EsminiRuns, EventsSetLamps) {
     const std::string text =
         scenario(event("one",
                        lamp("indicatorLeft", "flashing",
-                             "luminousIntensity=\"${2 * $cd}\" flashingOnDuration=\"0.4\" flashingOffDuration=\"0.3\""),
+                            "luminousIntensity=\"${2 * $cd}\" flashingOnDuration=\"0.4\" flashingOffDuration=\"0.3\""),
                        at_time("$when")) +
                      event("two", lamp("highBeam", "on", "luminousIntensity=\"30000\"", "transitionTime=\"1\""),
                            "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"event\" "
@@ -162,17 +175,22 @@ TEST_F(EsminiRuns, EventsSetLamps) {
 
 // The third ends the first, which the fourth waits for; the second does not begin beside another.
 TEST_F(EsminiRuns, EventsOverrideAndSkip) {
-    const auto with_priority = [](const char* priority, std::string text) { return text.replace(text.find("parallel"), 8, priority); };
+    const auto with_priority = [](const char* priority, std::string text) {
+        return text.replace(text.find("parallel"), 8, priority);
+    };
     const std::string seven_seconds =
-        "<PrivateAction><LongitudinalAction><SpeedAction><SpeedActionDynamics dynamicsShape=\"linear\" value=\"7\" dynamicsDimension=\"time\"/>"
-        "<SpeedActionTarget><AbsoluteTargetSpeed value=\"10\"/></SpeedActionTarget></SpeedAction></LongitudinalAction></PrivateAction>";
+        "<PrivateAction><LongitudinalAction><SpeedAction><SpeedActionDynamics dynamicsShape=\"linear\" value=\"7\" "
+        "dynamicsDimension=\"time\"/>"
+        "<SpeedActionTarget><AbsoluteTargetSpeed "
+        "value=\"10\"/></SpeedActionTarget></SpeedAction></LongitudinalAction></PrivateAction>";
     const auto begin_of_second_and_fourth = [&](const char* priority_of_third) {
-        const std::string text = scenario(event("first", seven_seconds, at_time("1")) +
-                                          with_priority("skip", event("second", lamp("brakeLights", "on"), at_time("2"))) +
-                                          with_priority(priority_of_third, event("third", lamp("indicatorLeft", "on"), at_time("3"))) +
-                                          event("fourth", lamp("highBeam", "on"),
-                                                "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"event\" "
-                                                "storyboardElementRef=\"first\" state=\"completeState\"/></ByValueCondition>"));
+        const std::string text =
+            scenario(event("first", seven_seconds, at_time("1")) +
+                     with_priority("skip", event("second", lamp("brakeLights", "on"), at_time("2"))) +
+                     with_priority(priority_of_third, event("third", lamp("indicatorLeft", "on"), at_time("3"))) +
+                     event("fourth", lamp("highBeam", "on"),
+                           "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"event\" "
+                           "storyboardElementRef=\"first\" state=\"completeState\"/></ByValueCondition>"));
         const auto run = read_esmini_run(write("run.csv", braking_run()), write("run.xosc", text));
         const auto &second = events_of(run, RunLamp::Brake), &fourth = events_of(run, RunLamp::HighBeam);
         EXPECT_EQ(second.size(), 1u);
@@ -199,9 +217,15 @@ TEST_F(EsminiRuns, ErrorsNameFileAndLine) {
                   .find("do not ascend"),
               std::string::npos);
     EXPECT_NE(complaint("time, id, name, x\n").find("no column 'y'"), std::string::npos);
-    EXPECT_NE(complaint(kHeader + "0, 0, A, 0, 0, 0, 0, 0, 0, abc, 0, 0\n").find("run.csv: line 2: column 10: speed 'abc' is no number"), std::string::npos);
-    EXPECT_NE(complaint(kHeader + "0, 0, A, 0, 0, 0, 0, 0, 0, 1, 0, 1e10\n").find("line 2: column 12: wheel_rot '1e10'"), std::string::npos);
-    EXPECT_NE(complaint(kHeader + "0, 1.5, A, 0, 0, 0, 0, 0, 0, 1, 0, 0\n").find("line 2: column 2: id '1.5' is no whole number"), std::string::npos);
+    EXPECT_NE(complaint(kHeader + "0, 0, A, 0, 0, 0, 0, 0, 0, abc, 0, 0\n")
+                  .find("run.csv: line 2: column 10: speed 'abc' is no number"),
+              std::string::npos);
+    EXPECT_NE(
+        complaint(kHeader + "0, 0, A, 0, 0, 0, 0, 0, 0, 1, 0, 1e10\n").find("line 2: column 12: wheel_rot '1e10'"),
+        std::string::npos);
+    EXPECT_NE(complaint(kHeader + "0, 1.5, A, 0, 0, 0, 0, 0, 0, 1, 0, 0\n")
+                  .find("line 2: column 2: id '1.5' is no whole number"),
+              std::string::npos);
     // What an entity has none of is empty, or NaN.
     const auto run = read_esmini_run(write("run.csv", kHeader + "0, 0, A, 0, 0, 0, 0, 0, 0, , nan, -nan\n"));
     EXPECT_EQ(run.entities[0].poses[0].speed, 0);
@@ -224,7 +248,8 @@ TEST_F(EsminiRuns, StoryboardsThatAskTooMuchAreRefused) {
         for (int i = 0; i < times; ++i) who += "<EntityRef entityRef=\"Ego\"/>";
         for (int i = 0; i < groups; ++i)
             trigger += "<ConditionGroup><Condition><ByEntityCondition><TriggeringEntities>" + who +
-                       "</TriggeringEntities><EntityCondition><SpeedCondition value=\"9\" rule=\"greaterThan\"/></EntityCondition></ByEntityCondition></Condition></ConditionGroup>";
+                       "</TriggeringEntities><EntityCondition><SpeedCondition value=\"9\" "
+                       "rule=\"greaterThan\"/></EntityCondition></ByEntityCondition></Condition></ConditionGroup>";
         return complaint(table, scenario("<Event name=\"e\"><StartTrigger>" + trigger + "</StartTrigger></Event>"));
     };
     EXPECT_EQ(asked(10, 10), "");
@@ -235,9 +260,13 @@ TEST_F(EsminiRuns, StoryboardsThatAskTooMuchAreRefused) {
 // At rest for a while: also where it was already, and where rows are many.
 TEST_F(EsminiRuns, StandingStillIsJudgedByTheLastMovement) {
     const auto at = [&](const char* duration) {
-        const std::string condition = std::string("<ByEntityCondition><TriggeringEntities><EntityRef entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><StandStillCondition duration=\"") +
-                                      duration + "\"/></EntityCondition></ByEntityCondition>";
-        const auto run = read_esmini_run(write("run.csv", braking_run()), write("run.xosc", scenario(event("e", lamp("highBeam", "on"), condition))));
+        const std::string condition =
+            std::string(
+                "<ByEntityCondition><TriggeringEntities><EntityRef "
+                "entityRef=\"Ego\"/></TriggeringEntities><EntityCondition><StandStillCondition duration=\"") +
+            duration + "\"/></EntityCondition></ByEntityCondition>";
+        const auto run = read_esmini_run(write("run.csv", braking_run()),
+                                         write("run.xosc", scenario(event("e", lamp("highBeam", "on"), condition))));
         const auto& events = events_of(run, RunLamp::HighBeam);
         return events.empty() ? -1 : events[0].time;
     };
@@ -307,10 +336,10 @@ TEST(SharedRuns, IndicatorsBeginWithTheLaneChange) {
 
 TEST(SharedRuns, TrafficLightsTurnWhereTheCarCounts) {
     if (!is_here(shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
-    const RoadNetwork roads =
-        read_opendrive(shared_data("scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr"));
+    const RoadNetwork roads = read_opendrive(shared_data("scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr"));
     const EsminiRun run = shared_run("traffic_lights", &roads);
-    for (const std::string& note : run.notes) EXPECT_NE(note.find("a distance in the road is measured straight"), std::string::npos) << note;
+    for (const std::string& note : run.notes)
+        EXPECT_NE(note.find("a distance in the road is measured straight"), std::string::npos) << note;
     EXPECT_GT(run.signals.size(), 6u);
     for (size_t i = 1; i < run.signals.size(); ++i) EXPECT_GE(run.signals[i].time, run.signals[i - 1].time);
     // The car stops at the red light, and goes when it is green again.

@@ -128,22 +128,38 @@ TEST(Lanes, OfOneRoadOnlyTheNextSectionFollows) {
 TEST(Lanes, ThatMeetInOnePointAreLinkedToSome) {
     std::string roads;
     for (int i = 0; i < 300; ++i)
-        roads += road(std::to_string(i), 100, geometry(0, 0, 0, 0, 100, "<arc curvature=\"0.06283185307179587\"/>"), two_way_section());
+        roads += road(std::to_string(i), 100, geometry(0, 0, 0, 0, 100, "<arc curvature=\"0.06283185307179587\"/>"),
+                      two_way_section());
     const LaneGraph graph(network_of(roads));
     for (const Lane& lane : graph.lanes()) ASSERT_LE(lane.successors.size(), 64u);
     EXPECT_GT(graph.long_route(find(graph, "road 0, section 0, lane -1")).size(), 60u);
 }
 
 TEST(Lanes, LimitsChangeAlongTheWay) {
-    const auto type = [](double s, const std::string& speed) { return "<type" + test::quantity("s", s) + " type=\"town\">" + speed + "</type>"; };
-    const std::string types = type(0, "<speed max=\"no limit\"/>") + type(33.3, "<speed max=\"100\" unit=\"km/h\"/>") + type(66.6, "<speed max=\"30\" unit=\"mph\"/>") + type(90, "");
-    const LaneGraph graph(network_of(road("a", 100, geometry(0, 0, 0, 0, 100, "<line/>"),
-                                          two_way_section(0, "", "<speed sOffset=\"70\" max=\"undefined\"/><speed sOffset=\"50\" max=\"8\"/>"), types)));
+    const auto type = [](double s, const std::string& speed) {
+        return "<type" + test::quantity("s", s) + " type=\"town\">" + speed + "</type>";
+    };
+    const std::string types = type(0, "<speed max=\"no limit\"/>") + type(33.3, "<speed max=\"100\" unit=\"km/h\"/>") +
+                              type(66.6, "<speed max=\"30\" unit=\"mph\"/>") + type(90, "");
+    const LaneGraph graph(network_of(road(
+        "a", 100, geometry(0, 0, 0, 0, 100, "<line/>"),
+        two_way_section(0, "", "<speed sOffset=\"70\" max=\"undefined\"/><speed sOffset=\"50\" max=\"8\"/>"), types)));
     const uint32_t right = find(graph, "road a, section 0, lane -1"), left = find(graph, "road a, section 0, lane 1");
-    const auto limit = [&](uint32_t lane, double along) { return allowed_speed(graph.lanes()[lane], graph.pose(lane, along)) * 3.6; };
+    const auto limit = [&](uint32_t lane, double along) {
+        return allowed_speed(graph.lanes()[lane], graph.pose(lane, along)) * 3.6;
+    };
     EXPECT_TRUE(std::isinf(graph.lanes()[right].speed_limit));
-    for (const auto& [s, of_road, of_lane] : {std::tuple{0.0, 130.0, 130.0}, {33.29, 130.0, 130.0}, {33.31, 100.0, 100.0}, {49.99, 100.0, 100.0}, {50.01, 100.0, 28.8},
-                                              {66.59, 100.0, 28.8}, {66.61, 48.28, 28.8}, {69.99, 48.28, 28.8}, {70.01, 48.28, 48.28}, {90.01, 50.0, 50.0}, {99.9, 50.0, 50.0}}) {
+    for (const auto& [s, of_road, of_lane] : {std::tuple{0.0, 130.0, 130.0},
+                                              {33.29, 130.0, 130.0},
+                                              {33.31, 100.0, 100.0},
+                                              {49.99, 100.0, 100.0},
+                                              {50.01, 100.0, 28.8},
+                                              {66.59, 100.0, 28.8},
+                                              {66.61, 48.28, 28.8},
+                                              {69.99, 48.28, 28.8},
+                                              {70.01, 48.28, 48.28},
+                                              {90.01, 50.0, 50.0},
+                                              {99.9, 50.0, 50.0}}) {
         EXPECT_NEAR(limit(right, s), of_lane, 0.01) << s;
         EXPECT_NEAR(limit(left, 100 - s), of_road, 0.01) << s;
     }

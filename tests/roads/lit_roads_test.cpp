@@ -168,19 +168,22 @@ TEST(LitRoads, TheDriverFollowsTheLaneAtTheLimit) {
     EXPECT_EQ(lamps_of(scene, "car_ego/headlamp_").size(), 2u);
 }
 
-// 100 km/h, from s = 400 on 30 km/h: who drives there is as slow where that begins, and brakes no harder than comfortably.
+// 100 km/h, from s = 400 on 30 km/h: who drives there is as slow where that begins, and brakes no harder than
+// comfortably.
 TEST(LitRoads, TheDriverSlowsDownForALowerLimit) {
-    const Scene scene = lit_roads(straight("<type s=\"0\" type=\"rural\"><speed max=\"100\" unit=\"km/h\"/></type><type s=\"400\" "
-                                           "type=\"town\"><speed max=\"30\" unit=\"km/h\"/></type>",
-                                           600, "<laneSection s=\"0\"><right>" + test::lane(-1, 3.5) + "</right></laneSection>"))
-                            .scene;
+    const Scene scene =
+        lit_roads(straight("<type s=\"0\" type=\"rural\"><speed max=\"100\" unit=\"km/h\"/></type><type s=\"400\" "
+                           "type=\"town\"><speed max=\"30\" unit=\"km/h\"/></type>",
+                           600, "<laneSection s=\"0\"><right>" + test::lane(-1, 3.5) + "</right></laneSection>"))
+            .scene;
     const auto way = std::find_if(scene.channels.begin(), scene.channels.end(), [&](const Channel& channel) {
         return channel.path == Channel::Path::Translation && scene.nodes[channel.node].name == "car_ego";
     });
     ASSERT_NE(way, scene.channels.end());
     double fastest = 0, before = 0;
     for (size_t i = 1; i < way->times.size(); ++i) {
-        const double x = way->values[i].x, seconds = way->times[i] - way->times[i - 1], speed = (x - way->values[i - 1].x) / seconds;
+        const double x = way->values[i].x, seconds = way->times[i] - way->times[i - 1],
+                     speed = (x - way->values[i - 1].x) / seconds;
         fastest = std::max(fastest, speed);
         if (i > 1) {
             EXPECT_NEAR(speed, before, 1.55 * seconds + 0.01) << x;

@@ -45,12 +45,19 @@ TEST(OpenDrive, ErrorsNameFileLineAndReason) {
     EXPECT_NE(complaint(sound + "\n<OpenDRIVE/>").find("is no XML: a second root"), std::string::npos);
     EXPECT_NE(complaint(sound + "more").find("is no XML: text beside the root"), std::string::npos);
     EXPECT_NE(complaint(sound + '\0' + sound).find("is no XML: a NUL"), std::string::npos);
-    EXPECT_NE(complaint("<OpenDRIVE>\n<road id=\"1\"\nid=\"2\"/></OpenDRIVE>").find("file.xodr:2: is no XML: the attribute 'id' is there twice"), std::string::npos);
-    EXPECT_NE(complaint_of_plan("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\" \" length=\"100\"><line/></geometry>").find("hdg '' is no number"), std::string::npos);
+    EXPECT_NE(complaint("<OpenDRIVE>\n<road id=\"1\"\nid=\"2\"/></OpenDRIVE>")
+                  .find("file.xodr:2: is no XML: the attribute 'id' is there twice"),
+              std::string::npos);
+    EXPECT_NE(complaint_of_plan("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\" \" length=\"100\"><line/></geometry>")
+                  .find("hdg '' is no number"),
+              std::string::npos);
     EXPECT_NE(complaint("<a/>").find("file.xodr:1: a: the root of an OpenDRIVE file must be OpenDRIVE"),
               std::string::npos);
     EXPECT_NE(complaint(opendrive("")).find("has no road"), std::string::npos);
-    EXPECT_NE(complaint(opendrive("<road id=\"7\" length=\"10\"><planView>" + geometry(0, 0, 0, 0, 10, "<line/>") + "</planView></road>")).find("file.xodr:2: OpenDRIVE: none of its roads has lanes"), std::string::npos);
+    EXPECT_NE(complaint(opendrive("<road id=\"7\" length=\"10\"><planView>" + geometry(0, 0, 0, 0, 10, "<line/>") +
+                                  "</planView></road>"))
+                  .find("file.xodr:2: OpenDRIVE: none of its roads has lanes"),
+              std::string::npos);
     EXPECT_NE(
         complaint(opendrive("<road id=\"7\" length=\"10\"/>")).find("file.xodr:4: road: road '7' has no planView"),
         std::string::npos);
@@ -109,13 +116,22 @@ TEST(OpenDrive, LimitsHold) {
             .find("m high"),
         std::string::npos);
     // For a tenth of a metre between those places that are looked at anyway.
-    const std::string wide = test::lane(-1, 3, "driving", "<width sOffset=\"0\" a=\"3\"/><width sOffset=\"10.1\" a=\"3\" c=\"1e8\"/>");
+    const std::string wide =
+        test::lane(-1, 3, "driving", "<width sOffset=\"0\" a=\"3\"/><width sOffset=\"10.1\" a=\"3\" c=\"1e8\"/>");
     const std::string back = "<width sOffset=\"10.2\" a=\"3\"/></lane>";
-    EXPECT_NE(complaint(opendrive(road("1", 100, kLine, "<laneSection s=\"0\"><right>" + wide.substr(0, wide.rfind("<width")) + back + "</right></laneSection>"))).find("m wide"),
+    EXPECT_NE(complaint(opendrive(road("1", 100, kLine,
+                                       "<laneSection s=\"0\"><right>" + wide.substr(0, wide.rfind("<width")) + back +
+                                           "</right></laneSection>")))
+                  .find("m wide"),
               std::string::npos);
-    EXPECT_NE(complaint(opendrive(road("1", 100, kLine, "<laneOffset s=\"0\" a=\"0\"/><laneOffset s=\"10.1\" a=\"1e5\"/><laneOffset s=\"10.2\" a=\"0\"/>" + two_way_section())))
-                  .find("has a lane offset of 100000"),
-              std::string::npos);
+    EXPECT_NE(
+        complaint(
+            opendrive(
+                road("1", 100, kLine,
+                     "<laneOffset s=\"0\" a=\"0\"/><laneOffset s=\"10.1\" a=\"1e5\"/><laneOffset s=\"10.2\" a=\"0\"/>" +
+                         two_way_section())))
+            .find("has a lane offset of 100000"),
+        std::string::npos);
     RoadLimits limits;
     limits.elements = 5;
     EXPECT_NE(complaint(opendrive(road("1", 100, kLine, two_way_section())), limits).find("more than 5 elements"),
@@ -153,15 +169,23 @@ TEST(OpenDrive, WhatBreaksARuleIsReadAndNoted) {
         road("1", 100, geometry(50, 50, 3, 0, 50, "<line/>") + geometry(0, 0, 0, 0, 50, "<line/>"), two_way_section()));
     EXPECT_TRUE(has_note(jump, "not in ascending order of s: sorted"));
     EXPECT_TRUE(has_note(jump, "the reference line jumps by 3"));
-    const auto gap = network_of(road("1", 100, geometry(0, 0, 0, 0, 50, "<line/>") + geometry(80, 80, 0, 0, 20, "<line/>"), two_way_section()));
+    const auto gap = network_of(
+        road("1", 100, geometry(0, 0, 0, 0, 50, "<line/>") + geometry(80, 80, 0, 0, 20, "<line/>"), two_way_section()));
     EXPECT_TRUE(has_note(gap, "road '1': a geometry ends at s = 50.000000, the next begins at 80.000000"));
-    EXPECT_TRUE(has_note(network_of(road("1", 100, geometry(0, 0, 0, 0, 60, "<line/>") + geometry(50, 50, 0, 0, 50, "<line/>"), two_way_section())),
-                         "a geometry ends at s = 60"));
-    EXPECT_TRUE(has_note(network_of(road("1", 100, geometry(0, 0, 0, 0, 100, "<line/><arc curvature=\"0.01\"/>"), two_way_section())), "geometry: has 2 shapes"));
-    EXPECT_TRUE(network_of(road("1", 100, geometry(0, 0, 0, 0, 50, "<line/>") + geometry(50, 50, 0, 0, 50, "<line/>"), two_way_section())).notes.empty());
+    EXPECT_TRUE(
+        has_note(network_of(road("1", 100, geometry(0, 0, 0, 0, 60, "<line/>") + geometry(50, 50, 0, 0, 50, "<line/>"),
+                                 two_way_section())),
+                 "a geometry ends at s = 60"));
+    EXPECT_TRUE(has_note(
+        network_of(road("1", 100, geometry(0, 0, 0, 0, 100, "<line/><arc curvature=\"0.01\"/>"), two_way_section())),
+        "geometry: has 2 shapes"));
+    EXPECT_TRUE(network_of(road("1", 100, geometry(0, 0, 0, 0, 50, "<line/>") + geometry(50, 50, 0, 0, 50, "<line/>"),
+                                two_way_section()))
+                    .notes.empty());
     EXPECT_TRUE(has_note(network_of(road("1", 200, kLine, two_way_section())), "its geometry is 100.0"));
     EXPECT_EQ(network_of(road("1", 200, kLine, two_way_section())).roads[0].length, 100);
-    EXPECT_TRUE(has_note(network_of(road("1", 100, kLine, "") + road("2", 100, kLine, two_way_section())), "has no lanes"));
+    EXPECT_TRUE(
+        has_note(network_of(road("1", 100, kLine, "") + road("2", 100, kLine, two_way_section())), "has no lanes"));
     EXPECT_TRUE(has_note(
         network_of(road("1", 100, kLine, two_way_section(),
                         "<link><successor elementType=\"road\" elementId=\"9\" contactPoint=\"start\"/></link>")),
@@ -221,8 +245,9 @@ TEST(OpenDrive, DoubleLinesKnowTheirSides) {
     for (const std::string& type : {std::string("solid broken"), std::string("broken solid")}) {
         const std::string mark = "<roadMark sOffset=\"0\" type=\"" + type + "\"/>";
         const auto network = network_of(road("1", 100, kLine,
-                                             "<laneSection s=\"0\"><left>" + test::lane(1, 3, "driving", mark) + "</left><center><lane id=\"0\">" + mark +
-                                                 "</lane></center><right>" + test::lane(-1, 3, "driving", mark) + "</right></laneSection>"));
+                                             "<laneSection s=\"0\"><left>" + test::lane(1, 3, "driving", mark) +
+                                                 "</left><center><lane id=\"0\">" + mark + "</lane></center><right>" +
+                                                 test::lane(-1, 3, "driving", mark) + "</right></laneSection>"));
         for (const int id : {1, 0, -1}) {
             const auto& lines = network.roads[0].sections[0].find(id)->marks.at(0).lines;
             ASSERT_EQ(lines.size(), 2u);

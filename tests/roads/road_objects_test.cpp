@@ -42,17 +42,20 @@ bool object_noted(const RoadNetwork& network, const std::string& what) {
 std::pair<glm::dvec3, glm::dvec3> bounds_of(const Scene& scene, const std::string& material) {
     glm::dvec3 low(kInfinite), high(-kInfinite);
     for (const Triangle& triangle : triangles_of(scene, material))
-        for (const glm::dvec3& c : triangle.corners) low = glm::min(low, {c.x, -c.z, c.y}), high = glm::max(high, {c.x, -c.z, c.y});
+        for (const glm::dvec3& c : triangle.corners)
+            low = glm::min(low, {c.x, -c.z, c.y}), high = glm::max(high, {c.x, -c.z, c.y});
     return {low, high};
 }
 
 TEST(RoadObjects, AreKnownByWholeWords) {
-    for (const char* name : {"StreetLight", "street light 3", "streetlamp", "Street_Lamp_07", "lampPost", "street lamps", "LEDStreetLamp", "lamppole", "LightPole02"})
+    for (const char* name : {"StreetLight", "street light 3", "streetlamp", "Street_Lamp_07", "lampPost",
+                             "street lamps", "LEDStreetLamp", "lamppole", "LightPole02"})
         EXPECT_EQ(kind("pole", "", name), ObjectKind::StreetLamp) << name;
     EXPECT_EQ(kind("streetLamp", "", "tree"), ObjectKind::StreetLamp) << "its type says";
     for (const char* name : {"Main Street kiosk", "Bushaltestelle", "Bus stop", "Dispatch", "Market hall"})
         EXPECT_EQ(kind("building", "", name), ObjectKind::Building) << name;
-    for (const char* name : {"Main Street kiosk", "Bushaltestelle", "Dispatch", "Polestar", "trailer", "landmark", "concrete stopper"})
+    for (const char* name :
+         {"Main Street kiosk", "Bushaltestelle", "Dispatch", "Polestar", "trailer", "landmark", "concrete stopper"})
         EXPECT_EQ(kind("obstacle", "-1", name), ObjectKind::Other) << name;
     EXPECT_EQ(kind("vegetation", "bush", "VegBush06"), ObjectKind::Bush);
     EXPECT_EQ(kind("none", "", "oak tree"), ObjectKind::Tree);
@@ -66,15 +69,17 @@ TEST(RoadObjects, AreKnownByWholeWords) {
     EXPECT_EQ(kind("roadMark", "arrowLeft", ""), ObjectKind::RoadMark);
 }
 
-constexpr const char* kCorners = "<cornerLocal u=\"0\" v=\"0\" z=\"0\" height=\"1\"/><cornerLocal u=\"4\" v=\"0\" z=\"0\" height=\"1\"/>"
-                                 "<cornerLocal u=\"4\" v=\"2\" z=\"0\" height=\"1\"/></outline></object></objects>";
+constexpr const char* kCorners =
+    "<cornerLocal u=\"0\" v=\"0\" z=\"0\" height=\"1\"/><cornerLocal u=\"4\" v=\"0\" z=\"0\" height=\"1\"/>"
+    "<cornerLocal u=\"4\" v=\"2\" z=\"0\" height=\"1\"/></outline></object></objects>";
 
 // ASAM OpenDRIVE 1.8, 13.2: orientation says in which direction an object counts.
 TEST(RoadObjects, OrientationDoesNotTurnThem) {
     for (const char* orientation : {"+", "-", "none"}) {
-        const auto [low, high] = bounds_of(built(with("<objects><object id=\"1\" type=\"building\" s=\"40\" t=\"10\" hdg=\"0\" orientation=\"" + std::string(orientation) +
-                                                      "\"><outline>" + kCorners)),
-                                           "wall");
+        const auto [low, high] = bounds_of(
+            built(with("<objects><object id=\"1\" type=\"building\" s=\"40\" t=\"10\" hdg=\"0\" orientation=\"" +
+                       std::string(orientation) + "\"><outline>" + kCorners)),
+            "wall");
         EXPECT_NEAR(low.x, 40, 1e-4) << orientation;
         EXPECT_NEAR(high.x, 44, 1e-4);
         EXPECT_NEAR(low.y, 10, 1e-4);
@@ -84,15 +89,21 @@ TEST(RoadObjects, OrientationDoesNotTurnThem) {
 
 TEST(RoadObjects, OpenOutlinesAreWallsAlone) {
     const auto area = [&](const std::string& closed) {
-        return area_of(triangles_of(built(with("<objects><object id=\"1\" type=\"building\" s=\"40\" t=\"10\"><outline closed=\"" + closed + "\">" + kCorners)), "wall"));
+        return area_of(
+            triangles_of(built(with("<objects><object id=\"1\" type=\"building\" s=\"40\" t=\"10\"><outline closed=\"" +
+                                    closed + "\">" + kCorners)),
+                         "wall"));
     };
     EXPECT_NEAR(area("false"), 2 * (4 + 2), 1e-3) << "either side of two walls";
     EXPECT_NEAR(area("true"), 4 + 2 + std::sqrt(20.0) + 4, 1e-3) << "three walls and a roof";
 }
 
 TEST(RoadObjects, RowsOfLampsStandBesideOwnOnesIfAsked) {
-    const RoadNetwork network = with("<objects><object id=\"1\" type=\"streetLamp\" s=\"40\" t=\"6\" height=\"8\"/></objects>");
-    const auto lamps = [&](const LitRoadOptions& options) { return lamps_of(lit_roads(network, options).scene, "street_lamp_").size(); };
+    const RoadNetwork network =
+        with("<objects><object id=\"1\" type=\"streetLamp\" s=\"40\" t=\"6\" height=\"8\"/></objects>");
+    const auto lamps = [&](const LitRoadOptions& options) {
+        return lamps_of(lit_roads(network, options).scene, "street_lamp_").size();
+    };
     LitRoadOptions options;
     EXPECT_EQ(lamps(options), 1u);
     options.lamps = StreetLampOptions{.overhang = 2, .beside_own = false};
@@ -105,10 +116,11 @@ TEST(RoadObjects, RowsOfLampsStandBesideOwnOnesIfAsked) {
 TEST(RoadSignals, StopLinesLieAcrossTheLanesTheyAreFor) {
     for (const char* rule : {"RHT", "LHT"})
         for (const char* orientation : {"+", "-"}) {
-            const auto [low, high] = bounds_of(built(with("<signals><signal s=\"50\" t=\"-5\" id=\"7\" dynamic=\"no\" orientation=\"" + std::string(orientation) +
-                                                              "\" type=\"294\" country=\"DE\"/></signals>",
-                                                          "rule=\"" + std::string(rule) + "\"")),
-                                               "marking white");
+            const auto [low, high] =
+                bounds_of(built(with("<signals><signal s=\"50\" t=\"-5\" id=\"7\" dynamic=\"no\" orientation=\"" +
+                                         std::string(orientation) + "\" type=\"294\" country=\"DE\"/></signals>",
+                                     "rule=\"" + std::string(rule) + "\"")),
+                          "marking white");
             const bool right = (orientation[0] == '+') == (rule[0] == 'R');
             EXPECT_NEAR(low.y, right ? -3.5 : 0, 1e-3) << rule << orientation;
             EXPECT_NEAR(high.y, right ? 0 : 3.5, 1e-3) << rule << orientation;
@@ -117,20 +129,27 @@ TEST(RoadSignals, StopLinesLieAcrossTheLanesTheyAreFor) {
 
 TEST(RoadSignals, StandWhereTheirPositionSays) {
     const auto signal = [](const std::string& position) {
-        return with("<signals><signal s=\"50\" t=\"-5\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"3\" type=\"1000001\" country=\"OpenDRIVE\" "
-                    "height=\"0.9\" width=\"0.3\">" + position + "</signal></signals>");
+        return with(
+            "<signals><signal s=\"50\" t=\"-5\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"3\" "
+            "type=\"1000001\" country=\"OpenDRIVE\" "
+            "height=\"0.9\" width=\"0.3\">" +
+            position + "</signal></signals>");
     };
-    const auto place = [](const RoadNetwork& network) { return lamps_of(built(network), "signal_7/red").at(0).translation; };
+    const auto place = [](const RoadNetwork& network) {
+        return lamps_of(built(network), "signal_7/red").at(0).translation;
+    };
     EXPECT_NEAR(place(signal("")).x, 50, 0.2);
     for (const char* id : {"1", "2"}) {
-        const RoadNetwork network = signal("<positionRoad roadId=\"" + std::string(id) + "\" s=\"70\" t=\"6\" zOffset=\"2\" hOffset=\"0\"/>");
+        const RoadNetwork network =
+            signal("<positionRoad roadId=\"" + std::string(id) + "\" s=\"70\" t=\"6\" zOffset=\"2\" hOffset=\"0\"/>");
         EXPECT_TRUE(network.notes.empty()) << network.notes[0];
         const glm::vec3 at = place(network);
         EXPECT_NEAR(at.x, 70, 0.2) << id;
         EXPECT_NEAR(-at.z, 6 + (id[0] == '2' ? 100 : 0), 1e-3) << id;
         EXPECT_NEAR(at.y, 2.75, 1e-3) << id;
     }
-    const RoadNetwork inertial = signal("<positionInertial x=\"7\" y=\"6\" z=\"2\" hdg=\"0\"/>"), nowhere = signal("<positionRoad roadId=\"9\" s=\"7\" t=\"6\"/>");
+    const RoadNetwork inertial = signal("<positionInertial x=\"7\" y=\"6\" z=\"2\" hdg=\"0\"/>"),
+                      nowhere = signal("<positionRoad roadId=\"9\" s=\"7\" t=\"6\"/>");
     EXPECT_NEAR(place(inertial).x, 50, 0.2);
     EXPECT_TRUE(object_noted(inertial, "positionInertial: is not read"));
     EXPECT_NEAR(place(nowhere).x, 50, 0.2);
@@ -140,13 +159,17 @@ TEST(RoadSignals, StandWhereTheirPositionSays) {
 TEST(RoadSignals, BeyondTheEndOfTheirRoadAreSaid) {
     // The place that counts is looked at, and that alone.
     const auto moved = [](const std::string& s, const std::string& id, const std::string& there) {
-        return with("<signals><signal s=\"" + s + "\" t=\"5\" id=\"7\"><positionRoad roadId=\"" + id + "\" s=\"" + there + "\" t=\"6\"/></signal></signals>");
+        return with("<signals><signal s=\"" + s + "\" t=\"5\" id=\"7\"><positionRoad roadId=\"" + id + "\" s=\"" +
+                    there + "\" t=\"6\"/></signal></signals>");
     };
     for (const char* id : {"1", "2"}) {
-        EXPECT_TRUE(object_noted(moved("50", id, "1e8"), "positionRoad: s = 100000000.000000 is not on road '" + std::string(id) + "'"));
+        EXPECT_TRUE(object_noted(moved("50", id, "1e8"),
+                                 "positionRoad: s = 100000000.000000 is not on road '" + std::string(id) + "'"));
         EXPECT_TRUE(moved("1e8", id, "50").notes.empty());
     }
-    const RoadNetwork network = with("<objects><object id=\"1\" type=\"pole\" s=\"95\" t=\"6\"/></objects><signals><signal s=\"-4\" t=\"5\" id=\"7\"/></signals>");
+    const RoadNetwork network = with(
+        "<objects><object id=\"1\" type=\"pole\" s=\"95\" t=\"6\"/></objects><signals><signal s=\"-4\" t=\"5\" "
+        "id=\"7\"/></signals>");
     EXPECT_TRUE(object_noted(network, "object: s = 95.000000 is not on road '1', which is 90.0"));
     EXPECT_TRUE(object_noted(network, "signal: s = -4.0"));
     EXPECT_EQ(network.notes.size(), 2u);

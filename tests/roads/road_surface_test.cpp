@@ -109,10 +109,16 @@ TEST(RoadPoints, LevelLanesDoNotFollowTheSuperelevation) {
 // The offset takes a step of a lane's width where lane 1 goes on as lane -1.
 TEST(RoadPoints, AStepOfTheOffsetBelongsToTheNextSection) {
     const auto lanes = [](int first, const std::string& side, int to, int from) {
-        return "<" + side + ">" + test::lane(first, 3.5, "driving", "<link>" + (to ? "<successor id=\"" + std::to_string(to) + "\"/>" : "") + (from ? "<predecessor id=\"" + std::to_string(from) + "\"/>" : "") + "</link>") + "</" + side + ">";
+        return "<" + side + ">" +
+               test::lane(first, 3.5, "driving",
+                          "<link>" + (to ? "<successor id=\"" + std::to_string(to) + "\"/>" : "") +
+                              (from ? "<predecessor id=\"" + std::to_string(from) + "\"/>" : "") + "</link>") +
+               "</" + side + ">";
     };
-    const auto network = profiled("", "<laneOffset s=\"0\" a=\"0\"/><laneOffset s=\"50\" a=\"3.5\"/><laneSection s=\"0\">" + lanes(-1, "right", -2, 0) +
-                                          "</laneSection><laneSection s=\"50\"><right>" + test::lane(-1, 3.5) + test::lane(-2, 3.5, "driving", "<link><predecessor id=\"-1\"/></link>") + "</right></laneSection>");
+    const auto network = profiled(
+        "", "<laneOffset s=\"0\" a=\"0\"/><laneOffset s=\"50\" a=\"3.5\"/><laneSection s=\"0\">" +
+                lanes(-1, "right", -2, 0) + "</laneSection><laneSection s=\"50\"><right>" + test::lane(-1, 3.5) +
+                test::lane(-2, 3.5, "driving", "<link><predecessor id=\"-1\"/></link>") + "</right></laneSection>");
     const Road& r = network.roads[0];
     expect_at(lane_point(r, r.sections[0], -1, 50, 1), 50, -3.5, 0);
     expect_at(lane_point(r, r.sections[0], 0, 50, 0), 50, 0, 0);
@@ -127,17 +133,20 @@ TEST(RoadPoints, AStepOfTheOffsetBelongsToTheNextSection) {
 // Lane -1 grows by what lane -2 gets narrower: no border but the one between them bends.
 TEST(RoadPoints, StationsFollowInnerBorders) {
     const auto wide = [](int id, double a, double c, double d, double last) {
-        return "<lane id=\"" + std::to_string(id) + "\" type=\"driving\"><width sOffset=\"0\"" + test::quantity("a", a) + "/><width sOffset=\"40\"" + test::quantity("a", a) +
-               test::quantity("c", c) + test::quantity("d", d) + "/><width sOffset=\"60\"" + test::quantity("a", last) + "/></lane>";
+        return "<lane id=\"" + std::to_string(id) + "\" type=\"driving\"><width sOffset=\"0\"" +
+               test::quantity("a", a) + "/><width sOffset=\"40\"" + test::quantity("a", a) + test::quantity("c", c) +
+               test::quantity("d", d) + "/><width sOffset=\"60\"" + test::quantity("a", last) + "/></lane>";
     };
-    const auto network = profiled("", "<laneSection s=\"0\"><right>" + wide(-1, 3.5, 0.02625, -0.000875, 7) + wide(-2, 7, -0.02625, 0.000875, 3.5) + "</right></laneSection>");
+    const auto network = profiled("", "<laneSection s=\"0\"><right>" + wide(-1, 3.5, 0.02625, -0.000875, 7) +
+                                          wide(-2, 7, -0.02625, 0.000875, 3.5) + "</right></laneSection>");
     const LaneSection& section = network.roads[0].sections[0];
     const auto stations = road_stations(network.roads[0], section, 0.01, 20);
     EXPECT_LT(stations.size(), 60u);
     for (size_t i = 1; i < stations.size(); ++i)
         for (double f = 0.05; f < 1; f += 0.05) {
             const auto at = [&](double s) { return lane_border(network.roads[0], section, -1, s); };
-            EXPECT_NEAR(at(glm::mix(stations[i - 1], stations[i], f)), glm::mix(at(stations[i - 1]), at(stations[i]), f), 0.011);
+            EXPECT_NEAR(at(glm::mix(stations[i - 1], stations[i], f)),
+                        glm::mix(at(stations[i - 1]), at(stations[i]), f), 0.011);
         }
 }
 

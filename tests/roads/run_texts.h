@@ -50,14 +50,15 @@ inline std::string braking_run() {
     return text;
 }
 
-inline std::string lamp(const char* type, const char* mode, const std::string& more = "", const std::string& of_action = "") {
+inline std::string lamp(const char* type, const char* mode, const std::string& more = "",
+                        const std::string& of_action = "") {
     return std::string("<PrivateAction><AppearanceAction><LightStateAction ") + of_action +
            "><LightType><VehicleLight vehicleLightType=\"" + type + "\"/></LightType><LightState mode=\"" + mode +
            "\" " + more + "/></LightStateAction></AppearanceAction></PrivateAction>";
 }
 
 inline std::string event(const std::string& name, const std::string& actions, const std::string& condition,
-                  const std::string& of_condition = "delay=\"0\" conditionEdge=\"none\"") {
+                         const std::string& of_condition = "delay=\"0\" conditionEdge=\"none\"") {
     return "<Event name=\"" + name + "\" priority=\"parallel\"><Action name=\"" + name + "Action\">" + actions +
            "</Action><StartTrigger><ConditionGroup><Condition name=\"c\" " + of_condition + ">" + condition +
            "</Condition></ConditionGroup></StartTrigger></Event>";

@@ -30,7 +30,8 @@ TEST(ScenarioExpressions, HaveTheirValues) {
 
 TEST(ScenarioExpressions, OthersAreNone) {
     const Parameters scope{{"word", "fast"}};
-    for (const char* text : {"", "1 +", "1 2", "$none", "$word", "2 * (1", "round()", "round(1, 2)", "pow(2)", "pow(2,)", "noSuch(1)", "1/0", "sqrt(-1)", "notx", "5 and", "1e400"})
+    for (const char* text : {"", "1 +", "1 2", "$none", "$word", "2 * (1", "round()", "round(1, 2)", "pow(2)",
+                             "pow(2,)", "noSuch(1)", "1/0", "sqrt(-1)", "notx", "5 and", "1e400"})
         EXPECT_FALSE(expression_value(text, scope)) << text;
     EXPECT_FALSE(expression_value(std::string(500, '(') + "1" + std::string(500, ')'), scope));
     EXPECT_FALSE(expression_value(std::string(5000, '-') + "1", scope));

@@ -57,8 +57,7 @@ protected:
             if (scene.nodes[i].lamp == kNone) continue;
             const Lamp& lamp = scene.lamps[scene.nodes[i].lamp];
             const glm::dmat3 frame(world[i]);
-            return lamp.intensity *
-                   intensity(scene.distributions[lamp.distribution], glm::inverse(frame) * direction);
+            return lamp.intensity * intensity(scene.distributions[lamp.distribution], glm::inverse(frame) * direction);
         }
         return -1;
     }
@@ -92,7 +91,8 @@ TEST_F(ConvertDistributionTest, MirroredNodesAreWarnedOf) {
     EXPECT_FALSE(mentions(convert_with({beam_rule()}).warnings, "mirrored by a scale"));
     for (json& node : street_.root["nodes"])
         if (node.value("name", "") == "car_1/headlamp") node["scale"] = {-1, 1, 1};
-    EXPECT_TRUE(mentions(convert_with({beam_rule()}).warnings, "lamp 'beam': node 'car_1/headlamp' is mirrored by a scale"));
+    EXPECT_TRUE(
+        mentions(convert_with({beam_rule()}).warnings, "lamp 'beam': node 'car_1/headlamp' is mirrored by a scale"));
     json undone = beam_rule();
     undone["mirror"] = true;
     EXPECT_FALSE(mentions(convert_with({undone}).warnings, "mirrored by a scale"));

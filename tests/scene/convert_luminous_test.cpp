@@ -25,9 +25,10 @@ protected:
                             {"texCoord", 0},
                             {"extensions", {{"KHR_texture_transform", {{"texCoord", 1}, {"scale", {2, 2}}}}}}};
         street_.root["extensionsUsed"] = {"KHR_texture_transform"};
-        street_.root["materials"] = {{{"name", "window"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}},
-                                     {{"name", "sign"}, {"emissiveTexture", moved}},
-                                     {{"name", "bare"}}};
+        street_.root["materials"] = {
+            {{"name", "window"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}},
+            {{"name", "sign"}, {"emissiveTexture", moved}},
+            {{"name", "bare"}}};
         const size_t position = street_.vec3({0, 0, 0, 20, 0, 0, 0, 20, 0}), uv = street_.vec2({0, 0, 1, 0, 0, 1}),
                      second = street_.vec2({0.5, 0.5, 0, 0.5, 0.5, 0});
         const json attributes = {{"POSITION", position}, {"TEXCOORD_0", uv}, {"TEXCOORD_1", second}};
@@ -44,7 +45,8 @@ protected:
     void write(const std::string& name, double white) const { write_exr(folder_ / name, picture(white)); }
 
     ConversionReport convert_with(json emitter, const std::string& output = "out.gltf") {
-        return ConversionTest::convert_with({{"emitters", emitter.is_array() ? emitter : json::array({emitter})}}, output);
+        return ConversionTest::convert_with({{"emitters", emitter.is_array() ? emitter : json::array({emitter})}},
+                                            output);
     }
     std::string complaint_with(const json& emitter) {
         return complaint_of([&] { convert_with(emitter); });
@@ -55,9 +57,11 @@ TEST_F(ConvertLuminous, APictureGoesIntoTheFile) {
     const std::vector<uint8_t> bytes = read_file(folder_ / "lit.exr", 1 << 20);
     for (const char* output : {"out.gltf", "out.glb"}) {
         SCOPED_TRACE(output);
-        const ConversionReport report = convert_with({{"name", "shop"}, {"materials", "window"}, {"image", "lit.exr"}}, output);
-        EXPECT_TRUE(mentions(report.changes,
-                             "emitter 'shop': 1 material, picture 'lit.exr' of 3 x 2 px, 1.668e+07 cd/m^2 in the mean, 1e+08 at most"));
+        const ConversionReport report =
+            convert_with({{"name", "shop"}, {"materials", "window"}, {"image", "lit.exr"}}, output);
+        EXPECT_TRUE(mentions(
+            report.changes,
+            "emitter 'shop': 1 material, picture 'lit.exr' of 3 x 2 px, 1.668e+07 cd/m^2 in the mean, 1e+08 at most"));
         EXPECT_FALSE(mentions(report.warnings, "picture"));
         const TempFolder elsewhere;  // nothing beside it
         std::filesystem::copy(folder_ / output, elsewhere / output);
@@ -72,8 +76,9 @@ TEST_F(ConvertLuminous, APictureGoesIntoTheFile) {
         for (int other : {1, 2}) EXPECT_EQ(scene.materials[size_t(other)].emission_picture.image, kNone);
         const std::string file = read_text(folder_ / output);
         const std::string found(bytes.begin(), bytes.end());
-        EXPECT_NE(file.find(std::string(output) == "out.glb" ? found : encode_data_uri("application/octet-stream", bytes)),
-                  std::string::npos)
+        EXPECT_NE(
+            file.find(std::string(output) == "out.glb" ? found : encode_data_uri("application/octet-stream", bytes)),
+            std::string::npos)
             << "the file, byte for byte";
     }
     // Other viewers see the mean.
@@ -102,13 +107,15 @@ TEST_F(ConvertLuminous, IsAbsoluteOrScaled) {
     EXPECT_TRUE(mentions(convert_with(rule).warnings, "picture 'relative.exr': does not say how much its value 1 is"));
     EXPECT_EQ(converted().materials[0].emission.g, 1);
     // Radiance: 2 x 1 px, 1.0 and 0.5 (mantissas count half a step more).
-    folder_.write("a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") + "\x80\x80\x80\x81" + "\x80\x80\x80\x80");
+    folder_.write("a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") + "\x80\x80\x80\x81" +
+                               "\x80\x80\x80\x80");
     EXPECT_EQ(factor({{"image", "a.hdr"}, {"scale", 20}}), 20);
     EXPECT_NEAR(converted().luminance_pictures[0].rgb[0], 1, 0.005);
 }
 
 TEST_F(ConvertLuminous, LiesAsTheTextureBefore) {
-    convert_with(json::array({{{"materials", "sign"}, {"image", "lit.exr"}}, {{"materials", "bare"}, {"image", "lit.exr"}}}));
+    convert_with(
+        json::array({{{"materials", "sign"}, {"image", "lit.exr"}}, {{"materials", "bare"}, {"image", "lit.exr"}}}));
     const Scene scene = converted();
     EXPECT_EQ(scene.luminance_pictures.size(), 1u) << "stored once";
     const auto uv = [&](size_t mesh, size_t vertex) { return scene.meshes[mesh].primitives[0].vertices[vertex].uv; };
@@ -152,16 +159,20 @@ TEST_F(ConvertLuminous, RefusesWithPlaceAndReason) {
     EXPECT_TRUE(contains(rule({{"image", "huge.hdr"}}), "20000 x 20000 px is larger than the limit"));
     folder_.write("large.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 9000 +X 9000\n");
     EXPECT_TRUE(contains(rule({{"image", "large.hdr"}}), "9000 x 9000 px has more pixels than the limit"));
-    EXPECT_TRUE(contains(rule({{"image", "lit.exr"}, {"scale", 1}, {"luminance_cd_m2", 5}}), "/luminance_cd_m2: is given beside scale"));
+    EXPECT_TRUE(contains(rule({{"image", "lit.exr"}, {"scale", 1}, {"luminance_cd_m2", 5}}),
+                         "/luminance_cd_m2: is given beside scale"));
     EXPECT_TRUE(contains(rule({{"image", "lit.exr"}, {"scale", 1e4}}), "more than 1e10 cd/m^2"));
     EXPECT_TRUE(contains(rule({{"image", "lit.exr"}, {"scale", -1}}), "/emitters/0/scale: must be from 0"));
     for (const char* key : {"modulate", "colour_rgb", "colour_temperature_K", "lamp"})
-        EXPECT_TRUE(contains(rule({{"image", "lit.exr"}, {key, true}}), std::string("/emitters/0/") + key + ": is given beside image"));
-    EXPECT_TRUE(contains(rule({{"scale", 2}, {"luminance_cd_m2", 5}}), "/emitters/0/scale: has a meaning only beside an image"));
+        EXPECT_TRUE(contains(rule({{"image", "lit.exr"}, {key, true}}),
+                             std::string("/emitters/0/") + key + ": is given beside image"));
+    EXPECT_TRUE(contains(rule({{"scale", 2}, {"luminance_cd_m2", 5}}),
+                         "/emitters/0/scale: has a meaning only beside an image"));
     HdrImage black = picture(1);
     std::fill(black.rgb.begin(), black.rgb.end(), 0.0f);
     write_exr(folder_ / "black.exr", black);
-    EXPECT_TRUE(contains(rule({{"image", "black.exr"}, {"luminance_cd_m2", 5}}), "cannot scale a picture that is black"));
+    EXPECT_TRUE(
+        contains(rule({{"image", "black.exr"}, {"luminance_cd_m2", 5}}), "cannot scale a picture that is black"));
     EXPECT_EQ(rule({{"image", "black.exr"}}), "");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.glb"));
 }
@@ -169,9 +180,10 @@ TEST_F(ConvertLuminous, RefusesWithPlaceAndReason) {
 TEST_F(ConvertLuminous, NeedsTextureCoordinates) {
     street_.root["meshes"][2]["primitives"][0]["attributes"].erase("TEXCOORD_0");
     const json rule = {{"materials", "bare"}, {"image", "lit.exr"}};
-    EXPECT_TRUE(contains(complaint_with(rule),
-                         "in.gltf: /meshes/2/primitives/0/attributes: has no TEXCOORD_0, by which the luminance picture "
-                         "'lit.exr' of material 'bare' would lie"));
+    EXPECT_TRUE(
+        contains(complaint_with(rule),
+                 "in.gltf: /meshes/2/primitives/0/attributes: has no TEXCOORD_0, by which the luminance picture "
+                 "'lit.exr' of material 'bare' would lie"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.gltf"));
     street_.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 4;
     EXPECT_TRUE(contains(complaint_with({{"materials", "window"}, {"image", "lit.exr"}}), "has no TEXCOORD_4"));
@@ -189,14 +201,16 @@ TEST_F(ConvertLuminous, TheReaderChecks) {
     EXPECT_TRUE(contains(complaint("luminance_pictures/0/bufferView", 99), "luminance_pictures/0/bufferView"));
     EXPECT_TRUE(contains(complaint("luminance_pictures/0/bufferView", 0), "is neither OpenEXR nor Radiance"));
     EXPECT_TRUE(contains(complaint("luminance_pictures/0/uri", "/etc/passwd"), "unknown key"));
-    EXPECT_TRUE(contains(complaint("luminance_pictures", json(std::vector<json>(1025, json::object()))), "more than 1024"));
+    EXPECT_TRUE(
+        contains(complaint("luminance_pictures", json(std::vector<json>(1025, json::object()))), "more than 1024"));
     EXPECT_TRUE(contains(complaint("luminous/0/material", 3), "luminous/0/material"));
     EXPECT_TRUE(contains(complaint("luminous/0/picture", 1), "luminous/0/picture"));
     EXPECT_TRUE(contains(complaint("luminous/0/scale", -1), "luminous/0/scale"));
     EXPECT_TRUE(contains(complaint("luminous/0/scale", 1e35), "not finite"));
     EXPECT_TRUE(contains(complaint("luminous/0/sampler", 7), "luminous/0/sampler"));
     EXPECT_TRUE(contains(complaint("luminous/0/texCoord", 1.5), "luminous/0/texCoord"));
-    EXPECT_TRUE(contains(complaint("luminous/1", good["extras"]["vesper"]["luminous"][0]), "a luminance picture already"));
+    EXPECT_TRUE(
+        contains(complaint("luminous/1", good["extras"]["vesper"]["luminous"][0]), "a luminance picture already"));
     SceneLimits small;
     small.texels = 20;  // 2 of a PNG, and 6 that count four times
     EXPECT_TRUE(contains(complaint("luminous/0/scale", 1, small), "more pixels than the limit"));

@@ -128,8 +128,10 @@ TEST_F(ConvertSky, Retroreflection) {
     EXPECT_TRUE(of(1).marking);
     EXPECT_NEAR(retroreflection(of(1), 1.05, 88), 0.15, 1e-9);
     EXPECT_NEAR(retroreflection(of(2), 0.1, 5), 90, 1e-9);
-    const json grey = {{"materials", "marking"}, {"reflectance_scale", 0.55}, {"retroreflection", {{"r_l_mcd", 150}, {"scale", 2}}}};
-    EXPECT_TRUE(mentions(convert_with({{"surfaces", json::array({grey})}}).warnings, "R_L is 165 mcd/(m^2 lx): what is stated, times the base colour of 0.55"));
+    const json grey = {
+        {"materials", "marking"}, {"reflectance_scale", 0.55}, {"retroreflection", {{"r_l_mcd", 150}, {"scale", 2}}}};
+    EXPECT_TRUE(mentions(convert_with({{"surfaces", json::array({grey})}}).warnings,
+                         "R_L is 165 mcd/(m^2 lx): what is stated, times the base colour of 0.55"));
 }
 
 TEST_F(ConvertSky, RefusesWithPlaceAndReason) {

@@ -24,18 +24,20 @@ protected:
         const size_t glass = street_.vec3({0, 0, 0, 0, 0, -0.3f, 0, 0.2f, -0.3f, 0, 0.2f, 0});
         const size_t body = street_.vec3({0, 0, 0, 20, 0, 0, 0, 20, 0});
         const size_t square = street_.indices({0, 1, 2, 0, 2, 3});
-        street_.root["meshes"] = {
-            {{"primitives", {{{"attributes", {{"POSITION", glass}}}, {"indices", square}, {"material", 0}},
-                             {{"attributes", {{"POSITION", body}}}, {"material", 1}}}}}};
+        street_.root["meshes"] = {{{"primitives",
+                                    {{{"attributes", {{"POSITION", glass}}}, {"indices", square}, {"material", 0}},
+                                     {{"attributes", {{"POSITION", body}}}, {"material", 1}}}}}};
         for (const int car : {0, 1}) {
             const int first = 3 * car;
-            street_.root["nodes"].push_back({{"name", "car"}, {"children", {first + 1, first + 2}}, {"translation", {9 * car, 0, 0}}});
+            street_.root["nodes"].push_back(
+                {{"name", "car"}, {"children", {first + 1, first + 2}}, {"translation", {9 * car, 0, 0}}});
             street_.root["nodes"].push_back({{"name", "shape"}, {"mesh", 0}});
             street_.root["nodes"].push_back({{"name", "headlamp"}, {"translation", {-0.1, 0.1, -0.15}}});
         }
     }
     static json lamp(double candela) {
-        return {{"name", "beam"}, {"nodes", "headlamp"}, {"type", "cosine_power"}, {"intensity_cd", candela}, {"exponent", 9}, {"aim", {1, 0, 0}}};
+        return {{"name", "beam"},          {"nodes", "headlamp"}, {"type", "cosine_power"},
+                {"intensity_cd", candela}, {"exponent", 9},       {"aim", {1, 0, 0}}};
     }
     static json opening() { return {{"width_m", 0.3}, {"height_m", 0.2}}; }
     ConversionReport convert_with(const json& lamp_rule, const json& emitter) {
@@ -73,7 +75,8 @@ TEST_F(ConvertSourcesTest, OpeningsOfMeasuredLampsAreStored) {
     beam.horizontal = {0}, beam.vertical = {0, 90}, beam.candela = {500, 0};
     beam.opening = {.length = 0.6, .width = 0.25, .height = 0, .round = false};
     folder_.write("beam.ies", write_ies(beam));
-    json rule = {{"name", "beam"}, {"nodes", "headlamp"}, {"type", "distribution"}, {"file", "beam.ies"}, {"opening", "file"}};
+    json rule = {
+        {"name", "beam"}, {"nodes", "headlamp"}, {"type", "distribution"}, {"file", "beam.ies"}, {"opening", "file"}};
     json second = rule;
     second["opening"] = opening(), second["name"] = "other";
     ConversionTest::convert_with({{"lamps", {rule, second}}});
@@ -105,7 +108,8 @@ TEST_F(ConvertSourcesTest, PicturesAreComparedByTheirMean) {
     EXPECT_EQ(given(convert_with(lamp(600), emitter)), 0u);
     EXPECT_FALSE(mentions(convert_with(lamp(600), emitter).warnings, "in the mean of its picture"));
     EXPECT_TRUE(mentions(convert_with(lamp(900), emitter).warnings,
-                         "emitter 'glass': 1e+04 cd/m^2 in the mean of its picture, 900 cd of lamp 'beam' over 0.06 m^2 is 1.5e+04 cd/m^2 (50 % more)"));
+                         "emitter 'glass': 1e+04 cd/m^2 in the mean of its picture, 900 cd of lamp 'beam' over 0.06 "
+                         "m^2 is 1.5e+04 cd/m^2 (50 % more)"));
     // Only the bright quarter of the picture lies on the glass.
     attributes["TEXCOORD_0"] = street_.vec2({0, 1, 0.25, 1, 0.25, 0, 0, 0});
     EXPECT_TRUE(mentions(convert_with(lamp(600), emitter).warnings, "emitter 'glass': 4e+04 cd/m^2 in the mean"));
@@ -119,7 +123,8 @@ TEST_F(ConvertSourcesTest, GlassOfALampDoesNotEmitBesides) {
     EXPECT_FALSE(mentions(named.warnings, "seen twice"));
     EXPECT_EQ(given(named), 0u);
     const ConversionReport twice = convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 10000}});
-    EXPECT_TRUE(mentions(twice.warnings, "emitter 'glass': lies where lamp 'beam' shows its opening and would be seen twice"));
+    EXPECT_TRUE(
+        mentions(twice.warnings, "emitter 'glass': lies where lamp 'beam' shows its opening and would be seen twice"));
     EXPECT_EQ(given(twice), 0u);
 }
 
@@ -129,14 +134,17 @@ TEST_F(ConvertSourcesTest, GlassWithoutItsLampIsDark) {
     rule["opening"] = opening();
     EXPECT_FALSE(mentions(convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}}).warnings, "dark"));
     street_.root["nodes"].push_back({{"name", "shop window"}, {"mesh", 0}, {"translation", {4, 0, 0}}});
-    EXPECT_TRUE(mentions(convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}}).warnings,
-                         "emitter 'glass': 1 of 3 surfaces has no lamp 'beam' within 1 m and is dark (node 'shop window')"));
+    EXPECT_TRUE(
+        mentions(convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}}).warnings,
+                 "emitter 'glass': 1 of 3 surfaces has no lamp 'beam' within 1 m and is dark (node 'shop window')"));
     // Two panes in one mesh, the other 20 m away.
     street_.root["nodes"].erase(street_.root["nodes"].size() - 1);
     json& primitive = street_.root["meshes"][0]["primitives"][0];
-    primitive["attributes"]["POSITION"] = street_.vec3({0, 0, 0, 0, 0, -0.3f, 0, 0.2f, -0.3f, 0, 0.2f, 0, 20, 0, 0, 20, 0, -0.3f, 20, 0.2f, -0.3f});
+    primitive["attributes"]["POSITION"] =
+        street_.vec3({0, 0, 0, 0, 0, -0.3f, 0, 0.2f, -0.3f, 0, 0.2f, 0, 20, 0, 0, 20, 0, -0.3f, 20, 0.2f, -0.3f});
     primitive["indices"] = street_.indices({0, 1, 2, 0, 2, 3, 4, 5, 6});
-    EXPECT_TRUE(mentions(convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}}).warnings, "emitter 'glass': 2 of 4 surfaces have no lamp 'beam'"));
+    EXPECT_TRUE(mentions(convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}}).warnings,
+                         "emitter 'glass': 2 of 4 surfaces have no lamp 'beam'"));
 }
 
 // 600 cd over 0.06 m^2 are 10000 cd/m^2, by the opening stated or by the mesh.
@@ -149,8 +157,9 @@ TEST_F(ConvertSourcesTest, DisagreementsAboveTenPercentAreReported) {
             const bool wrong = luminance > 11000 || luminance < 10000 / 1.1;
             EXPECT_EQ(given(report), wrong ? 1u : 0u) << luminance << (stated ? " stated" : " measured");
             if (luminance == 15000) {
-                EXPECT_TRUE(mentions(report.warnings, "emitter 'E': 1.5e+04 cd/m^2 given, 600 cd of lamp 'beam' over 0.06 m^2 is "
-                                                      "1e+04 cd/m^2 (33 % less)"));
+                EXPECT_TRUE(mentions(report.warnings,
+                                     "emitter 'E': 1.5e+04 cd/m^2 given, 600 cd of lamp 'beam' over 0.06 m^2 is "
+                                     "1e+04 cd/m^2 (33 % less)"));
                 EXPECT_EQ(mentions(report.warnings, "the most of 2 nodes"), !stated);
             }
         }
@@ -168,7 +177,8 @@ TEST_F(ConvertSourcesTest, OnlyGlassBesideALampIsMeasured) {
     EXPECT_EQ(given(convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}})), 0u);
     const double half = std::sqrt(0.5);
     rule["aim"] = {half, half, 0};
-    EXPECT_TRUE(mentions(convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}}).warnings, "over 0.04243 m^2"));
+    EXPECT_TRUE(
+        mentions(convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}}).warnings, "over 0.04243 m^2"));
 }
 
 TEST_F(ConvertSourcesTest, NamesThePlaceOfWhatIsWrong) {
@@ -176,11 +186,15 @@ TEST_F(ConvertSourcesTest, NamesThePlaceOfWhatIsWrong) {
         return complaint_of([&] { convert_with(rule, emitter); });
     };
     json rule = lamp(600);
-    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}}), "/emitters/0/lamp: the lamp rule 'beam' has no opening"));
+    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}}),
+                         "/emitters/0/lamp: the lamp rule 'beam' has no opening"));
     rule["opening"] = opening();
-    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "bream"}}), "/emitters/0/lamp: there is no lamp rule"));
-    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}, {"modulate", true}}), "/emitters/0/modulate"));
-    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}, {"colour_rgb", {1, 1, 1}}}), "/emitters/0/colour_rgb"));
+    EXPECT_TRUE(
+        contains(complaint(rule, {{"materials", "x"}, {"lamp", "bream"}}), "/emitters/0/lamp: there is no lamp rule"));
+    EXPECT_TRUE(
+        contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}, {"modulate", true}}), "/emitters/0/modulate"));
+    EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}, {"colour_rgb", {1, 1, 1}}}),
+                         "/emitters/0/colour_rgb"));
     const json fine = {{"materials", "x"}, {"luminance_cd_m2", 1}};
     for (const auto& [value, place] : std::initializer_list<std::pair<json, const char*>>{
              {"file", "/lamps/0/opening: \"file\" is for lamps of type distribution"},
@@ -206,22 +220,30 @@ TEST(Openings, AreReadWithCare) {
     EXPECT_EQ(complaint({{"light", 0}, {"width_m", 1}, {"height_m", 1}}), "");
     const std::string place = "/extras/vesper/openings/0";
     EXPECT_TRUE(contains(complaint({{"light", 2}, {"width_m", 1}, {"height_m", 1}}), place + "/light"));
-    EXPECT_TRUE(contains(complaint({{"light", 1}, {"width_m", 1}, {"height_m", 1}}), place + "/light: a directional light"));
+    EXPECT_TRUE(
+        contains(complaint({{"light", 1}, {"width_m", 1}, {"height_m", 1}}), place + "/light: a directional light"));
     EXPECT_TRUE(contains(complaint({{"profile", 0}, {"width_m", 1}, {"height_m", 1}}), place + "/profile"));
     EXPECT_TRUE(contains(complaint({{"light", 0}, {"width_m", -1}, {"height_m", 1}}), place + "/width_m"));
     EXPECT_TRUE(contains(complaint({{"light", 0}, {"width_m", 1}}), place));
     EXPECT_TRUE(contains(complaint({{"width_m", 1}, {"height_m", 1}}), place));
-    EXPECT_TRUE(contains(complaint({{"light", 0}, {"width_m", 1}, {"height_m", 1}, {"depth_m", 1}}), place + "/depth_m"));
+    EXPECT_TRUE(
+        contains(complaint({{"light", 0}, {"width_m", 1}, {"height_m", 1}, {"depth_m", 1}}), place + "/depth_m"));
 }
 
-/// What is given of every source of the project's own streets agrees, but for lantern glass, which is given as seen from aside.
+/// What is given of every source of the project's own streets agrees, but for lantern glass, which is given as seen
+/// from aside.
 TEST_F(ConvertSourcesTest, OwnStreetsAgree) {
     const std::filesystem::path rivoli = std::filesystem::path(VESPER_SOURCE_DIR) / "data/rivoli";
-    for (const auto& [street, photometry] : {std::pair("rivoli", "rivoli"), {"rivoli", "rivoli.measured"}, {"rivoli-drive", "rivoli-drive"}}) {
-        const ConversionReport report = convert(rivoli / (std::string(street) + ".gltf"), rivoli / (std::string(photometry) + ".photometry.json"), folder_ / "own.gltf");
+    for (const auto& [street, photometry] :
+         {std::pair("rivoli", "rivoli"), {"rivoli", "rivoli.measured"}, {"rivoli-drive", "rivoli-drive"}}) {
+        const ConversionReport report =
+            convert(rivoli / (std::string(street) + ".gltf"), rivoli / (std::string(photometry) + ".photometry.json"),
+                    folder_ / "own.gltf");
         EXPECT_FALSE(report.changes.empty());
         for (const std::string& warning : report.warnings)
-            EXPECT_TRUE(!warning.starts_with("emitter") || warning.starts_with("emitter 'lantern glass': 8000 cd/m^2 given")) << photometry << ": " << warning;
+            EXPECT_TRUE(!warning.starts_with("emitter") ||
+                        warning.starts_with("emitter 'lantern glass': 8000 cd/m^2 given"))
+                << photometry << ": " << warning;
     }
 }
 

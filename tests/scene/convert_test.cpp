@@ -63,9 +63,12 @@ protected:
     }
 };
 
-// Bytes that are there uncompressed are all that is written: what says where the compressed ones lie would point elsewhere.
+// Bytes that are there uncompressed are all that is written: what says where the compressed ones lie would point
+// elsewhere.
 TEST_F(ConvertTest, LeavesOutCompressionThatNobodyNeeds) {
-    for (json& view : street_.root["bufferViews"]) view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 1}, {"byteOffset", 0}, {"byteLength", 8}, {"byteStride", 12}, {"count", 1}, {"mode", "ATTRIBUTES"}};
+    for (json& view : street_.root["bufferViews"])
+        view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 1},      {"byteOffset", 0}, {"byteLength", 8},
+                                                         {"byteStride", 12}, {"count", 1},      {"mode", "ATTRIBUTES"}};
     street_.root["bufferViews"][0]["extensions"]["KEPT"] = 1;
     street_.root["extensionsUsed"].push_back("EXT_meshopt_compression");
     for (const char* output : {"out.gltf", "out.glb"}) {
@@ -263,7 +266,8 @@ TEST_F(ConvertTest, RefusesAndLeavesNothingBehind) {
     EXPECT_TRUE(contains(complaint_with(json::object(), "in.gltf"), "would replace an input"));
     EXPECT_TRUE(contains(complaint_with({{"lamp", 1}}), "p.json: /lamp"));
     json many = json::array();
-    for (int i = 0; i <= 21000; ++i) many.push_back({{"name", "l"}, {"nodes", "light"}, {"type", "point"}, {"intensity_cd", 5}});
+    for (int i = 0; i <= 21000; ++i)
+        many.push_back({{"name", "l"}, {"nodes", "light"}, {"type", "point"}, {"intensity_cd", 5}});
     EXPECT_TRUE(contains(complaint_with({{"lamps", many}}), "p.json: /lamps: "));
     EXPECT_TRUE(contains(complaint_with({{"lamps", many}}), " lamps, more than the limit of 21000"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.gltf"));

@@ -32,7 +32,12 @@ TEST(DisplayFile, ComesBackAsItWas) {
         displays.push_back(known.display);
         expect_same(find_display(known.name), known.display);
     }
-    displays.push_back({.peak = 90, .black = 0.3f, .ambient = 3.7f, .eotf = Eotf::Table, .bits = 10, .primaries = {{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}},
+    displays.push_back({.peak = 90,
+                        .black = 0.3f,
+                        .ambient = 3.7f,
+                        .eotf = Eotf::Table,
+                        .bits = 10,
+                        .primaries = {{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}},
                         .table = {{0, double(0.3f)}, {7 / 1023.0, 0.31}, {320 / 1023.0, 8}, {1, 90}}});
     for (const Display& display : displays) {
         const auto file = folder.write("d.json", display_json(display, "a name"));
@@ -56,7 +61,8 @@ TEST(DisplayFile, IsRefusedWhereItIsWrong) {
         {R"({"version":1,"eotf":"srgb","peak_cd_m2":"1","black_cd_m2":2})", "/peak_cd_m2"},
         {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"bits":9})", "/bits"},
         {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"primaries":"adobe"})", "/primaries"},
-        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"primaries":{"red":[1,0.3],"green":[1,0.3],"blue":[1,0.3],"white":[0.3,0.3]}})", "/primaries"},
+        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"primaries":{"red":[1,0.3],"green":[1,0.3],"blue":[1,0.3],"white":[0.3,0.3]}})",
+         "/primaries"},
         {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"colour":1})", "colour"},
         {R"({"version":1,"eotf":"pq","peak_cd_m2":20000,"black_cd_m2":0.1})", "PQ"},
         {R"({"version":1,"eotf":"table","peak_cd_m2":100,"table":[[0,0.1],[255,100]]})", "/peak_cd_m2"},
@@ -67,8 +73,10 @@ TEST(DisplayFile, IsRefusedWhereItIsWrong) {
         {R"({"version":1,"eotf":"table","table":[[0,0.1],[254,100]]})", "/table/1"},
         {R"({"version":1,"eotf":"table","table":[[0,0.1],[256,100]]})", "/table/1/0"},
         {R"({"version":1,"eotf":"table","table":[[0,0.1],[127.5,5],[255,100]]})", "/table/1/0"},
-        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"primaries":{"red":[0.64,0.33],"green":[0.3,0.6],"blue":[0.15,0.06],"white":[0.6,0.37]}})", "/primaries/white"},
-        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"primaries":{"red":[0.64,0.33],"green":[0.3,0.6],"blue":[0.15,0.06],"white":[0.1,0.05]}})", "/primaries/white"},
+        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"primaries":{"red":[0.64,0.33],"green":[0.3,0.6],"blue":[0.15,0.06],"white":[0.6,0.37]}})",
+         "/primaries/white"},
+        {R"({"version":1,"eotf":"srgb","peak_cd_m2":100,"black_cd_m2":0.1,"primaries":{"red":[0.64,0.33],"green":[0.3,0.6],"blue":[0.15,0.06],"white":[0.1,0.05]}})",
+         "/primaries/white"},
         {R"({"version":1,"eotf":)", "d.json"},
         {R"([1])", "d.json"}};
     for (const auto& [text, place] : cases) {

@@ -194,7 +194,9 @@ TEST(GltfMalformed, RefusesMoreThanTheLimits) {
     for (int i = 0; i < 3; ++i) empty.show({{"attributes", {{"POSITION", 0}}}});
     EXPECT_EQ(empty.complaint(small), "");
     empty.show({{"attributes", {{"POSITION", 0}}}});
-    EXPECT_TRUE(contains(empty.complaint(small), "/accessors/0: has no buffer view: its 30 elements take those that the file does not hold over the limit of 100"));
+    EXPECT_TRUE(contains(empty.complaint(small),
+                         "/accessors/0: has no buffer view: its 30 elements take those that the file does not hold "
+                         "over the limit of 100"));
     // A mesh that many nodes show.
     GltfFile shown = triangle();
     small = {};
@@ -229,14 +231,19 @@ TEST(GltfMalformed, NamesTheExtensionThatBuffersNeed) {
     file.root["buffers"][0].erase("uri");
     EXPECT_TRUE(contains(file.complaint(), "neither a uri nor a binary chunk"));
     file.root["buffers"][0]["extensions"]["EXT_meshopt_compression"]["fallback"] = true;
-    EXPECT_TRUE(contains(file.complaint(), "/buffers/0: has no bytes but those of EXT_meshopt_compression, which is not read"));
+    EXPECT_TRUE(
+        contains(file.complaint(), "/buffers/0: has no bytes but those of EXT_meshopt_compression, which is not read"));
 }
 
 TEST(GltfMalformed, SaysWhatIsNoUtf8) {
     const TempFolder folder;
-    const auto complaint = [&](const std::string& text) { return complaint_of([&] { read_gltf(folder.write("x.gltf", text)); }); };
-    EXPECT_TRUE(contains(complaint("{\"asset\":{\"version\":\"2.0\",\"copyright\":\"M\xfcller\"}}"), "x.gltf: byte 41: not valid JSON: is no UTF-8"));
-    for (const std::string& begins : {std::string("\xff\xfe{\0", 4), std::string("\xfe\xff\0{", 4), std::string("{\0}\0", 4), std::string("\0{\0}", 4)})
+    const auto complaint = [&](const std::string& text) {
+        return complaint_of([&] { read_gltf(folder.write("x.gltf", text)); });
+    };
+    EXPECT_TRUE(contains(complaint("{\"asset\":{\"version\":\"2.0\",\"copyright\":\"M\xfcller\"}}"),
+                         "x.gltf: byte 41: not valid JSON: is no UTF-8"));
+    for (const std::string& begins : {std::string("\xff\xfe{\0", 4), std::string("\xfe\xff\0{", 4),
+                                      std::string("{\0}\0", 4), std::string("\0{\0}", 4)})
         EXPECT_TRUE(contains(complaint(begins), "looks like UTF-16"));
     EXPECT_FALSE(contains(complaint("{\"asset\" \"M\xc3\xbcller\"}"), "UTF"));
 }

@@ -70,7 +70,8 @@ TEST(GltfMaterial, NotesWhatIsReadWithAChange) {
     const LoadedScene unlit = with_material({{"extensions", {{"KHR_materials_unlit", json::object()}}}}).read();
     EXPECT_EQ(unlit.scene.materials[0].metallic, 0);
     EXPECT_TRUE(mentions(unlit.notes, "unlit"));
-    json model = {{"diffuseFactor", {0.2, 0.3, 0.4, 1}}, {"specularFactor", {0.25, 0.5, 0}}, {"glossinessFactor", 0.25}};
+    json model = {
+        {"diffuseFactor", {0.2, 0.3, 0.4, 1}}, {"specularFactor", {0.25, 0.5, 0}}, {"glossinessFactor", 0.25}};
     const LoadedScene old = with_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}}).read();
     EXPECT_EQ(old.scene.materials[0].base_colour, glm::vec4(0.1f, 0.15f, 0.2f, 1));  // half of it is reflected before
     EXPECT_EQ(old.scene.materials[0].metallic, 0);
@@ -78,7 +79,11 @@ TEST(GltfMaterial, NotesWhatIsReadWithAChange) {
 
     // The texture counts as its mean: codes of 188 are 0.5029, of sRGB; glossiness is linear.
     model.erase("specularFactor");
-    EXPECT_EQ(glm::vec3(with_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}}).read().scene.materials[0].base_colour), glm::vec3(0));
+    EXPECT_EQ(glm::vec3(with_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}})
+                            .read()
+                            .scene.materials[0]
+                            .base_colour),
+              glm::vec3(0));
     model["specularGlossinessTexture"] = {{"index", 0}};
     GltfFile varied = with_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}});
     add_texture(varied, png_uri({188, 0, 0, 255, 0, 0, 0, 255}));
@@ -88,21 +93,24 @@ TEST(GltfMaterial, NotesWhatIsReadWithAChange) {
 }
 
 TEST(GltfMaterial, SaysWhatIsNotRead) {
-    GltfFile file = with_material({{"occlusionTexture", {{"index", 0}}}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    GltfFile file = with_material(
+        {{"occlusionTexture", {{"index", 0}}}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     const TempFolder folder;
     write_png_10bit(folder / "x.png", 1, 1, std::vector<uint32_t>{3u << 30 | 1000}, PngColour());
     const std::string text = read_text(folder / "x.png");
     add_texture(file, encode_data_uri("image/png", {reinterpret_cast<const uint8_t*>(text.data()), text.size()}));
     file.root["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 2}}}});
     const std::vector<std::string> notes = file.read().notes;
-    for (const char* said : {"an occlusion texture is not read", "a picture of 16 bits is read at 8", "without material is shown matt grey, of reflectance 0.5"})
+    for (const char* said : {"an occlusion texture is not read", "a picture of 16 bits is read at 8",
+                             "without material is shown matt grey, of reflectance 0.5"})
         EXPECT_TRUE(mentions(notes, said)) << said;
     const std::vector<std::string> others = with_material(json::object()).read().notes;
     for (const char* said : {"occlusion", "16 bits", "matt grey"}) EXPECT_FALSE(mentions(others, said)) << said;
 }
 
 TEST(GltfMaterial, TakesDefaultsForValuesItDoesNotKnow) {
-    GltfFile file = with_material({{"alphaMode", "DITHER"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    GltfFile file =
+        with_material({{"alphaMode", "DITHER"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     add_texture(file, png_uri({10, 20, 30, 255}), {{"wrapS", 10496}, {"wrapT", 33071}});
     const LoadedScene loaded = file.read();
     const Material& m = loaded.scene.materials.at(0);

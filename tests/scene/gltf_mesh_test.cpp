@@ -106,11 +106,18 @@ TEST(GltfMesh, ReadsVertexColoursOfAnyKind) {
 TEST(GltfMesh, KeepsDarkVertexColours) {
     GltfFile file;
     const nlohmann::json position = file.vec3(kTriangle);
-    file.show({{"attributes", {{"POSITION", position}, {"COLOR_0", file.vec3({0.001f, 0.003f, 0.0196f, 0, 0, 0, 0, 0, 0})}}}});
-    file.show({{"attributes", {{"POSITION", position}, {"COLOR_0", file.accessor(std::vector<uint16_t>{1000, 65, 1, 0, 0, 0, 0, 0, 0}, 5123, "VEC3", 3, true)}}}});
+    file.show({{"attributes",
+                {{"POSITION", position}, {"COLOR_0", file.vec3({0.001f, 0.003f, 0.0196f, 0, 0, 0, 0, 0, 0})}}}});
+    file.show(
+        {{"attributes",
+          {{"POSITION", position},
+           {"COLOR_0", file.accessor(std::vector<uint16_t>{1000, 65, 1, 0, 0, 0, 0, 0, 0}, 5123, "VEC3", 3, true)}}}});
     const Scene scene = file.read().scene;
-    const auto colour = [&](size_t mesh, size_t c) { return scene.meshes[mesh].primitives[0].vertices[0].colour[c] / 65535.0; };
-    for (const auto& [c, value] : {std::pair(0u, 0.001), {1u, 0.003}, {2u, 0.0196}}) EXPECT_NEAR(colour(0, c) / value, 1, 0.01);
+    const auto colour = [&](size_t mesh, size_t c) {
+        return scene.meshes[mesh].primitives[0].vertices[0].colour[c] / 65535.0;
+    };
+    for (const auto& [c, value] : {std::pair(0u, 0.001), {1u, 0.003}, {2u, 0.0196}})
+        EXPECT_NEAR(colour(0, c) / value, 1, 0.01);
     EXPECT_EQ(scene.meshes[1].primitives[0].vertices[0].colour, (std::array<uint16_t, 4>{1000, 65, 1, 65535}));
 }
 

@@ -52,8 +52,10 @@ TEST(GltfNode, KeepsNegativeScaleAndMatrices) {
 // A database at UTM coordinates that a node above brings back: floats would be 0.2 m off.
 TEST(GltfNode, FarFromTheOriginAndBackIsExact) {
     GltfFile file;
-    file.root["nodes"] = {{{"translation", {-5'000'000, 0, 412'000.25}}, {"children", {1}}}, {{"translation", {5'000'000.3, 1, -412'000}}},
-                          {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5'000'000.1, 0, 0, 1}}, {"children", {3}}}, {{"translation", {5'000'000, 0, 0}}}};
+    file.root["nodes"] = {{{"translation", {-5'000'000, 0, 412'000.25}}, {"children", {1}}},
+                          {{"translation", {5'000'000.3, 1, -412'000}}},
+                          {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5'000'000.1, 0, 0, 1}}, {"children", {3}}},
+                          {{"translation", {5'000'000, 0, 0}}}};
     const auto world = world_transforms(file.read().scene, 0);
     EXPECT_NEAR(world[1][3].x, 0.3, 1e-6);
     EXPECT_NEAR(world[1][3].z, 0.25, 1e-6);
@@ -83,7 +85,9 @@ TEST(GltfNode, NamesCameras) {
 // What is new to this version is left out; the others stay.
 TEST(GltfNode, LeavesOutCamerasThatItCannotHave) {
     GltfFile file;
-    const auto lens = [](double fov) { return json{{"type", "perspective"}, {"perspective", {{"yfov", fov}, {"znear", 0.05}}}}; };
+    const auto lens = [](double fov) {
+        return json{{"type", "perspective"}, {"perspective", {{"yfov", fov}, {"znear", 0.05}}}};
+    };
     file.root["cameras"] = {{{"type", "fisheye"}}, lens(3.2), lens(3.1)};
     for (int i = 0; i < 3; ++i) file.root["nodes"].push_back({{"camera", i}});
     const LoadedScene loaded = file.read();
@@ -102,8 +106,8 @@ json lamp(int index) { return {{"extensions", {{"KHR_lights_punctual", {{"light"
 TEST(GltfLight, KeepsTheProductOfIntensityAndColour) {
     GltfFile file;
     file.root["extensions"] = lamps({{{"type", "point"}, {"intensity", 100}, {"color", {1, 0.5, 0.25}}, {"range", 3}},
-                                      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}},
-                                      {{"type", "directional"}, {"intensity", 5}}});
+                                     {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}},
+                                     {{"type", "directional"}, {"intensity", 5}}});
     file.root["nodes"] = {lamp(0), lamp(1), lamp(2)};
     const LoadedScene loaded = file.read();
     const auto& read = loaded.scene.lamps;
@@ -186,7 +190,8 @@ Scene animated(const std::string& path, const std::string& mode, const std::vect
 TEST(GltfAnimation, InterpolatesStepAndLinear) {
     const std::vector<float> times = {1, 3}, values = {0, 0, 0, 8, 0, 0};
     const Scene linear = animated("translation", "LINEAR", times, values, 3),
-                step = animated("translation", "STEP", times, values, 3), unknown = animated("translation", "WAVY", times, values, 3);
+                step = animated("translation", "STEP", times, values, 3),
+                unknown = animated("translation", "WAVY", times, values, 3);
     const auto x = [](const Scene& scene, double seconds) { return float(world_transforms(scene, seconds)[0][3].x); };
     EXPECT_EQ(animation_length(linear), 3);
     for (const auto& [seconds, expected] :

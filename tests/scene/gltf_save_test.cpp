@@ -38,17 +38,17 @@ Scene example() {
     }
     scene.meshes.push_back(mesh);
     Lamp measured{.name = "street lamp",
-                   .kind = Lamp::Kind::Measured,
-                   .intensity = 0.8f,
-                   .colour = glm::vec3(1),
-                   .distribution = 0};
+                  .kind = Lamp::Kind::Measured,
+                  .intensity = 0.8f,
+                  .colour = glm::vec3(1),
+                  .distribution = 0};
     measured.opening.length = 0.6, measured.opening.width = 0.3;
     Lamp lobe{.name = "lobe",
-               .kind = Lamp::Kind::CosinePower,
-               .intensity = 300,
-               .inner_cone = 0,
-               .outer_cone = 1.2f,
-               .exponent = 8};
+              .kind = Lamp::Kind::CosinePower,
+              .intensity = 300,
+              .inner_cone = 0,
+              .outer_cone = 1.2f,
+              .exponent = 8};
     Lamp spot{.name = "spot", .kind = Lamp::Kind::Spot, .intensity = 200, .inner_cone = 0.1f, .outer_cone = 0.6f};
     spot.colour = glm::vec3(glm::dvec3(2, 0.7, 0.5) / luminance(glm::dvec3(2, 0.7, 0.5)));
     spot.opening.length = spot.opening.width = 0.2, spot.opening.round = true;

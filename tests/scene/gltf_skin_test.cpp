@@ -26,7 +26,8 @@ struct Rig {
         for (const glm::dmat4& m : inverse)
             for (int i = 0; i < 16; ++i) values.push_back(static_cast<float>(m[i / 4][i % 4]));
         file.root["skins"].push_back({{"joints", of}});
-        if (!inverse.empty()) file.root["skins"].back()["inverseBindMatrices"] = file.accessor(values, 5126, "MAT4", 16);
+        if (!inverse.empty())
+            file.root["skins"].back()["inverseBindMatrices"] = file.accessor(values, 5126, "MAT4", 16);
     }
     size_t mesh() {
         const json attributes = {{"POSITION", file.vec3(points)},
@@ -53,56 +54,68 @@ struct Seen {
 Seen seen(const Scene& scene, const std::string& name, size_t vertex, const std::vector<glm::dmat4>& world) {
     const size_t node = drawn(scene, name);
     const Vertex& v = scene.meshes.at(scene.nodes.at(node).mesh).primitives.at(0).vertices.at(vertex);
-    return {glm::vec3(world[node] * glm::dvec4(v.position, 1)), glm::normalize(glm::transpose(glm::inverse(glm::mat3(glm::mat4(world[node])))) * v.normal)};
+    return {glm::vec3(world[node] * glm::dvec4(v.position, 1)),
+            glm::normalize(glm::transpose(glm::inverse(glm::mat3(glm::mat4(world[node])))) * v.normal)};
 }
-Seen seen(const Scene& scene, const std::string& name, size_t vertex) { return seen(scene, name, vertex, world_transforms(scene, 0)); }
+Seen seen(const Scene& scene, const std::string& name, size_t vertex) {
+    return seen(scene, name, vertex, world_transforms(scene, 0));
+}
 
 void expect_near(glm::vec3 got, glm::vec3 want, double near = 1e-5) {
-    EXPECT_LT(glm::length(got - want), near) << got.x << " " << got.y << " " << got.z << ", not " << want.x << " " << want.y << " " << want.z;
+    EXPECT_LT(glm::length(got - want), near)
+        << got.x << " " << got.y << " " << got.z << ", not " << want.x << " " << want.y << " " << want.z;
 }
 
 // 3.7.3.3: only the transforms of joints apply, that of the node with the mesh does not.
 TEST(GltfSkin, JointsPutAMeshInPlaceAndItsNodeDoesNot) {
     Rig rig;
     rig.bind({}, {0});  // no matrices: identities
-    rig.file.root["nodes"] = {{{"name", "joint"}, {"translation", {0.5, 0, 0}}}, {{"name", "body"}, {"mesh", rig.mesh()}, {"skin", 0}, {"translation", {-5, 1, 2}}}};
+    rig.file.root["nodes"] = {{{"name", "joint"}, {"translation", {0.5, 0, 0}}},
+                              {{"name", "body"}, {"mesh", rig.mesh()}, {"skin", 0}, {"translation", {-5, 1, 2}}}};
     const LoadedScene loaded = rig.file.read();
     expect_near(seen(loaded.scene, "body", 0).position, {0.5f, 0, 0});
     expect_near(seen(loaded.scene, "body", 1).position, {1.5f, 0, 0});
     EXPECT_TRUE(mentions(loaded.notes, "with a skin is shown at rest"));
 }
 
-/// Centimetres, Z up, under nodes that make metres of them and Y up; modelled in metres, bound before the figure was put at (3, 0, 4).
+/// Centimetres, Z up, under nodes that make metres of them and Y up; modelled in metres, bound before the figure was
+/// put at (3, 0, 4).
 Rig figure() {
     Rig rig;
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1), -std::acos(-1.0) / 2, glm::dvec3(1, 0, 0));
-    const glm::dmat4 bound = glm::scale(turned, glm::dvec3(0.01)) * glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 100));
+    const glm::dmat4 bound =
+        glm::scale(turned, glm::dvec3(0.01)) * glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 100));
     rig.bind({glm::inverse(bound)}, {2});
-    rig.file.root["nodes"] = {{{"name", "figure"}, {"translation", {3, 0, 4}}, {"children", {1}}},
-                              {{"name", "armature"}, {"rotation", kUp}, {"scale", {0.01, 0.01, 0.01}}, {"children", {2, 3}}},
-                              {{"name", "hips"}, {"translation", {0, 0, 100}}},
-                              {{"name", "body"}, {"mesh", rig.mesh()}, {"skin", 0}, {"scale", {7, 7, 7}}}};
+    rig.file.root["nodes"] = {
+        {{"name", "figure"}, {"translation", {3, 0, 4}}, {"children", {1}}},
+        {{"name", "armature"}, {"rotation", kUp}, {"scale", {0.01, 0.01, 0.01}}, {"children", {2, 3}}},
+        {{"name", "hips"}, {"translation", {0, 0, 100}}},
+        {{"name", "body"}, {"mesh", rig.mesh()}, {"skin", 0}, {"scale", {7, 7, 7}}}};
     return rig;
 }
 
 TEST(GltfSkin, FiguresInCentimetresWithZUpStandUpright) {
     const Scene scene = figure().file.read().scene;
     for (size_t i = 0; i < 3; ++i) {
-        expect_near(seen(scene, "body", i).position, glm::vec3(kTriangle[3 * i] + 3, kTriangle[3 * i + 1], kTriangle[3 * i + 2] + 4));
+        expect_near(seen(scene, "body", i).position,
+                    glm::vec3(kTriangle[3 * i] + 3, kTriangle[3 * i + 1], kTriangle[3 * i + 2] + 4));
         expect_near(seen(scene, "body", i).normal, {0, 0, 1});
     }
     const Primitive& primitive = scene.meshes.at(scene.nodes[drawn(scene, "body")].mesh).primitives.at(0);
-    for (const Vertex& v : primitive.vertices) EXPECT_TRUE(glm::all(glm::lessThanEqual(v.position, primitive.bounds.high)));
+    for (const Vertex& v : primitive.vertices)
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(v.position, primitive.bounds.high)));
 }
 
-// What programs move by name, or keys: a node above the joints takes the mesh along; so does the mesh's own name. Joints and the mesh's node of the
-// file have no say.
+// What programs move by name, or keys: a node above the joints takes the mesh along; so does the mesh's own name.
+// Joints and the mesh's node of the file have no say.
 TEST(GltfSkin, MeshesGoWithWhatTheirJointsStandOn) {
     GltfFile file = figure().file;
     const auto times = file.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
     const auto moves = file.vec3({0, 0, 0, 50, 0, 0});
     const auto keyed = [&](size_t node) {
-        file.root["animations"] = {{{"samplers", {{{"input", times}, {"output", moves}}}}, {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}}};
+        file.root["animations"] = {
+            {{"samplers", {{{"input", times}, {"output", moves}}}},
+             {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}}};
         const Scene scene = file.read().scene;
         return seen(scene, "body", 0, world_transforms(scene, 1)).position;
     };
@@ -111,27 +124,33 @@ TEST(GltfSkin, MeshesGoWithWhatTheirJointsStandOn) {
     expect_near(keyed(3), {3, 0, 4}, 1e-4);
     const Scene scene = file.read().scene;
     EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.name == "body"; }), 1);
-    const auto moved = placed_transforms(scene, 0, {{static_cast<uint32_t>(drawn(scene, "body")), glm::translate(glm::mat4(1), glm::vec3(9, 0, 0))}});
+    const auto moved = placed_transforms(
+        scene, 0, {{static_cast<uint32_t>(drawn(scene, "body")), glm::translate(glm::mat4(1), glm::vec3(9, 0, 0))}});
     EXPECT_FLOAT_EQ(seen(scene, "body", 0, moved).position.x, 9);
 }
 
 TEST(GltfSkin, BlendsJointsByTheirWeights) {
     Rig rig;
     rig.bind({glm::dmat4(1), glm::dmat4(1), glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -1))}, {0, 1, 2});
-    rig.joints = {0, 1, 0, 0, 2, 9, 0, 0, 1, 0, 0, 0};             // a joint that is none, of weight 0
-    rig.weights = {0.5f, 0.25f, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};     // not of sum 1; nothing at all
+    rig.joints = {0, 1, 0, 0, 2, 9, 0, 0, 1, 0, 0, 0};          // a joint that is none, of weight 0
+    rig.weights = {0.5f, 0.25f, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};  // not of sum 1; nothing at all
     rig.normals = {0, 0, 1, 0, 1, 1, 0, 0, 1};
     const size_t mesh = rig.mesh();
-    rig.file.root["nodes"] = {{{"translation", {6, 0, 0}}}, {{"translation", {0, 3, 0}}}, {{"scale", {1, 1, 2}}}, {{"name", "body"}, {"mesh", mesh}, {"skin", 0}}};
+    rig.file.root["nodes"] = {{{"translation", {6, 0, 0}}},
+                              {{"translation", {0, 3, 0}}},
+                              {{"scale", {1, 1, 2}}},
+                              {{"name", "body"}, {"mesh", mesh}, {"skin", 0}}};
     const Scene scene = rig.file.read().scene;
     expect_near(seen(scene, "body", 0).position, {4, 1, 0});   // 2/3 of one, 1/3 of the other
     expect_near(seen(scene, "body", 1).position, {1, 0, -2});  // moved by -1, then drawn out
     expect_near(seen(scene, "body", 1).normal, glm::normalize(glm::vec3(0, 1, 0.5f)));
-    expect_near(seen(scene, "body", 2).position, {0, 4, 0});   // with its first joint
+    expect_near(seen(scene, "body", 2).position, {0, 4, 0});  // with its first joint
 
     json& attributes = rig.file.root["meshes"][mesh]["primitives"][0]["attributes"];
-    attributes["JOINTS_1"] = rig.file.accessor(std::vector<uint16_t>{1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0}, 5123, "VEC4", 4);
-    attributes["WEIGHTS_1"] = rig.file.accessor(std::vector<uint8_t>{255, 0, 0, 0, 0, 0, 0, 0, 51, 0, 0, 0}, 5121, "VEC4", 4, true);
+    attributes["JOINTS_1"] =
+        rig.file.accessor(std::vector<uint16_t>{1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0}, 5123, "VEC4", 4);
+    attributes["WEIGHTS_1"] =
+        rig.file.accessor(std::vector<uint8_t>{255, 0, 0, 0, 0, 0, 0, 0, 51, 0, 0, 0}, 5121, "VEC4", 4, true);
     const Scene more = rig.file.read().scene;
     expect_near(seen(more, "body", 0).position, {6 * 0.5f / 1.75f, 3 * 1.25f / 1.75f, 0});
     expect_near(seen(more, "body", 2).position, {6, 1, 0});
@@ -154,11 +173,16 @@ TEST(GltfSkin, AMeshOfSeveralSkinsIsReadForEach) {
     const size_t mesh = rig.mesh();
     rig.bind({}, {0});
     rig.bind({}, {1});
-    rig.file.root["nodes"] = {{{"translation", {1, 0, 0}}}, {{"translation", {2, 0, 0}}}, {{"name", "a"}, {"mesh", mesh}, {"skin", 0}},
-                              {{"name", "b"}, {"mesh", mesh}, {"skin", 1}}, {{"name", "c"}, {"mesh", mesh}}, {{"name", "d"}, {"mesh", mesh}, {"skin", 1}}};
+    rig.file.root["nodes"] = {{{"translation", {1, 0, 0}}},
+                              {{"translation", {2, 0, 0}}},
+                              {{"name", "a"}, {"mesh", mesh}, {"skin", 0}},
+                              {{"name", "b"}, {"mesh", mesh}, {"skin", 1}},
+                              {{"name", "c"}, {"mesh", mesh}},
+                              {{"name", "d"}, {"mesh", mesh}, {"skin", 1}}};
     const Scene scene = rig.file.read().scene;
     EXPECT_EQ(scene.meshes.size(), 3u);
-    for (const auto& [name, x] : {std::pair("a", 1.0f), {"b", 2.0f}, {"c", 0.0f}, {"d", 2.0f}}) EXPECT_EQ(seen(scene, name, 0).position.x, x) << name;
+    for (const auto& [name, x] : {std::pair("a", 1.0f), {"b", 2.0f}, {"c", 0.0f}, {"d", 2.0f}})
+        EXPECT_EQ(seen(scene, name, 0).position.x, x) << name;
     SceneLimits few;
     few.vertices = 8;  // three triangles have nine
     EXPECT_TRUE(contains(rig.file.complaint(few), "over the limit"));
@@ -169,7 +193,9 @@ TEST(GltfSkin, WhatIsNotThereDoesNoHarm) {
     Rig rig;
     const size_t mesh = rig.mesh();
     rig.bind({}, {1});
-    rig.file.root["nodes"] = {{{"translation", {1, 0, 0}}, {"children", {1}}}, {{"translation", {0, 2, 0}}}, {{"name", "a"}, {"mesh", mesh}, {"skin", 0}, {"translation", {5, 5, 5}}}};
+    rig.file.root["nodes"] = {{{"translation", {1, 0, 0}}, {"children", {1}}},
+                              {{"translation", {0, 2, 0}}},
+                              {{"name", "a"}, {"mesh", mesh}, {"skin", 0}, {"translation", {5, 5, 5}}}};
     rig.file.root["scenes"] = {{{"nodes", {2}}}};
     expect_near(seen(rig.file.read().scene, "a", 0).position, {1, 2, 0});
     rig.file.root["meshes"][mesh]["primitives"][0]["attributes"].erase("JOINTS_0");
@@ -188,13 +214,21 @@ TEST(GltfSkin, WhatCannotBePutInPlaceIsRefused) {
         return rig.file.complaint();
     };
     EXPECT_EQ(complaint([](Rig&) {}), "");
-    EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.joints[4] = 1; }), "/meshes/0/primitives/0/attributes: vertex 1 hangs on a joint that is none of the skin's 1"));
-    EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.file.root["skins"][0]["joints"] = {0, 1}; }), "/skins/0/inverseBindMatrices: has 1 matrices for 2 joints"));
+    EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.joints[4] = 1; }),
+                         "/meshes/0/primitives/0/attributes: vertex 1 hangs on a joint that is none of the skin's 1"));
+    EXPECT_TRUE(contains(complaint([](Rig& rig) {
+                             rig.file.root["skins"][0]["joints"] = {0, 1};
+                         }),
+                         "/skins/0/inverseBindMatrices: has 1 matrices for 2 joints"));
     EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.file.root["skins"][0]["joints"] = {7}; }), "/skins/0/joints/0"));
-    EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.file.root["skins"][0]["joints"] = json::array(); }), "/skins/0: has no joints"));
+    EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.file.root["skins"][0]["joints"] = json::array(); }),
+                         "/skins/0: has no joints"));
     EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.file.root["nodes"][1]["skin"] = 3; }), "/nodes/1/skin"));
-    EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.weights[0] = std::numeric_limits<float>::infinity(); }), "no finite place"));
-    EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.bind({glm::dmat4(std::nan(""))}, {0}), rig.file.root["skins"].erase(0); }), "matrix 0 is not finite"));
+    EXPECT_TRUE(contains(complaint([](Rig& rig) { rig.weights[0] = std::numeric_limits<float>::infinity(); }),
+                         "no finite place"));
+    EXPECT_TRUE(contains(
+        complaint([](Rig& rig) { rig.bind({glm::dmat4(std::nan(""))}, {0}), rig.file.root["skins"].erase(0); }),
+        "matrix 0 is not finite"));
 }
 
 TEST(GltfSkin, JointsOfAnyDepthTakeATimeThatIsBounded) {
@@ -203,7 +237,8 @@ TEST(GltfSkin, JointsOfAnyDepthTakeATimeThatIsBounded) {
     for (int i = 0; i < depth; ++i) rig.file.root["nodes"].push_back({{"children", {i + 1}}});
     rig.file.root["nodes"].push_back(json::object());
     const size_t mesh = rig.mesh();
-    for (int i = 0; i < skins; ++i) rig.bind({}, {0, depth}), rig.file.root["nodes"].push_back({{"mesh", mesh}, {"skin", i}});
+    for (int i = 0; i < skins; ++i)
+        rig.bind({}, {0, depth}), rig.file.root["nodes"].push_back({{"mesh", mesh}, {"skin", i}});
     SceneLimits limits;
     limits.nodes = 2 * depth;
     EXPECT_TRUE(contains(rig.file.complaint(limits), "together stand too deep"));
@@ -213,10 +248,14 @@ TEST(GltfSkin, JointsOfAnyDepthTakeATimeThatIsBounded) {
 // 3.7.2.2: weights of the node, or else of the mesh.
 TEST(GltfMorph, TargetsCountByTheirWeights) {
     GltfFile file;
-    const json targets = {{{"POSITION", file.vec3({1, 0, 0, 1, 0, 0, 1, 0, 0})}, {"NORMAL", file.vec3({1, 0, 0, 1, 0, 0, 1, 0, 0})}}, {{"POSITION", file.vec3({0, 2, 0, 0, 2, 0, 0, 2, 0})}}};
+    const json targets = {
+        {{"POSITION", file.vec3({1, 0, 0, 1, 0, 0, 1, 0, 0})}, {"NORMAL", file.vec3({1, 0, 0, 1, 0, 0, 1, 0, 0})}},
+        {{"POSITION", file.vec3({0, 2, 0, 0, 2, 0, 0, 2, 0})}}};
     const json attributes = {{"POSITION", file.vec3(kTriangle)}, {"NORMAL", file.vec3({0, 0, 1, 0, 0, 1, 0, 0, 1})}};
     file.root["meshes"] = {{{"primitives", {{{"attributes", attributes}, {"targets", targets}}}}, {"weights", {1, 0}}}};
-    file.root["nodes"] = {{{"name", "a"}, {"mesh", 0}}, {{"name", "b"}, {"mesh", 0}, {"weights", {0.5, -0.5}}}, {{"name", "c"}, {"mesh", 0}, {"weights", {0, 0}}}};
+    file.root["nodes"] = {{{"name", "a"}, {"mesh", 0}},
+                          {{"name", "b"}, {"mesh", 0}, {"weights", {0.5, -0.5}}},
+                          {{"name", "c"}, {"mesh", 0}, {"weights", {0, 0}}}};
     const Scene scene = file.read().scene;
     expect_near(seen(scene, "a", 0).position, {1, 0, 0});
     expect_near(seen(scene, "a", 0).normal, glm::normalize(glm::vec3(1, 0, 1)));
@@ -232,7 +271,9 @@ TEST(GltfMorph, TargetsCountByTheirWeights) {
 TEST(GltfMorph, FlatNormalsAreThoseOfWhatIsShown) {
     GltfFile file;
     const json targets = {{{"POSITION", file.vec3({0, 0, 0, 0, 0, 0, 0, -1, 1})}}};  // the upper corner comes forward
-    file.root["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", file.vec3(kTriangle)}}}, {"targets", targets}}}}, {"weights", {1}}}};
+    file.root["meshes"] = {
+        {{"primitives", {{{"attributes", {{"POSITION", file.vec3(kTriangle)}}}, {"targets", targets}}}},
+         {"weights", {1}}}};
     file.root["nodes"] = {{{"name", "a"}, {"mesh", 0}}};
     expect_near(seen(file.read().scene, "a", 0).normal, {0, -1, 0});
 }

@@ -23,7 +23,8 @@ TEST(JsonText, KeysAreThereOnce) {
     EXPECT_EQ(complaint(R"({"a": {"b": 1, "c": [{"b": 1}, {"b": 2}]}, "b": {"a": 1}})"), "");
     EXPECT_EQ(complaint(R"({"a": 1, "a": 2})"), "x.json: /a: is there twice");
     EXPECT_EQ(complaint(R"({"a": 1, "\u0061": 2})"), "x.json: /a: is there twice");
-    EXPECT_EQ(complaint(R"({"x": [[], 7, "y", {"c": {}, "d/e": [1, 2, {"k": null, "l": 0, "k": 1}]}]})"), "x.json: /x/3/d~1e/2/k: is there twice");
+    EXPECT_EQ(complaint(R"({"x": [[], 7, "y", {"c": {}, "d/e": [1, 2, {"k": null, "l": 0, "k": 1}]}]})"),
+              "x.json: /x/3/d~1e/2/k: is there twice");
     EXPECT_EQ(complaint(R"([{"a": {"z": 1}, "b": 1, "a": {"z": 2}}])"), "x.json: /0/a: is there twice");
 }
 

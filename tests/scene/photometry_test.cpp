@@ -87,14 +87,19 @@ TEST(Photometry, NamesThePlaceOfWhatIsWrong) {
          {{{"materials", "x"}, {"luminance_cd_m2", 1}, {"colour_rgb", {0, 0, 0}}}},
          "/emitters/0/colour_rgb"},
         {"/surfaces", {{{"materials", ""}}}, "/surfaces/0/materials"},
-        {"/surfaces", {{{"materials", "x"}, {"reflection_table", "R3"}, {"reflectance_scale", 0.5}}}, "/surfaces/0/reflectance_scale: has no meaning beside reflection_table"},
+        {"/surfaces",
+         {{{"materials", "x"}, {"reflection_table", "R3"}, {"reflectance_scale", 0.5}}},
+         "/surfaces/0/reflectance_scale: has no meaning beside reflection_table"},
         {"/surfaces", {{{"materials", "x"}, {"reflection_table", "R3"}, {"roughness", 0.5}}}, "/surfaces/0/roughness"},
         {"/surfaces", {{{"materials", "x"}, {"reflection_table", "R3"}, {"metallic", 0}}}, "/surfaces/0/metallic"},
-        {"/surfaces", {{{"materials", "x"}, {"retroreflection", {{"class", "RA1"}}}, {"metallic", 1}}}, "/surfaces/0/metallic"},
+        {"/surfaces",
+         {{{"materials", "x"}, {"retroreflection", {{"class", "RA1"}}}, {"metallic", 1}}},
+         "/surfaces/0/metallic"},
         {"/sky/luminance_cd_m2", nullptr, "/sky/luminance_cd_m2"},
     };
-    expect_places({{"version", 1}, {"lamps", {street_lamp()}}, {"sky", {{"luminance_cd_m2", 1}}}}, faults,
-                  [](const json& file) { return complaint_of([&] { read(file); }); }, "p.json: ");
+    expect_places(
+        {{"version", 1}, {"lamps", {street_lamp()}}, {"sky", {{"luminance_cd_m2", 1}}}}, faults,
+        [](const json& file) { return complaint_of([&] { read(file); }); }, "p.json: ");
     const TempFolder folder;
     EXPECT_THROW(read_photometry(folder.write("p.json", "{\"version\": 1")), Error);
     EXPECT_THROW(read_photometry(folder / "missing.json"), Error);

@@ -62,12 +62,12 @@ TEST(RoadFile, ReadsEverything) {
 
 TEST(RoadFile, OverridesTakeThePlaceOfTheFile) {
     const RoadFile file = read_layout(layout(), {.reflection_table = "C1",
-                                          .q0 = 0.11,
-                                          .spacing = 20,
-                                          .height = 7,
-                                          .overhang = 1,
-                                          .tilt = 0,
-                                          .maintenance_factor = 0.9});
+                                                 .q0 = 0.11,
+                                                 .spacing = 20,
+                                                 .height = 7,
+                                                 .overhang = 1,
+                                                 .tilt = 0,
+                                                 .maintenance_factor = 0.9});
     EXPECT_EQ(file.layout.surface, rescaled(find_reflection_table("C1"), 0.11));
     EXPECT_EQ(file.layout.spacing, 20);
     EXPECT_EQ(file.layout.height, 7);
@@ -118,7 +118,8 @@ TEST(RoadFile, NamesThePlaceOfWhatIsWrong) {
         {"/luminaires/height", 8, "/luminaires/height: unknown key"},
         {"/observer_age", 200, "/observer_age"},
     };
-    expect_places(layout(), faults, [](const json& file) { return complaint_of([&] { read_layout(file); }); }, "road.json: ");
+    expect_places(
+        layout(), faults, [](const json& file) { return complaint_of([&] { read_layout(file); }); }, "road.json: ");
     for (const char* key : {"carriageway", "surface", "luminaires"}) {
         json file = layout();
         file.erase(key);
@@ -127,11 +128,13 @@ TEST(RoadFile, NamesThePlaceOfWhatIsWrong) {
     const TempFolder folder;
     EXPECT_THROW(read_road(folder.write("road.json", "{\"version\": 1")), Error);
     json dark = layout();
-    dark["luminaires"]["file"] = folder.write("dark.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n0 0\n").string();
+    dark["luminaires"]["file"] =
+        folder.write("dark.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n0 0\n").string();
     EXPECT_TRUE(contains(complaint_of([&] { read_layout(dark); }), "dark.ies: the luminaire gives no light"));
     RoadOverrides narrow;
     narrow.spacing = 1;
-    EXPECT_TRUE(contains(complaint_of([&] { read_layout(layout(), narrow); }), "road.json: test road: the spacing must be"));
+    EXPECT_TRUE(
+        contains(complaint_of([&] { read_layout(layout(), narrow); }), "road.json: test road: the spacing must be"));
 }
 
 TEST(RoadFile, EveryExampleIsCalculated) {

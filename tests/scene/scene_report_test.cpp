@@ -66,10 +66,15 @@ TEST(SceneReport, AddsUp) {
     EXPECT_TRUE(report.warnings.empty()) << report.warnings.front();
 }
 
-// Nodes that show a mesh are added up without going through its triangles where they are only moved, turned and scaled evenly.
+// Nodes that show a mesh are added up without going through its triangles where they are only moved, turned and scaled
+// evenly.
 TEST(SceneReport, MeshesCountForEveryNodeThatShowsThem) {
     Street street;
-    street.scene.nodes.push_back({.name = "turned", .translation = {0, 1, 0}, .rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), .scale = glm::vec3(0.5f), .mesh = 0});
+    street.scene.nodes.push_back({.name = "turned",
+                                  .translation = {0, 1, 0},
+                                  .rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)),
+                                  .scale = glm::vec3(0.5f),
+                                  .mesh = 0});
     street.scene.nodes.push_back({.name = "drawn out", .translation = {0, 2, 40}, .scale = {1, 1, 3}, .mesh = 0});
     street.scene.nodes.push_back({.name = "far", .translation = {200, 0, 0}, .mesh = 0});
     street.add_lamp("over far", street.scene.lamps[0], {200, 7, 0});
@@ -102,7 +107,8 @@ TEST(SceneReport, MeasuredLampsAreTheirDistribution) {
 
 TEST(SceneReport, ReflectanceOfATextureIsThroughItsTransfer) {
     Street street;
-    street.scene.images.push_back({.name = "half", .width = 2, .height = 1, .rgba = {128, 128, 128, 255, 0, 0, 0, 255}});
+    street.scene.images.push_back(
+        {.name = "half", .width = 2, .height = 1, .rgba = {128, 128, 128, 255, 0, 0, 0, 255}});
     street.scene.materials[0].base_colour_texture.image = 0;
     street.scene.materials[0].base_colour = {0.5f, 0.5f, 0.5f, 1};
     street.scene.transfer = {Transfer::Kind::Gamma, 2.2f};
@@ -123,7 +129,10 @@ TEST(SceneReport, ReflectanceIsThatOfTheSurfaceShown) {
     EXPECT_NEAR(report_scene(street.scene).materials.at(0).reflectance, 0.2 * (0.25 + 0.75) / 1.75, 1e-5);
 
     Street atlas;
-    atlas.scene.images.push_back({.name = "atlas", .width = 4, .height = 1, .rgba = {255, 255, 255, 255, 255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255}});
+    atlas.scene.images.push_back({.name = "atlas",
+                                  .width = 4,
+                                  .height = 1,
+                                  .rgba = {255, 255, 255, 255, 255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255}});
     Material& m = atlas.scene.materials[0];
     m.base_colour = glm::vec4(1), m.base_colour_texture.image = 0;
     const auto mean = [&](float low, float high) {
@@ -131,13 +140,13 @@ TEST(SceneReport, ReflectanceIsThatOfTheSurfaceShown) {
         for (size_t i = 0; i < 4; ++i) corners[i].uv = {i % 2 ? high : low, 0.5f};
         return report_scene(atlas.scene).materials.at(0).reflectance;
     };
-    EXPECT_NEAR(mean(0.1f, 0.1f), 1, 1e-6);       // a point
+    EXPECT_NEAR(mean(0.1f, 0.1f), 1, 1e-6);  // a point
     EXPECT_NEAR(mean(0.55f, 0.9f), 0, 1e-6);
     EXPECT_NEAR(mean(0.375f, 0.75f), 1 / 3.0, 1e-6);  // parts of texels
-    EXPECT_NEAR(mean(-0.5f, 0.5f), 0.5, 1e-6);    // the whole axis
+    EXPECT_NEAR(mean(-0.5f, 0.5f), 0.5, 1e-6);        // the whole axis
     EXPECT_NEAR(mean(1.75f, 2.125f), 1 / 3.0, 1e-6);  // around the end: half a texel of white, one of black
     m.base_colour_texture.wrap_u = Wrap::Mirror;
-    EXPECT_NEAR(mean(1.25f, 1.5f), 0, 1e-6);      // an odd tile, the other way round
+    EXPECT_NEAR(mean(1.25f, 1.5f), 0, 1e-6);  // an odd tile, the other way round
     EXPECT_NEAR(mean(-0.25f, -0.125f), 1, 1e-6);
     m.base_colour_texture.wrap_u = Wrap::Clamp;
     EXPECT_NEAR(mean(1.25f, 1.5f), 0, 1e-6);
@@ -146,7 +155,8 @@ TEST(SceneReport, ReflectanceIsThatOfTheSurfaceShown) {
 
 TEST(SceneReport, WhatIsEmittedIsThroughItsTexture) {
     Street street;
-    street.scene.images.push_back({.name = "pane", .width = 2, .height = 1, .rgba = {128, 128, 128, 255, 0, 0, 0, 255}});
+    street.scene.images.push_back(
+        {.name = "pane", .width = 2, .height = 1, .rgba = {128, 128, 128, 255, 0, 0, 0, 255}});
     street.scene.materials[0].emission = glm::vec3(100);
     street.scene.materials[0].emission_texture.image = 0;
     EXPECT_NEAR(report_scene(street.scene).materials.at(0).emission, 21.586, 1e-3);

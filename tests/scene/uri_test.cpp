@@ -10,7 +10,8 @@ std::string decoded(const std::string& uri) {
 }
 
 TEST(DataUri, CaseOfSchemeAndMarkDoesNotMatter) {
-    for (const char* uri : {"data:;base64,SGk=", "DATA:;base64,SGk=", "Data:text/plain;BASE64,SGk", "data:text/plain;charset=utf-8;Base64,SGk%3D", "data:,Hi", "daTA:text/plain,%48i"}) {
+    for (const char* uri : {"data:;base64,SGk=", "DATA:;base64,SGk=", "Data:text/plain;BASE64,SGk",
+                            "data:text/plain;charset=utf-8;Base64,SGk%3D", "data:,Hi", "daTA:text/plain,%48i"}) {
         EXPECT_TRUE(is_data_uri(uri)) << uri;
         EXPECT_EQ(decoded(uri), "Hi") << uri;
     }
@@ -30,7 +31,9 @@ TEST(DataUri, WhatIsWrongIsCalledByItsName) {
 // What a URI holds is in no message, whatever is wrong with it.
 TEST(DataUri, PayloadsAreNotPrinted) {
     const std::string payload(4000, 'Q');
-    for (const std::string& uri : {"DATA:application/octet-stream;base64," + payload + "*", "data:" + payload, "dato:;base64," + payload, "data:x/" + payload + ",", "data:image/png;base64," + payload}) {
+    for (const std::string& uri :
+         {"DATA:application/octet-stream;base64," + payload + "*", "data:" + payload, "dato:;base64," + payload,
+          "data:x/" + payload + ",", "data:image/png;base64," + payload}) {
         GltfFile file;
         file.root["buffers"] = {{{"byteLength", 3}, {"uri", uri}}};
         const std::string refused = file.complaint();

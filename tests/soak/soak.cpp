@@ -1,4 +1,5 @@
-// Renders for as long as is asked, with sizes, operators, glare and lamps changing, and sees whether memory stays and validation is silent.
+// Renders for as long as is asked, with sizes, operators, glare and lamps changing, and sees whether memory stays and
+// validation is silent.
 //     vesper-soak [FRAMES]
 // SPDX-License-Identifier: MIT
 #include <malloc.h>
@@ -13,8 +14,8 @@
 
 #include "base/error.h"
 #include "render/renderer.h"
-#include "support/scene_geometry.h"
 #include "render/tone_mapper.h"
+#include "support/scene_geometry.h"
 
 namespace vesper::test {
 namespace {
@@ -32,12 +33,14 @@ constexpr Eye kEyes[]{{Glare::None, {}},
                       {Glare::Scatter, ScatterSettings::Model::Spencer},
                       {Glare::Scatter, ScatterSettings::Model::Temporal}};
 
-constexpr uint64_t kQuickEyes = 3, kSlowRounds = 10;  // the others take half a second a size, and are seen in every tenth round
+constexpr uint64_t kQuickEyes = 3,
+                   kSlowRounds = 10;  // the others take half a second a size, and are seen in every tenth round
 
 constexpr uint32_t kLamps = 24;
 constexpr uint64_t kRoundsOfARenderer = 10;
-constexpr double kMostGrowth = 1.01;     // of memory, after the warm-up, which is a tenth of the run
-constexpr uint64_t kJudgedRounds = 100;  // of fewer, only the device's memory is judged: allocators and drivers are still settling
+constexpr double kMostGrowth = 1.01;  // of memory, after the warm-up, which is a tenth of the run
+constexpr uint64_t kJudgedRounds =
+    100;  // of fewer, only the device's memory is judged: allocators and drivers are still settling
 
 /// A floor, a wall, and lamps before it: spots, points and one that has an opening to look at.
 Scene lit_wall() {
@@ -64,7 +67,8 @@ double resident_mib() {
     return double(resident) * double(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-/// Allocated and not given back, by anybody in the process. Resident memory holds the gaps between that as well, and the code of the programs.
+/// Allocated and not given back, by anybody in the process. Resident memory holds the gaps between that as well, and
+/// the code of the programs.
 double used_mib() {
     const struct mallinfo2 heap = ::mallinfo2();
     return double(heap.uordblks + heap.hblkhd) / (1 << 20);
@@ -73,34 +77,42 @@ double used_mib() {
 struct Memory {
     double resident = 0, used = 0, device = 0;  // MiB
     static Memory now(const Device& d) { return {resident_mib(), used_mib(), double(d.use().bytes) / (1 << 20)}; }
-    void see(const Memory& m) { resident = std::max(resident, m.resident), used = std::max(used, m.used), device = std::max(device, m.device); }
+    void see(const Memory& m) {
+        resident = std::max(resident, m.resident), used = std::max(used, m.used), device = std::max(device, m.device);
+    }
 };
 
 class Soak {
 public:
     int run(uint64_t frames) {
-        const uint64_t rounds = std::max<uint64_t>((frames + kRound - 1) / kRound, 2), warm_up = std::max<uint64_t>(rounds / 10, 1);
+        const uint64_t rounds = std::max<uint64_t>((frames + kRound - 1) / kRound, 2),
+                       warm_up = std::max<uint64_t>(rounds / 10, 1);
         Memory warm, after;
         std::printf("%9s %14s %12s %12s %9s\n", "frames", "resident, MiB", "used, MiB", "device, MiB", "messages");
         for (uint64_t round = 0; round < rounds; ++round) {
-            if (round % kRoundsOfARenderer == 0) renderer_.reset(), renderer_ = std::make_unique<Renderer>(device_, scene_);
+            if (round % kRoundsOfARenderer == 0)
+                renderer_.reset(), renderer_ = std::make_unique<Renderer>(device_, scene_);
             for (uint64_t i = 0; i < kRound; ++i) frame(round * kRound + i);
             const Memory now = Memory::now(device_);
             (round < warm_up ? warm : after).see(now);
             if (round + 1 == warm_up || (round + 1) % std::max<uint64_t>(rounds / 10, 1) == 0) {
-                std::printf("%9llu %14.1f %12.2f %12.2f %9llu\n", static_cast<unsigned long long>((round + 1) * kRound), now.resident, now.used, now.device, static_cast<unsigned long long>(messages_));
+                std::printf("%9llu %14.1f %12.2f %12.2f %9llu\n", static_cast<unsigned long long>((round + 1) * kRound),
+                            now.resident, now.used, now.device, static_cast<unsigned long long>(messages_));
                 std::fflush(stdout);
             }
         }
         const auto grown = [](double before, double then) { return 100 * (then / before - 1); };
-        std::printf("after the warm-up: resident %+.2f %%, used %+.2f %%, device %+.2f %%\n", grown(warm.resident, after.resident), grown(warm.used, after.used), grown(warm.device, after.device));
+        std::printf("after the warm-up: resident %+.2f %%, used %+.2f %%, device %+.2f %%\n",
+                    grown(warm.resident, after.resident), grown(warm.used, after.used),
+                    grown(warm.device, after.device));
         const bool host_stays = rounds < kJudgedRounds || after.used <= kMostGrowth * warm.used;
         return messages_ == 0 && host_stays && after.device <= kMostGrowth * warm.device ? 0 : 1;
     }
 
 private:
     // Every operator at every size with every kind of glare.
-    static inline const uint64_t kOperators = operators().size(), kRound = kOperators * std::size(kSizes) * std::size(kEyes);
+    static inline const uint64_t kOperators = operators().size(),
+                                 kRound = kOperators * std::size(kSizes) * std::size(kEyes);
 
     void frame(uint64_t i) {
         const VkExtent2D extent = kSizes[i / kOperators % std::size(kSizes)];
@@ -108,7 +120,8 @@ private:
         const Eye& eye = kEyes[round % kSlowRounds == 0 ? which : which % kQuickEyes];
         RenderSettings settings;
         settings.tone_operator = operators()[i % kOperators].tone_operator;
-        settings.glare = eye.glare, settings.scatter.model = eye.model, settings.scatter.eye.age = double(20 + round % 60);
+        settings.glare = eye.glare, settings.scatter.model = eye.model,
+        settings.scatter.eye.age = double(20 + round % 60);
         settings.histogram.bins = uint32_t(20 + i % 200);
         if (settings.tone_operator == Operator::Ldr && settings.glare == Glare::Scatter) settings.glare = Glare::None;
         if (i % 97 == 0) renderer_->reset_adaptation();
@@ -122,7 +135,8 @@ private:
             moment.world[node][3] += glm::vec4(std::cos(phase), 0, std::sin(phase), 0);
         }
         const View view = View::symmetric(extent, 0.8f, glm::mat4(1));
-        const Frame shown = renderer_->render(settings, view, moment, 0.02f, {.display = true, .scene = i % 5 == 0, .display_light = i % 7 == 0});
+        const Frame shown = renderer_->render(settings, view, moment, 0.02f,
+                                              {.display = true, .scene = i % 5 == 0, .display_light = i % 7 == 0});
         if (!shown.scene.empty() && settings.tone_operator != Operator::Ldr)
             mapper_.map(settings, {.extent = extent, .values = shown.scene, .channels = 4}, 0.02f);
     }

@@ -22,7 +22,8 @@ inline VesperMaterial white() {
 
 inline VesperMesh square(uint32_t material) {
     VesperMesh mesh = VESPER_INIT(VesperMesh);
-    mesh.material = material, mesh.vertex_count = 4, mesh.positions = kSquare.data(), mesh.index_count = 6, mesh.indices = kTriangles.data();
+    mesh.material = material, mesh.vertex_count = 4, mesh.positions = kSquare.data(), mesh.index_count = 6,
+    mesh.indices = kTriangles.data();
     return mesh;
 }
 
@@ -36,7 +37,8 @@ inline VesperLamp candle() {
 // Straight down on the ground at (x, 0, 0).
 inline VesperView down(float x = 0) {
     VesperView view = VESPER_INIT(VesperView);
-    view.width = view.height = kSide, view.eye[0] = x, view.eye[1] = 0.5f, view.forward[1] = -1, view.up[2] = -1, view.vertical_fov = 0.02f, view.near_plane = 0.1f;
+    view.width = view.height = kSide, view.eye[0] = x, view.eye[1] = 0.5f, view.forward[1] = -1, view.up[2] = -1,
+    view.vertical_fov = 0.02f, view.near_plane = 0.1f;
     return view;
 }
 

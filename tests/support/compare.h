@@ -144,7 +144,9 @@ inline ::testing::AssertionResult same_light(const std::string& name, const Pict
 /// arithmetic may add, and `rounding` (empty: none) what single precision may do to that very value.
 inline ::testing::AssertionResult same_codes(const std::string& name, const Picture& got, const Picture& want,
                                              double beyond, const Picture& rounding = {}) {
-    return detail::compare(name, got, want, true, [&](size_t i) { return 0.5 + beyond + (rounding.values.empty() ? 0.0 : rounding.values[i]); });
+    return detail::compare(name, got, want, true, [&](size_t i) {
+        return 0.5 + beyond + (rounding.values.empty() ? 0.0 : rounding.values[i]);
+    });
 }
 
 }  // namespace vesper::test

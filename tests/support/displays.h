@@ -9,7 +9,11 @@ namespace vesper::test {
 
 /// A display measured at uneven codes, of an odd shape.
 inline Display measured_display(uint32_t bits = 8) {
-    return {.peak = 90, .black = 0.3f, .ambient = 20, .eotf = Eotf::Table, .bits = bits,
+    return {.peak = 90,
+            .black = 0.3f,
+            .ambient = 20,
+            .eotf = Eotf::Table,
+            .bits = bits,
             .table = {{0, 0.3f}, {0.02, 0.305}, {0.1, 0.5}, {0.3, 5}, {0.31, 8}, {0.6, 30}, {0.9, 80}, {1, 90}}};
 }
 

@@ -24,7 +24,7 @@ namespace vesper::test {
 struct ExrLayout {
     Imf::Compression compression = Imf::ZIP_COMPRESSION;
     bool tiles = false, mipmap = false, multi_part = false, grey = false;
-    int x0 = 0, y0 = 0;      ///< of the data window; the display window stays where it is
+    int x0 = 0, y0 = 0;  ///< of the data window; the display window stays where it is
     double white_luminance = 0;
 };
 
@@ -60,7 +60,8 @@ inline void write_layout(const std::filesystem::path& file, const HdrImage& imag
         header.setTileDescription({32, 16, layout.mipmap ? Imf::MIPMAP_LEVELS : Imf::ONE_LEVEL});
         Imf::TiledOutputFile out(file.c_str(), header);
         out.setFrameBuffer(pixels);
-        for (int level = 0; level < out.numLevels(); ++level) out.writeTiles(0, out.numXTiles(level) - 1, 0, out.numYTiles(level) - 1, level);
+        for (int level = 0; level < out.numLevels(); ++level)
+            out.writeTiles(0, out.numXTiles(level) - 1, 0, out.numYTiles(level) - 1, level);
     } else {
         Imf::OutputFile out(file.c_str(), header);
         out.setFrameBuffer(pixels);
@@ -71,7 +72,8 @@ inline void write_layout(const std::filesystem::path& file, const HdrImage& imag
 /// Writes luminance and chroma of half the resolution, in halves.
 inline void write_chroma(const std::filesystem::path& file, const HdrImage& image) {
     std::vector<Imf::Rgba> pixels;
-    for (size_t i = 0; i < image.rgb.size(); i += 3) pixels.emplace_back(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]);
+    for (size_t i = 0; i < image.rgb.size(); i += 3)
+        pixels.emplace_back(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]);
     Imf::RgbaOutputFile out(file.c_str(), int(image.width), int(image.height), Imf::WRITE_YC);
     out.setFrameBuffer(pixels.data(), 1, image.width);
     out.writePixels(int(image.height));

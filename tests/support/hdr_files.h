@@ -26,7 +26,8 @@ inline void expect_values(const HdrImage& image, const Values& wanted, double re
 }
 
 /// What a file is refused with, on a line that names it; nothing if it is read.
-inline std::string refusal(const std::filesystem::path& file, const HdrLimits& limits = {}, const std::string& layer = {}) {
+inline std::string refusal(const std::filesystem::path& file, const HdrLimits& limits = {},
+                           const std::string& layer = {}) {
     try {
         read_hdr_image(file, limits, layer);
     } catch (const Error& error) {

@@ -10,9 +10,11 @@ namespace vesper::reference {
 
 constexpr uint32_t kBins = 100;
 
-inline const ReceptorModel kCones(ReceptorKind::Cones, Receptors::cones()), kRods(ReceptorKind::Rods, Receptors::rods());
+inline const ReceptorModel kCones(ReceptorKind::Cones, Receptors::cones()),
+    kRods(ReceptorKind::Rods, Receptors::rods());
 
-inline shared::ToneParameters parameters_of(double low = 0.5, double high = 200, uint32_t ceiling = shared::kCeilingCones) {
+inline shared::ToneParameters parameters_of(double low = 0.5, double high = 200,
+                                            uint32_t ceiling = shared::kCeilingCones) {
     shared::ToneParameters p{};
     p.ceiling = ceiling;
     p.cone_break = 1.9f, p.rod_break = -1.44f;
@@ -27,7 +29,8 @@ inline shared::ToneParameters parameters_of(double low = 0.5, double high = 200,
 
 /// The curve for an eye adapted to `adaptation`.
 inline Adjusted curve_of(const shared::Histogram& histogram, double adaptation, const shared::ToneParameters& p) {
-    const Thresholds t = thresholds_of(p, kCones, kCones.adapted_sigma(adaptation), kRods, kRods.adapted_sigma(adaptation));
+    const Thresholds t =
+        thresholds_of(p, kCones, kCones.adapted_sigma(adaptation), kRods, kRods.adapted_sigma(adaptation));
     return adjust(shares(histogram, kBins), adaptation, t, p);
 }
 
@@ -52,7 +55,8 @@ inline shared::Histogram fog(uint32_t from, uint32_t to) {
 }
 
 /// Votes of luminances (ln) and their shares, each shared by two bins.
-inline std::vector<double> split_votes(const std::vector<std::pair<double, double>>& votes, const shared::ToneParameters& p) {
+inline std::vector<double> split_votes(const std::vector<std::pair<double, double>>& votes,
+                                       const shared::ToneParameters& p) {
     std::vector<double> share(p.bins, 0.0);
     for (const auto& [ln, part] : votes) {
         const double middle = std::clamp((ln - p.ln_low) * double(p.bins_per_ln) - 0.5, 0.0, p.bins - 1.0);
@@ -66,13 +70,16 @@ inline std::vector<double> split_votes(const std::vector<std::pair<double, doubl
 inline shared::ToneParameters split_parameters(uint32_t bins, uint32_t ceiling = shared::kCeilingEye) {
     shared::ToneParameters p = parameters_of(0.12, 100, ceiling);
     const HistogramSettings settings{.bins = bins};
-    p.bins = bins, p.bins_per_ln = settings.bins_per_ln(), p.steps_per_bin = settings.steps_per_bin(), p.window = settings.window();
+    p.bins = bins, p.bins_per_ln = settings.bins_per_ln(), p.steps_per_bin = settings.steps_per_bin(),
+    p.window = settings.window();
     p.cone_break = float(ThresholdBreaks::continuous().cones), p.rod_break = float(ThresholdBreaks::continuous().rods);
     return p;
 }
 
-inline Adjusted curve_of_votes(const std::vector<std::pair<double, double>>& votes, double adaptation, const shared::ToneParameters& p) {
-    const Thresholds t = thresholds_of(p, kCones, kCones.adapted_sigma(adaptation), kRods, kRods.adapted_sigma(adaptation));
+inline Adjusted curve_of_votes(const std::vector<std::pair<double, double>>& votes, double adaptation,
+                               const shared::ToneParameters& p) {
+    const Thresholds t =
+        thresholds_of(p, kCones, kCones.adapted_sigma(adaptation), kRods, kRods.adapted_sigma(adaptation));
     return adjust(per_step(split_votes(votes, p), p), adaptation, t, p);
 }
 

@@ -1,4 +1,5 @@
-// A host with a device of its own, under validation, that lends it to Vesper; the host is that of the example. SPDX-License-Identifier: MIT
+// A host with a device of its own, under validation, that lends it to Vesper; the host is that of the example.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstring>
@@ -23,10 +24,12 @@ struct HostFeatures {
 /// A host, and what it tells Vesper of its device.
 class HostDevice {
 public:
-    explicit HostDevice(const std::function<void(HostFeatures&, VkDeviceCreateInfo&)>& change = {}) : physical_(instance_.first_device()) {
+    explicit HostDevice(const std::function<void(HostFeatures&, VkDeviceCreateInfo&)>& change = {})
+        : physical_(instance_.first_device()) {
         asked_.f12.timelineSemaphore = VK_TRUE;
         VesperError error;
-        if (vesper_device_features(physical_, &asked_.features, &error) != VESPER_OK) throw std::runtime_error(error.message);
+        if (vesper_device_features(physical_, &asked_.features, &error) != VESPER_OK)
+            throw std::runtime_error(error.message);
         queue_info_.queueCount = 1, queue_info_.pQueuePriorities = &priority_;
         info_.pNext = &asked_.features;
         info_.queueCreateInfoCount = 1, info_.pQueueCreateInfos = &queue_info_;
@@ -69,7 +72,8 @@ private:
 };
 
 /// Draws an image of floats pixel by pixel, and leaves it to be sampled.
-inline void draw_pixels(VkCommandBuffer commands, const ::Image& image, VkExtent2D extent, const std::vector<float>& rgb) {
+inline void draw_pixels(VkCommandBuffer commands, const ::Image& image, VkExtent2D extent,
+                        const std::vector<float>& rgb) {
     change_layout(commands, image.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     VkRenderingAttachmentInfo target{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     target.imageView = image.view, target.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
@@ -85,10 +89,12 @@ inline void draw_pixels(VkCommandBuffer commands, const ::Image& image, VkExtent
         vkCmdClearAttachments(commands, 1, &what, 1, &where);
     }
     vkCmdEndRendering(commands);
-    change_layout(commands, image.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    change_layout(commands, image.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
-inline VesperImage described(const ::Image& image, VkFormat format, VkExtent2D extent, VkImageLayout before, VkImageLayout after) {
+inline VesperImage described(const ::Image& image, VkFormat format, VkExtent2D extent, VkImageLayout before,
+                             VkImageLayout after) {
     VesperImage made = VESPER_INIT(VesperImage);
     made.image = image.image, made.format = format, made.width = extent.width, made.height = extent.height;
     made.layout_before = before, made.layout_after = after;

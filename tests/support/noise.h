@@ -13,8 +13,8 @@ class Noise {
 public:
     explicit Noise(uint32_t seed) : random_(seed) {}
 
-    float unit() { return unit_(random_); }       ///< [0, 1)
-    double normal() { return normal_(random_); }  ///< standard normal distribution
+    float unit() { return unit_(random_); }                    ///< [0, 1)
+    double normal() { return normal_(random_); }               ///< standard normal distribution
     float fine() { return std::floor(unit() * 1024) / 1024; }  ///< [0, 1), exact in a half float
     /// A unit vector on the side of +Z; the larger `least`, the steeper.
     glm::dvec3 facing(double least) {

@@ -18,7 +18,9 @@ namespace vesper {
 class PassRig {
 public:
     PassRig()
-        : device_({.select = "", .validation = true, .on_message = [this](const std::string& message) { complaints_.push_back(message); }}),
+        : device_({.select = "",
+                   .validation = true,
+                   .on_message = [this](const std::string& message) { complaints_.push_back(message); }}),
           kernels_(device_),
           executor_(device_) {}
 
@@ -37,7 +39,8 @@ public:
 
     /// An image with the given texels, tightly packed.
     template <class T>
-    static Resource image(FrameGraph& graph, const std::string& name, VkFormat format, VkExtent2D extent, const std::vector<T>& texels) {
+    static Resource image(FrameGraph& graph, const std::string& name, VkFormat format, VkExtent2D extent,
+                          const std::vector<T>& texels) {
         const Resource from = graph.upload(name + " texels", texels);
         const Resource to = graph.transient(name, image_shape(format, extent));
         graph.copy("fill " + name, from, to);
@@ -45,7 +48,8 @@ public:
     }
     /// A buffer with the given values that a pass may read as storage.
     template <class T>
-    static Resource buffer(FrameGraph& graph, const std::string& name, const std::vector<T>& values, VkFormat texel = VK_FORMAT_UNDEFINED) {
+    static Resource buffer(FrameGraph& graph, const std::string& name, const std::vector<T>& values,
+                           VkFormat texel = VK_FORMAT_UNDEFINED) {
         const Resource from = graph.upload(name + " values", values);
         const Resource to = graph.transient(name, buffer_shape(values.size() * sizeof(T), texel));
         graph.copy("fill " + name, from, to);

@@ -12,8 +12,9 @@
 namespace vesper::test {
 
 /// Codes before rounding, RGB, in [0, 255]; without glare. `previous` is what the eye remembers.
-inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene, VkExtent2D extent, const ToneChainSettings& settings,
-                                               uint32_t tone, uint32_t foveal_level, float seconds, shared::EyeState previous = {}) {
+inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene, VkExtent2D extent,
+                                               const ToneChainSettings& settings, uint32_t tone, uint32_t foveal_level,
+                                               float seconds, shared::EyeState previous = {}) {
     const auto levels = reference::pyramid(scene, extent.width, extent.height);
     const auto& level = levels.at(foveal_level - 1);
     const HistogramSettings& bins = settings.histogram;
@@ -21,32 +22,50 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
     const OperatorInfo& op = operator_info(settings.tone_operator);
     const bool fine = bins.fine && foveal_level > 1, overlaps = fine && bins.overlap;
     const uint32_t halvings = overlaps ? std::min(foveal_level - 1, 3u) : 0;
-    const reference::PyramidLevel texels = reference::overlapping(levels.at(foveal_level - halvings - 1), 1u << halvings);
+    const reference::PyramidLevel texels =
+        reference::overlapping(levels.at(foveal_level - halvings - 1), 1u << halvings);
     const auto push_of = [&](const reference::PyramidLevel& l, uint32_t k, bool census, uint32_t overlap) {
-        return shared::HistogramPush{{extent.width, extent.height}, {l.width, l.height}, k, bins.bins, bins.ln_low(), bins.bins_per_ln(),
-                                     uint32_t(std::clamp<uint64_t>(0xf0000000u / (uint64_t(2) * extent.width * extent.height), 1, 4096)), bins.split ? 1u : 0u, census ? 1u : 0u, overlap};
+        return shared::HistogramPush{
+            {extent.width, extent.height},
+            {l.width, l.height},
+            k,
+            bins.bins,
+            bins.ln_low(),
+            bins.bins_per_ln(),
+            uint32_t(std::clamp<uint64_t>(0xf0000000u / (uint64_t(2) * extent.width * extent.height), 1, 4096)),
+            bins.split ? 1u : 0u,
+            census ? 1u : 0u,
+            overlap};
     };
     reference::Votes votes;
-    reference::vote(votes, std::span<const glm::dvec4>(texels.texels), push_of(texels, foveal_level, !overlaps, 2 * halvings));
+    reference::vote(votes, std::span<const glm::dvec4>(texels.texels),
+                    push_of(texels, foveal_level, !overlaps, 2 * halvings));
     if (fine) reference::vote(votes, std::span<const glm::dvec4>(levels[0].texels), push_of(levels[0], 1, overlaps, 0));
     shared::Histogram histogram = votes.counted;
     for (size_t i = 0; i < votes.count.size(); ++i) histogram.count[i] = uint32_t(std::lround(votes.count[i]));
-    const shared::ToneParameters parameters = tone_parameters(op, bins, settings.tone, display, {foveal_level, {level.width, level.height}, extent}, seconds);
-    const auto adapted = reference::adapt({histogram, levels.back().texels.at(0), level, previous, parameters, settings.tone.observer, op.tone_operator,
-                                           op.chromatic ? reference::colour_tiles(scene, extent.width, extent.height) : reference::PyramidLevel{}});
+    const shared::ToneParameters parameters =
+        tone_parameters(op, bins, settings.tone, display, {foveal_level, {level.width, level.height}, extent}, seconds);
+    const auto adapted = reference::adapt(
+        {histogram, levels.back().texels.at(0), level, previous, parameters, settings.tone.observer, op.tone_operator,
+         op.chromatic ? reference::colour_tiles(scene, extent.width, extent.height) : reference::PyramidLevel{}});
     std::vector<glm::vec4> banded(scene.begin(), scene.end());
     if (op.bands) {
         std::vector<double> luminance;
         for (const glm::vec4& p : scene) luminance.push_back(reference::luminance(glm::dvec3(p)));
-        const auto bands = reference::bands(luminance, extent.width, extent.height, levels, foveal_level, adapted.tone, parameters);
+        const auto bands =
+            reference::bands(luminance, extent.width, extent.height, levels, foveal_level, adapted.tone, parameters);
         for (size_t i = 0; i < banded.size(); ++i)
-            if (reference::finite(glm::dvec3(scene[i]))) banded[i] = glm::vec4(glm::vec3(reference::banded(glm::dvec3(scene[i]), std::exp(bands.shown[i]), tone, adapted.tone)), 1);
+            if (reference::finite(glm::dvec3(scene[i])))
+                banded[i] = glm::vec4(
+                    glm::vec3(reference::banded(glm::dvec3(scene[i]), std::exp(bands.shown[i]), tone, adapted.tone)),
+                    1);
         tone = shared::kToneLinear | (tone & shared::kGamutMask);
     }
     const reference::CompositeFrame<glm::vec4> frame{banded, {}, {extent.width, extent.height}};
     std::vector<glm::dvec3> codes;
     for (uint32_t y = 0; y < extent.height; ++y)
-        for (uint32_t x = 0; x < extent.width; ++x) codes.push_back(reference::composite(frame, {x, y}, tone, adapted.tone, display));
+        for (uint32_t x = 0; x < extent.width; ++x)
+            codes.push_back(reference::composite(frame, {x, y}, tone, adapted.tone, display));
     return codes;
 }
 

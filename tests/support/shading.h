@@ -20,7 +20,8 @@ struct Surfaces {
 
     glm::uvec2 pixel(size_t i) const { return {i % extent.width, i / extent.width}; }
     reference::SurfaceTexel texel(size_t i) const {
-        return {glm::dvec4(reflectance[i]), glm::dvec4(surface[i]), emission.empty() ? glm::dvec3(0) : glm::dvec3(emission[i])};
+        return {glm::dvec4(reflectance[i]), glm::dvec4(surface[i]),
+                emission.empty() ? glm::dvec3(0) : glm::dvec3(emission[i])};
     }
 };
 
@@ -43,8 +44,9 @@ struct Shot {
 };
 
 /// Clusters and shades, seen from the origin along -Z. `sheets`: classes of retroreflection, if there are any.
-inline Shot shade(PassRig& rig, const Surfaces& s, const LampList& list, const ClusterSettings& clusters, ShadeSettings settings,
-                  const IntensityTables& tables = {}, const std::vector<Retroreflector>& sheets = {}) {
+inline Shot shade(PassRig& rig, const Surfaces& s, const LampList& list, const ClusterSettings& clusters,
+                  ShadeSettings settings, const IntensityTables& tables = {},
+                  const std::vector<Retroreflector>& sheets = {}) {
     FrameGraph graph;
     const FrameContext frame = rig.frame(graph, View::symmetric(s.extent, 0.7f, glm::mat4(1)));
     const GBuffer g = upload(graph, s);

@@ -25,7 +25,7 @@ struct Lamps {
 
 /// A lamp of some candela behind an opening of width x height (m).
 inline Lamp lamp_with_opening(float candela, double width, double height, bool round = false,
-                               Lamp::Kind kind = Lamp::Kind::CosinePower) {
+                              Lamp::Kind kind = Lamp::Kind::CosinePower) {
     Lamp lamp;
     lamp.kind = kind, lamp.intensity = candela, lamp.exponent = 1;
     lamp.opening = {.length = width, .width = height, .height = 0, .round = round};

@@ -14,13 +14,23 @@
 
 namespace vesper::test {
 
-constexpr uint32_t kEveryTone[]{shared::kToneCurve, shared::kToneReinhard, shared::kToneLinear, shared::kToneLdr, shared::kToneColour, shared::kToneRods,
-                                shared::kToneCurve | shared::kToneColourLoss, shared::kToneLinear | shared::kTonePurkinje,
+constexpr uint32_t kEveryTone[]{shared::kToneCurve,
+                                shared::kToneReinhard,
+                                shared::kToneLinear,
+                                shared::kToneLdr,
+                                shared::kToneColour,
+                                shared::kToneRods,
+                                shared::kToneCurve | shared::kToneColourLoss,
+                                shared::kToneLinear | shared::kTonePurkinje,
                                 shared::kToneReinhard | shared::kToneColourLoss | shared::kTonePurkinje,
-                                shared::kToneColour | shared::kTonePhotopicRods, shared::kToneRods | shared::kTonePhotopicRods,
-                                shared::kToneCurve | shared::kGamutChromaticity, shared::kToneCurve | shared::kGamutClip,
-                                shared::kToneReinhard | shared::kGamutChromaticity, shared::kToneLinear | shared::kGamutClip,
-                                shared::kToneColour | shared::kGamutChromaticity, shared::kToneRods | shared::kGamutClip};
+                                shared::kToneColour | shared::kTonePhotopicRods,
+                                shared::kToneRods | shared::kTonePhotopicRods,
+                                shared::kToneCurve | shared::kGamutChromaticity,
+                                shared::kToneCurve | shared::kGamutClip,
+                                shared::kToneReinhard | shared::kGamutChromaticity,
+                                shared::kToneLinear | shared::kGamutClip,
+                                shared::kToneColour | shared::kGamutChromaticity,
+                                shared::kToneRods | shared::kGamutClip};
 
 /// A crooked table from 0.01 to 1e4 cd/m^2.
 inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 100) {
@@ -44,7 +54,8 @@ inline shared::ToneCurve crooked_responses(const Display& display, uint32_t bins
     shared::ToneCurve c = crooked_curve(display, bins);
     c.block[0] = {-0.01f, 5.17f, 0, 0};
     for (uint32_t i = 0; i <= bins; ++i) {
-        const float along = (c.node[i].x - std::log(display.low())) / (std::log(display.high()) - std::log(display.low()));
+        const float along =
+            (c.node[i].x - std::log(display.low())) / (std::log(display.high()) - std::log(display.low()));
         c.node[i] = {0.7f * along, c.node[i].y, 0.3f * float(i) / float(bins), 0};
     }
     return c;

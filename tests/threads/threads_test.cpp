@@ -11,13 +11,13 @@
 #include "photometry/standard_lamps.h"
 #include "places.h"
 #include "render/renderer.h"
+#include "render/tone_mapper.h"
 #include "roads/opendrive.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"
 #include "scene/photometry.h"
 #include "scene/scene_files.h"
 #include "support/scene_geometry.h"
-#include "render/tone_mapper.h"
 
 namespace vesper::test {
 namespace {
@@ -32,7 +32,8 @@ void at_once(const Work& work) {
     for (std::thread& thread : threads) thread.join();
 }
 
-/// What an engine of its own shows of a scene that others read too, after some frames; each of the threads in another way.
+/// What an engine of its own shows of a scene that others read too, after some frames; each of the threads in another
+/// way.
 std::vector<uint8_t> shown(const Scene& scene, size_t which) {
     Device device;
     Renderer renderer(device, scene);
@@ -43,7 +44,8 @@ std::vector<uint8_t> shown(const Scene& scene, size_t which) {
     const VkExtent2D extent{uint32_t(16 + 8 * which), 12};
     std::vector<uint8_t> all;
     for (int i = 0; i < 3; ++i) {
-        const Frame frame = renderer.render(settings, View::symmetric(extent, 0.4f, glm::mat4(1)), {world_transforms(scene, 0)}, 0.1f, {.display = true, .scene = true});
+        const Frame frame = renderer.render(settings, View::symmetric(extent, 0.4f, glm::mat4(1)),
+                                            {world_transforms(scene, 0)}, 0.1f, {.display = true, .scene = true});
         const ToneMapped mapped = mapper.map(settings, {.extent = extent, .values = frame.scene, .channels = 4}, 0.1f);
         all.insert(all.end(), frame.display.begin(), frame.display.end());
         all.insert(all.end(), mapped.display.begin(), mapped.display.end());
@@ -71,7 +73,9 @@ TEST(Threads, AnEngineMayGoFromThreadToThread) {
     std::vector<uint8_t> first, second;
     elsewhere([&] { device = std::make_unique<Device>(), renderer = std::make_unique<Renderer>(*device, scene); });
     elsewhere([&] { first = renderer->render({}, view, moment, 0, {.display = true}).display; });
-    elsewhere([&] { renderer->reset_adaptation(), second = renderer->render({}, view, moment, 0, {.display = true}).display; });
+    elsewhere([&] {
+        renderer->reset_adaptation(), second = renderer->render({}, view, moment, 0, {.display = true}).display;
+    });
     elsewhere([&] { renderer.reset(), device.reset(); });
     EXPECT_EQ(first, second);
     EXPECT_FALSE(first.empty());

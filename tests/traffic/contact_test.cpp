@@ -47,7 +47,8 @@ TEST(GroundBox, OverlapsAreTheShortestWayOut) {
     // Boxes of a circle of directions about one another: never both apart and in each other.
     for (double angle = 0; angle < 2 * kPi; angle += 0.1)
         for (double yaw = 0; yaw < kPi; yaw += 0.1) {
-            const GroundBox b{.centre = 2.2 * glm::dvec2(std::cos(angle), std::sin(angle)), .yaw = yaw, .length = 4, .width = 2};
+            const GroundBox b{
+                .centre = 2.2 * glm::dvec2(std::cos(angle), std::sin(angle)), .yaw = yaw, .length = 4, .width = 2};
             const auto found = overlap(b, a);
             GroundBox out = b;
             if (found) out.centre += (found->depth + 1e-9) * found->normal;
@@ -66,12 +67,16 @@ TEST(Blow, KeepsMomentum) {
         s.speed = 10;
         const glm::dvec2 ahead(0, -1);
         const double mass = heavy * p.mass, theirs = 2;
-        const glm::dvec2 impulse = strike(s, p, {0, -2}, -ahead, {.velocity = theirs * ahead, .heading = ahead, .along = 1 / mass});
+        const glm::dvec2 impulse =
+            strike(s, p, {0, -2}, -ahead, {.velocity = theirs * ahead, .heading = ahead, .along = 1 / mass});
         const double common = (p.mass * 10 + mass * theirs) / (p.mass + mass);
         EXPECT_NEAR(s.speed, common, 1e-9);
         EXPECT_NEAR(theirs - glm::dot(impulse, ahead) / mass, common, 1e-9);
         EXPECT_NEAR(s.yaw_rate, 0, 1e-12);
-        EXPECT_EQ(glm::length(strike(s, p, {0, -2}, -ahead, {.velocity = 50.0 * ahead, .heading = ahead, .along = 1 / mass})), 0) << "they part";
+        EXPECT_EQ(
+            glm::length(strike(s, p, {0, -2}, -ahead, {.velocity = 50.0 * ahead, .heading = ahead, .along = 1 / mass})),
+            0)
+            << "they part";
     }
 }
 
@@ -84,9 +89,12 @@ TEST(Blow, TakesEnergy) {
             s.speed = 12, s.lateral = -1, s.yaw_rate = 0.3;
             const glm::dvec2 heading(std::cos(angle), std::sin(angle)), theirs = 4.0 * heading;
             const double mass = 1200, before = kinetic_energy(s, p) + mass * 16 / 2;
-            const glm::dvec2 impulse = strike(s, p, {x, -2.2}, {0, 1}, {.velocity = theirs, .heading = heading, .along = 1 / mass, .across = 1 / mass});
+            const glm::dvec2 impulse =
+                strike(s, p, {x, -2.2}, {0, 1},
+                       {.velocity = theirs, .heading = heading, .along = 1 / mass, .across = 1 / mass});
             const glm::dvec2 after = theirs - impulse / mass;
-            EXPECT_LE(kinetic_energy(s, p) + mass * glm::dot(after, after) / 2, before * (1 + 1e-12)) << x << " " << angle;
+            EXPECT_LE(kinetic_energy(s, p) + mass * glm::dot(after, after) / 2, before * (1 + 1e-12))
+                << x << " " << angle;
         }
 }
 

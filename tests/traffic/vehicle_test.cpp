@@ -30,14 +30,16 @@ VehicleState settled(const VehicleParameters& p, double speed, double angle) {
     return s;
 }
 
-// Rajamani 3.3: r = v delta / (L + K v^2). 1 %: the speed is put right only once a step, and tan differs from its angle.
+// Rajamani 3.3: r = v delta / (L + K v^2). 1 %: the speed is put right only once a step, and tan differs from its
+// angle.
 TEST(Vehicle, SteadyYawGainIsTheClosedForm) {
     VehicleParameters p = frictionless();
     for (const double rear : {160000.0, 220000.0}) {
         p.rear_stiffness = rear;
         for (const double speed : {8.0, 15.0, 25.0}) {
             const double angle = 0.004;
-            EXPECT_NEAR(settled(p, speed, angle).yaw_rate / angle / steady_yaw_gain(p, speed), 1, 0.01) << speed << " m/s";
+            EXPECT_NEAR(settled(p, speed, angle).yaw_rate / angle / steady_yaw_gain(p, speed), 1, 0.01)
+                << speed << " m/s";
         }
     }
 }

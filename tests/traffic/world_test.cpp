@@ -23,7 +23,8 @@ Course straight(double length, double speed = 50 / 3.6) { return {"straight", {{
 
 Course circle(double radius, int points = 360) {
     std::vector<glm::dvec3> round;
-    for (int i = 0; i < points; ++i) round.push_back({radius * std::cos(2 * kPi * i / points), 1, -radius * std::sin(2 * kPi * i / points)});
+    for (int i = 0; i < points; ++i)
+        round.push_back({radius * std::cos(2 * kPi * i / points), 1, -radius * std::sin(2 * kPi * i / points)});
     return {"circle", round, 3, 20, true};
 }
 
@@ -66,20 +67,24 @@ TEST(Course, ACircleCloses) {
 
 TEST(Course, SlowsDownBeforeACurve) {
     std::vector<glm::dvec3> points{{0, 0, 200}};
-    for (int i = 0; i <= 45; ++i) points.push_back({-10 + 10 * std::cos(i * kPi / 90), 0, -10 * std::sin(i * kPi / 90)});
+    for (int i = 0; i <= 45; ++i)
+        points.push_back({-10 + 10 * std::cos(i * kPi / 90), 0, -10 * std::sin(i * kPi / 90)});
     points.push_back(points.back() + glm::dvec3(-100, 0, -100));
     const Course lane("bend", points, 3, 20);
     const double bend = std::sqrt(Course::kCurve * 10);
     EXPECT_NEAR(lane.speed_at(204), bend, 0.1);
     EXPECT_EQ(lane.speed_at(0), 20);
-    for (double s = 0; s < 199; s += 1) EXPECT_LE(lane.speed_at(s) * lane.speed_at(s), lane.speed_at(s + 1) * lane.speed_at(s + 1) + 2 * Course::kEase * 1.01 + 1e-9);
+    for (double s = 0; s < 199; s += 1)
+        EXPECT_LE(lane.speed_at(s) * lane.speed_at(s),
+                  lane.speed_at(s + 1) * lane.speed_at(s + 1) + 2 * Course::kEase * 1.01 + 1e-9);
 }
 
 // 100 km/h, between 400 m and 500 m 30 km/h: braking begins before, and the end is waited for.
 TEST(Course, KeepsToLimitsThatChange) {
     std::vector<glm::dvec3> points;
     std::vector<double> limits;
-    for (int i = 0; i <= 70; ++i) points.push_back({0, 0, -10.0 * i}), limits.push_back((i >= 40 && i < 50 ? 30 : 100) / 3.6);
+    for (int i = 0; i <= 70; ++i)
+        points.push_back({0, 0, -10.0 * i}), limits.push_back((i >= 40 && i < 50 ? 30 : 100) / 3.6);
     const Course lane("limits", points, 3, limits);
     EXPECT_EQ(lane.speed(), 100 / 3.6);
     EXPECT_EQ(lane.speed_at(100), 100 / 3.6);
@@ -167,7 +172,8 @@ TEST(World, ACarThatComesInAnewSparesTheDriver) {
         for (int i = 0; i < 60 * 40; ++i) {
             world.step({.brake = 1}, kWorldStep);
             ASSERT_EQ(world.touched(), 0) << driver << " m, step " << i;
-            if (i > 60 * 5) least = std::min(least, double(world.actors()[1].position.z - world.actors()[0].position.z));
+            if (i > 60 * 5)
+                least = std::min(least, double(world.actors()[1].position.z - world.actors()[0].position.z));
         }
         EXPECT_GT(least, 4.4 + 0.5) << driver;
         EXPECT_LT(least, 60) << driver;
@@ -192,7 +198,9 @@ TEST(World, IsTheSameEveryTimeAndHangsOnItsSeed) {
     d->driver_lane = 0;
     for (int i = 1; i < 6; ++i) d->cars.push_back({.node = "car", .s = 40.0 * i, .speed = 8});
     World a(d, 5), b(d, 5), c(d, 6);
-    for (int i = 0; i < 600; ++i) a.step({.autopilot = true}, kWorldStep), b.step({.autopilot = true}, kWorldStep), c.step({.autopilot = true}, kWorldStep);
+    for (int i = 0; i < 600; ++i)
+        a.step({.autopilot = true}, kWorldStep), b.step({.autopilot = true}, kWorldStep),
+            c.step({.autopilot = true}, kWorldStep);
     EXPECT_EQ(a.driver().position, b.driver().position);
     EXPECT_EQ(a.actors()[3].position, b.actors()[3].position);
     EXPECT_NE(a.actors()[3].position, c.actors()[3].position);
@@ -225,7 +233,8 @@ TEST(World, CarsLetWalkersCrossAndWalkersWait) {
         world.step({}, kWorldStep);
         const auto actors = world.actors();
         crossed |= actors[2].position.x < -5.5;
-        if (std::abs(actors[2].position.x) < 2) nearest = std::min(nearest, glm::distance(actors[1].position, actors[2].position));
+        if (std::abs(actors[2].position.x) < 2)
+            nearest = std::min(nearest, glm::distance(actors[1].position, actors[2].position));
     }
     EXPECT_TRUE(crossed);
     EXPECT_GT(nearest, 3);
@@ -248,7 +257,9 @@ TEST(Barrier, StopsACarAndTakesEnergy) {
             energy = kinetic_energy(s, p);
             for (const int ahead : {-1, 1})
                 for (const int side : {-1, 1}) {
-                    const glm::dvec2 corner = s.position + ((p.front_axle - p.rear_axle) / 2 + ahead * p.length / 2) * s.forward() + side * p.width / 2 * s.left();
+                    const glm::dvec2 corner = s.position +
+                                              ((p.front_axle - p.rear_axle) / 2 + ahead * p.length / 2) * s.forward() +
+                                              side * p.width / 2 * s.left();
                     ASSERT_LT(corner.x, 3.05) << yaw << " " << i;
                 }
         }
@@ -256,18 +267,30 @@ TEST(Barrier, StopsACarAndTakesEnergy) {
     }
 }
 
-// A street under a bridge: neither its kerbs nor who stands there hold up a car above, nor is its lane that of who drives by hand.
+// A street under a bridge: neither its kerbs nor who stands there hold up a car above, nor is its lane that of who
+// drives by hand.
 TEST(World, RoadsAboveOneAnotherDoNotMeet) {
     for (const double high : {5.0, 0.0}) {
         const auto d = std::make_shared<WorldDescription>();
         d->lanes.emplace_back("above", std::vector<glm::dvec3>{{0, high, 0}, {0, high, -300}}, 3, 15);
         d->lanes.emplace_back("below", std::vector<glm::dvec3>{{-60, 0, -60}, {600, 0, -500}}, 3, 10);
         d->barriers.push_back({.line = {{-50, -104}, {50, -104}}, .height = 0.0});
-        RecordedMover parked{.node = "parked", .poses = {{.time = 0, .position = {0, 0, -100}, .yaw = -kPi / 2, .pitch = 0, .roll = 0, .speed = 0, .lamps = {}}, {.time = 60, .position = {0, 0, -100}, .yaw = -kPi / 2, .pitch = 0, .roll = 0, .speed = 0, .lamps = {}}}};
+        RecordedMover parked{
+            .node = "parked",
+            .poses = {
+                {.time = 0, .position = {0, 0, -100}, .yaw = -kPi / 2, .pitch = 0, .roll = 0, .speed = 0, .lamps = {}},
+                {.time = 60,
+                 .position = {0, 0, -100},
+                 .yaw = -kPi / 2,
+                 .pitch = 0,
+                 .roll = 0,
+                 .speed = 0,
+                 .lamps = {}}}};
         d->recordings.push_back(parked);
         for (const bool by_hand : {false, true}) {
             World world(d, 1);
-            for (int i = 0; i < 30 / kWorldStep; ++i) world.step({.throttle = by_hand ? 0.3 : 0.0, .autopilot = !by_hand}, kWorldStep);
+            for (int i = 0; i < 30 / kWorldStep; ++i)
+                world.step({.throttle = by_hand ? 0.3 : 0.0, .autopilot = !by_hand}, kWorldStep);
             const glm::dvec3 at = world.actors().front().position;
             if (high > 0) {
                 EXPECT_LT(at.z, -250) << by_hand;
@@ -300,7 +323,8 @@ TEST(Daylight, IsThePublishedTwilight) {
     EXPECT_NEAR(daylight_illuminance(-18), 6.51e-4, 0.1e-4);
     EXPECT_NEAR(daylight_illuminance(90) / 1.29e5, 1, 0.01);
     EXPECT_EQ(daylight_illuminance(-60), daylight_illuminance(-18));
-    for (double e = -18; e < 90; e += 0.01) EXPECT_LE(daylight_illuminance(e), daylight_illuminance(e + 0.01) * 1.02) << e;
+    for (double e = -18; e < 90; e += 0.01)
+        EXPECT_LE(daylight_illuminance(e), daylight_illuminance(e + 0.01) * 1.02) << e;
 }
 
 TEST(WorldFile, TheStreetOfRivoliIsOne) {
@@ -317,7 +341,10 @@ TEST(WorldFile, TheStreetOfRivoliIsOne) {
 TEST(WorldFile, HasBounds) {
     const test::TempFolder folder;
     const auto refused = [&](const std::string& more) {
-        folder.write("w.json", R"({"version": 1, "scene": "s.gltf", "driver": {"lane": "a"}, "lanes": [{"name": "a", "points": [[0, 0, 0], [0, 0, -9]]}])" + more + "}");
+        folder.write(
+            "w.json",
+            R"({"version": 1, "scene": "s.gltf", "driver": {"lane": "a"}, "lanes": [{"name": "a", "points": [[0, 0, 0], [0, 0, -9]]}])" +
+                more + "}");
         return test::complaint_of([&] { read_world(folder / "w.json"); });
     };
     const auto many = [](size_t count, const std::string& one) {
@@ -326,9 +353,12 @@ TEST(WorldFile, HasBounds) {
         return text + "]";
     };
     EXPECT_EQ(refused(R"(, "paths": [{"name": "p", "points": [[0, 0, 0], [5000, 0, 0]]}])"), "");
-    EXPECT_TRUE(test::contains(refused(R"(, "paths": [{"name": "p", "points": [[-1000000, 0, 0], [1000000, 0, 0]]}])"), "w.json: /paths: are longer than 10000 m"));
-    EXPECT_TRUE(test::contains(refused(R"(, "cars": )" + many(1001, R"({"node": "c", "lane": "a"})")), "w.json: /cars: more than 1000"));
-    EXPECT_TRUE(test::contains(refused(R"(, "barriers": [)" + many(100'001, "[0, 1]") + "]"), "w.json: /barriers/0: with this one"));
+    EXPECT_TRUE(test::contains(refused(R"(, "paths": [{"name": "p", "points": [[-1000000, 0, 0], [1000000, 0, 0]]}])"),
+                               "w.json: /paths: are longer than 10000 m"));
+    EXPECT_TRUE(test::contains(refused(R"(, "cars": )" + many(1001, R"({"node": "c", "lane": "a"})")),
+                               "w.json: /cars: more than 1000"));
+    EXPECT_TRUE(test::contains(refused(R"(, "barriers": [)" + many(100'001, "[0, 1]") + "]"),
+                               "w.json: /barriers/0: with this one"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Displays from measurements: known ones are found again, nonsense is refused where it stands. SPDX-License-Identifier: MIT
+// Displays from measurements: known ones are found again, nonsense is refused where it stands. SPDX-License-Identifier:
+// MIT
 #include "vision/display_fit.h"
 
 #include <cmath>
@@ -20,7 +21,9 @@ std::vector<DisplayMeasurement> measure(const Display& display, double noise = 0
     std::vector<DisplayMeasurement> made;
     for (const uint32_t code : kCodes) {
         const uint32_t scaled = code * display.largest_code() / 255;
-        made.push_back({scaled, curve.emitted(double(scaled) / display.largest_code()) * (noise > 0 ? 1 + error(random) : 1), made.size() + 2});
+        made.push_back({scaled,
+                        curve.emitted(double(scaled) / display.largest_code()) * (noise > 0 ? 1 + error(random) : 1),
+                        made.size() + 2});
     }
     return made;
 }
@@ -52,7 +55,10 @@ TEST(DisplayFit, NoiseStaysInTheResiduals) {
 }
 
 TEST(DisplayFit, OthersAreTables) {
-    Display odd{.peak = 90, .black = 0.3f, .eotf = Eotf::Table, .table = {{0, double(0.3f)}, {0.1, 0.5}, {0.3, 5}, {0.31, 8}, {0.6, 30}, {1, 90}}};
+    Display odd{.peak = 90,
+                .black = 0.3f,
+                .eotf = Eotf::Table,
+                .table = {{0, double(0.3f)}, {0.1, 0.5}, {0.3, 5}, {0.31, 8}, {0.6, 30}, {1, 90}}};
     const auto measured = measure(odd);
     const DisplayFit fit = fit_display(measured, 8);
     EXPECT_EQ(fit.display.eotf, Eotf::Table);
@@ -62,7 +68,8 @@ TEST(DisplayFit, OthersAreTables) {
 
 // Codes 3 and 4 fall within the noise and 255 was measured twice: a plateau of their mean, and the curve rises.
 TEST(DisplayFit, TablesRiseThroughNoise) {
-    std::vector<DisplayMeasurement> measured{{0, 0.1, 1}, {3, 0.102, 2}, {4, 0.101, 3}, {60, 5, 4}, {255, 100, 5}, {255, 102, 6}};
+    std::vector<DisplayMeasurement> measured{{0, 0.1, 1}, {3, 0.102, 2}, {4, 0.101, 3},
+                                             {60, 5, 4},  {255, 100, 5}, {255, 102, 6}};
     const DisplayFit fit = fit_display(measured, 8, Eotf::Table);
     ASSERT_EQ(fit.display.table.size(), 5u);
     for (const size_t i : {1u, 2u}) {
@@ -77,20 +84,24 @@ TEST(DisplayFit, TablesRiseThroughNoise) {
 TEST(DisplayFit, CrushedAndClippedCodesStayEqual) {
     std::vector<DisplayMeasurement> measured;
     for (const uint32_t code : {0u, 4u, 8u, 16u, 17u, 20u, 34u, 68u, 120u, 180u, 230u, 235u, 238u, 250u, 255u})
-        measured.push_back({code, 0.05 + 8 * std::pow(std::clamp((code - 16.0) / 219, 0.0, 1.0), 2.2), measured.size() + 1});
+        measured.push_back(
+            {code, 0.05 + 8 * std::pow(std::clamp((code - 16.0) / 219, 0.0, 1.0), 2.2), measured.size() + 1});
     const DisplayFit fit = fit_display(measured, 8);
     EXPECT_EQ(fit.display.eotf, Eotf::Table);
     EXPECT_LT(fit.largest, 2e-6);
     const DisplayCurve curve(fit.display);
     EXPECT_NEAR(curve.emitted(12 / 255.0), 0.05, 1e-6) << "between measured codes of the plateau, too";
     EXPECT_NEAR(curve.emitted(244 / 255.0), 8.05, 1e-4);
-    for (double code = 0, before = 0; code <= 1; code += 1.0 / 255) EXPECT_GE(curve.emitted(code), before), before = curve.emitted(code);
+    for (double code = 0, before = 0; code <= 1; code += 1.0 / 255)
+        EXPECT_GE(curve.emitted(code), before), before = curve.emitted(code);
     EXPECT_NO_THROW(check_display(fit.display));
 }
 
 // A meter reads 0 for what it cannot tell: equally black.
 TEST(DisplayFit, ZerosAreBlack) {
-    const DisplayFit fit = fit_display(std::vector<DisplayMeasurement>{{0, 0, 1}, {5, 0, 2}, {10, 5e-7, 3}, {60, 5, 4}, {120, 20, 5}, {255, 500, 6}}, 8, Eotf::Table);
+    const DisplayFit fit = fit_display(
+        std::vector<DisplayMeasurement>{{0, 0, 1}, {5, 0, 2}, {10, 5e-7, 3}, {60, 5, 4}, {120, 20, 5}, {255, 500, 6}},
+        8, Eotf::Table);
     EXPECT_FLOAT_EQ(fit.display.black, 1e-6f);
     EXPECT_LT(DisplayCurve(fit.display).emitted(10 / 255.0), 1.1e-6);
     EXPECT_NO_THROW(check_display(fit.display));
@@ -105,7 +116,8 @@ TEST(DisplayFit, PooledTablesAreReadAgain) {
         std::string text;
         double least = 0, largest = 0;  // of the noise, relative
         for (uint32_t code = 0; code <= 255; ++code) {
-            const double luminance = 0.1 + 90 * std::pow(code / 255.0, 2.6) + 9 * (code / 255.0), factor = 1 + noise(random);
+            const double luminance = 0.1 + 90 * std::pow(code / 255.0, 2.6) + 9 * (code / 255.0),
+                         factor = 1 + noise(random);
             least = std::min(least, factor - 1), largest = std::max(largest, factor - 1);
             text += std::to_string(code) + "," + std::to_string(luminance * factor) + "\n";
         }
@@ -115,13 +127,15 @@ TEST(DisplayFit, PooledTablesAreReadAgain) {
         EXPECT_LT(fit.rms, 0.011);
         const Display again = read_display(folder.write("d.json", display_json(fit.display, "")));
         ASSERT_EQ(again.table.size(), fit.display.table.size());
-        for (size_t i = 0; i < again.table.size(); ++i) EXPECT_EQ(again.table[i].luminance, fit.display.table[i].luminance);
+        for (size_t i = 0; i < again.table.size(); ++i)
+            EXPECT_EQ(again.table[i].luminance, fit.display.table[i].luminance);
     }
 }
 
 TEST(DisplayFit, ReadsWhatSpreadsheetsWrite) {
     const TempFolder folder;
-    for (const char* text : {"code,cd_m2\n0,0.1\n128,22\n255,100\n", "0;0,1\r\n128;22\r\n255;100\r\n", "# wall\n255\t100\n\n0\t0.1  # black\n128\t22\n", "0 0.1\n128 22\n255 100"}) {
+    for (const char* text : {"code,cd_m2\n0,0.1\n128,22\n255,100\n", "0;0,1\r\n128;22\r\n255;100\r\n",
+                             "# wall\n255\t100\n\n0\t0.1  # black\n128\t22\n", "0 0.1\n128 22\n255 100"}) {
         const auto measured = read_display_measurements(folder.write("m.csv", text), 8);
         ASSERT_EQ(measured.size(), 3u) << text;
         double sum = 0;
@@ -133,11 +147,21 @@ TEST(DisplayFit, ReadsWhatSpreadsheetsWrite) {
 TEST(DisplayFit, NonsenseIsRefusedWhereItStands) {
     const TempFolder folder;
     const std::pair<const char*, const char*> cases[]{
-        {"0,0.1\n128,22\n", "line 2: "},           {"0,0.1\n128,abc\n255,9\n", "line 2: "}, {"0,0.1\n300,22\n255,9\n", "line 2: "},
-        {"0,0.1\n-1,22\n255,9\n", "line 2: "},     {"0,0.1\n1.5,22\n255,9\n", "line 2: "},  {"0,0.1\n128,-3\n255,9\n", "line 2: "},
-        {"0,0.1\n128,nan\n255,9\n", "line 2: "},   {"0,0.1\n128,\n255,9\n", "line 2: "},    {"0,0.1\n50,20\n128,5\n255,100\n", "line 3: "},
-        {"5,0.1\n128,22\n255,100\n", "code 0"},    {"0,0.1\n128,22\n254,100\n", "255"},     {"0,99\n128,99.5\n255,100\n", "line 1: "},
-        {"0,0\n128,0.01\n255,0.02\n", "line 3: "}, {"", "line 1: "},                        {"0,0.1\ncode,cd\n255,9\n", "line 2: "},
+        {"0,0.1\n128,22\n", "line 2: "},
+        {"0,0.1\n128,abc\n255,9\n", "line 2: "},
+        {"0,0.1\n300,22\n255,9\n", "line 2: "},
+        {"0,0.1\n-1,22\n255,9\n", "line 2: "},
+        {"0,0.1\n1.5,22\n255,9\n", "line 2: "},
+        {"0,0.1\n128,-3\n255,9\n", "line 2: "},
+        {"0,0.1\n128,nan\n255,9\n", "line 2: "},
+        {"0,0.1\n128,\n255,9\n", "line 2: "},
+        {"0,0.1\n50,20\n128,5\n255,100\n", "line 3: "},
+        {"5,0.1\n128,22\n255,100\n", "code 0"},
+        {"0,0.1\n128,22\n254,100\n", "255"},
+        {"0,99\n128,99.5\n255,100\n", "line 1: "},
+        {"0,0\n128,0.01\n255,0.02\n", "line 3: "},
+        {"", "line 1: "},
+        {"0,0.1\ncode,cd\n255,9\n", "line 2: "},
         {"0,0.1\n128\n255,9\n", "line 2: "},
         {"0,0.1\n200,60\n240,88\n240,1\n255,100\n", "line 4: code 240 has another luminance than in line 3"},
         {"0,0.1\n240,70\n200,60\n240,88\n255,100\n", "line 4: code 240 has another luminance than in line 2"},

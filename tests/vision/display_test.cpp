@@ -49,13 +49,14 @@ Display sampled(const Display& source, int count, double power) {
     return made;
 }
 
-// A table of a known display finds it again between its measurements: a gamma of 2.2 exactly, others nearly; sRGB, whose
-// toe is straight, only where there are measurements near black.
+// A table of a known display finds it again between its measurements: a gamma of 2.2 exactly, others nearly; sRGB,
+// whose toe is straight, only where there are measurements near black.
 TEST(Display, TablesAreInterpolatedAlmostAsDisplaysAre) {
     const auto worst = [](const Display& display, int count, double power) {
         const DisplayCurve want(display), got(sampled(display, count, power));
         double most = 0;
-        for (int i = 0; i <= 255; ++i) most = std::max(most, std::abs(got.emitted(i / 255.0) / want.emitted(i / 255.0) - 1));
+        for (int i = 0; i <= 255; ++i)
+            most = std::max(most, std::abs(got.emitted(i / 255.0) / want.emitted(i / 255.0) - 1));
         return most;
     };
     EXPECT_LT(worst({.peak = 100, .black = 0.1f}, 3, 1), 1e-6);
@@ -64,7 +65,9 @@ TEST(Display, TablesAreInterpolatedAlmostAsDisplaysAre) {
 }
 
 TEST(Display, TablesRiseAndMeetTheirMeasurements) {
-    const Display display{.peak = 50, .black = 0.2f, .eotf = Eotf::Table,
+    const Display display{.peak = 50,
+                          .black = 0.2f,
+                          .eotf = Eotf::Table,
                           .table = {{0, double(0.2f)}, {0.1, 0.21}, {0.5, 0.22}, {0.52, 30}, {0.9, 30.01}, {1, 50}}};
     const DisplayCurve curve(display);
     for (const DisplaySample& sample : display.table) EXPECT_NEAR(curve.emitted(sample.code), sample.luminance, 1e-9);
@@ -82,8 +85,11 @@ TEST(Display, KnownOnesAreSound) {
         EXPECT_NO_THROW(check_display(known.display)) << known.name;
         names.emplace_back(known.name);
     }
-    for (const char* name : {"lcd", "office", "projector", "hdr10"}) EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
-    const auto find = [&](const std::string& name) { return known_displays()[size_t(std::find(names.begin(), names.end(), name) - names.begin())].display; };
+    for (const char* name : {"lcd", "office", "projector", "hdr10"})
+        EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+    const auto find = [&](const std::string& name) {
+        return known_displays()[size_t(std::find(names.begin(), names.end(), name) - names.begin())].display;
+    };
     EXPECT_EQ(find("projector").peak, 10);
     EXPECT_EQ(find("hdr10").bits, 10u);
     // pfstools: lcd is 200 and 0.8 cd/m^2 in 60 lx, of which 1 % is reflected.
@@ -94,14 +100,18 @@ TEST(Display, KnownOnesAreSound) {
 TEST(Display, RefusesWhatCannotBe) {
     const float nan = std::nanf("");
     const DisplaySample low{0, 1}, high{1, 100};
-    const auto table = [&](std::vector<DisplaySample> samples) { return Display{.peak = 100, .black = 1, .eotf = Eotf::Table, .table = std::move(samples)}; };
+    const auto table = [&](std::vector<DisplaySample> samples) {
+        return Display{.peak = 100, .black = 1, .eotf = Eotf::Table, .table = std::move(samples)};
+    };
     EXPECT_NO_THROW(check_display(table({low, high})));
     for (const Display& display :
-         {Display{.peak = nan}, Display{.peak = 1, .black = 2}, Display{.black = -1}, Display{.black = 0, .ambient = 0}, Display{.gamma = 0},
-          Display{.ambient = -1}, Display{.reflection = 2}, Display{.bits = 9}, Display{.peak = 20000, .eotf = Eotf::Pq},
-          Display{.primaries = {{0.3, 0.3}, {0.3, 0.3}, {0.1, 0.1}, {0.3, 0.3}}}, table({}), table({low}), table({high, low}),
-          table({low, {0.5, 0.5}, high}), table({low, {0.5, 50}, {0.5, 60}, high}), table({{0.1, 1}, high}), table({low, {0.9, 100}}),
-          table({{0, 2}, high}), table({low, {0.5, std::nan("")}, high})})
+         {Display{.peak = nan}, Display{.peak = 1, .black = 2}, Display{.black = -1}, Display{.black = 0, .ambient = 0},
+          Display{.gamma = 0}, Display{.ambient = -1}, Display{.reflection = 2}, Display{.bits = 9},
+          Display{.peak = 20000, .eotf = Eotf::Pq},
+          Display{.primaries = {{0.3, 0.3}, {0.3, 0.3}, {0.1, 0.1}, {0.3, 0.3}}}, table({}), table({low}),
+          table({high, low}), table({low, {0.5, 0.5}, high}), table({low, {0.5, 50}, {0.5, 60}, high}),
+          table({{0.1, 1}, high}), table({low, {0.9, 100}}), table({{0, 2}, high}),
+          table({low, {0.5, std::nan("")}, high})})
         EXPECT_THROW(check_display(display), Error);
 }
 

@@ -24,10 +24,12 @@ double transmitted(const std::vector<std::complex<double>>& amplitude) {
 TEST(EyeAperture, ThePupilLetsItsAreaThrough) {
     const EyeAperture eye;
     for (const double diameter : {2.0, 4.0, 6.5}) {
-        const double area = std::numbers::pi * diameter * diameter / 4, open = transmitted(eye.amplitude(diameter, 0)) / area;
+        const double area = std::numbers::pi * diameter * diameter / 4,
+                     open = transmitted(eye.amplitude(diameter, 0)) / area;
         EXPECT_LT(open, 1) << diameter << ": something is in the way";
         EXPECT_GT(open, 0.9) << diameter;
-        EXPECT_LT(transmitted(EyeAperture({.lashes = true}).amplitude(diameter, 0)) / area, open - 0.01) << diameter << ": lashes";
+        EXPECT_LT(transmitted(EyeAperture({.lashes = true}).amplitude(diameter, 0)) / area, open - 0.01)
+            << diameter << ": lashes";
     }
 }
 
@@ -35,14 +37,18 @@ TEST(EyeAperture, ThePupilLetsItsAreaThrough) {
 TEST(EyeAperture, FarFieldIsTheFourierTransform) {
     constexpr int kSmall = 16;
     std::vector<std::complex<double>> amplitude;
-    for (int i = 0; i < kSmall * kSmall; ++i) amplitude.push_back(std::polar(0.5 + 0.5 * std::sin(7.0 * i), std::cos(3.0 * i)));
+    for (int i = 0; i < kSmall * kSmall; ++i)
+        amplitude.push_back(std::polar(0.5 + 0.5 * std::sin(7.0 * i), std::cos(3.0 * i)));
     const std::vector<double> intensity = far_field(amplitude, kSmall);
     for (int v = -kSmall / 2; v < kSmall / 2; ++v)
         for (int u = -kSmall / 2; u < kSmall / 2; ++u) {
             std::complex<double> sum = 0;
             for (int y = 0; y < kSmall; ++y)
-                for (int x = 0; x < kSmall; ++x) sum += amplitude[size_t(y * kSmall + x)] * std::polar(1.0, -2 * std::numbers::pi * (u * x + v * y) / kSmall);
-            EXPECT_NEAR(intensity[size_t((v + kSmall / 2) * kSmall + u + kSmall / 2)], std::norm(sum), 1e-9) << u << ", " << v;
+                for (int x = 0; x < kSmall; ++x)
+                    sum += amplitude[size_t(y * kSmall + x)] *
+                           std::polar(1.0, -2 * std::numbers::pi * (u * x + v * y) / kSmall);
+            EXPECT_NEAR(intensity[size_t((v + kSmall / 2) * kSmall + u + kSmall / 2)], std::norm(sum), 1e-9)
+                << u << ", " << v;
         }
 }
 
@@ -55,7 +61,8 @@ TEST(EyeAperture, ASlitHasItsZeros) {
     const std::vector<double> intensity = far_field(amplitude, kSmall);
     const size_t row = size_t(kSmall) * kSmall / 2, straight = kSmall / 2;
     EXPECT_NEAR(intensity[row + straight], std::pow(kSmall * kWide, 2), 1e-6);
-    for (int k = 1; k < kWide / 2; ++k) EXPECT_NEAR(intensity[row + straight + size_t(k * kSmall / kWide)], 0, 1e-18 * intensity[row + straight]);
+    for (int k = 1; k < kWide / 2; ++k)
+        EXPECT_NEAR(intensity[row + straight + size_t(k * kSmall / kWide)], 0, 1e-18 * intensity[row + straight]);
     EXPECT_NEAR(intensity[row + size_t(kSmall) + straight], 0, 1e-18 * intensity[row + straight]) << "along the slit";
 }
 
@@ -72,7 +79,8 @@ TEST(EyeAperture, ThePupilIsRestless) {
     // Hours into a drive it is as calm as ever, though what it rests at changes a little from frame to frame.
     double late = 0;
     for (int i = 0; i < 600; ++i) {
-        const double rest = 4 + 0.2 * std::sin(i * 0.01), after = 4 + 0.2 * std::sin((i + 1) * 0.01), now = 7200 + i / 60.0;
+        const double rest = 4 + 0.2 * std::sin(i * 0.01), after = 4 + 0.2 * std::sin((i + 1) * 0.01),
+                     now = 7200 + i / 60.0;
         late = std::max(late, std::abs(restless_pupil(after, now + 1 / 60.0, 3) - restless_pupil(rest, now, 3)));
     }
     EXPECT_LT(late, 0.05) << "mm in a frame";

@@ -29,10 +29,14 @@ const EyeAperture& aperture() {
 }
 
 double middle(int row) { return GlarePattern::angle(row + 0.5); }
-dvec3 modulation(const GlarePattern& p, int row, int column) { return dvec3(p.modulation[size_t(row) * kColumns + size_t(column)]); }
+dvec3 modulation(const GlarePattern& p, int row, int column) {
+    return dvec3(p.modulation[size_t(row) * kColumns + size_t(column)]);
+}
 /// sr of a row.
 double steradians(int row) {
-    return 2 * std::numbers::pi * (std::cos(GlarePattern::angle(row) * kRadiansPerDegree) - std::cos(GlarePattern::angle(row + 1) * kRadiansPerDegree));
+    return 2 * std::numbers::pi *
+           (std::cos(GlarePattern::angle(row) * kRadiansPerDegree) -
+            std::cos(GlarePattern::angle(row + 1) * kRadiansPerDegree));
 }
 
 /// What is seen about a lamp beside the smooth veil: mean of a row.
@@ -64,10 +68,12 @@ TEST(GlarePattern, TemporalHasTheMeanOfTheCieFunction) {
             dvec3 energy(0);
             for (int row = 0; row < kRows; ++row) {
                 // 1e-6: single precision of the rows; the mean of 512 columns is good to 1e-6 of the needles.
-                EXPECT_NEAR(luminance(mean(p, row)) / smooth(middle(row)), 0, 2e-6) << age << " years, " << middle(row) << " degrees";
+                EXPECT_NEAR(luminance(mean(p, row)) / smooth(middle(row)), 0, 2e-6)
+                    << age << " years, " << middle(row) << " degrees";
                 energy += steradians(row) * mean(p, row);
             }
-            // Of all light: channels have as much as they had. 1e-5: f3 itself is 0.9998 to 1.0002 over its wavelengths.
+            // Of all light: channels have as much as they had. 1e-5: f3 itself is 0.9998 to 1.0002 over its
+            // wavelengths.
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(energy[c], 0, 1e-5) << age << " years, " << pupil << " mm";
         }
 }
@@ -79,7 +85,10 @@ TEST(GlarePattern, LeavesATenthOfTheVeil) {
         double darkest = 1e9;
         for (int row = 0; row < kRows; ++row)
             for (int c = 0; c < kColumns; ++c) {
-                const dvec3 part = (dvec3(p.ring[size_t(row)]) + dvec3(p.needles[size_t(row)]) * modulation(p, row, c)) / psf(middle(row)) + 1.0;
+                const dvec3 part =
+                    (dvec3(p.ring[size_t(row)]) + dvec3(p.needles[size_t(row)]) * modulation(p, row, c)) /
+                        psf(middle(row)) +
+                    1.0;
                 darkest = std::min({darkest, part.r, part.g, part.b});
             }
         return darkest;
@@ -90,8 +99,8 @@ TEST(GlarePattern, LeavesATenthOfTheVeil) {
     EXPECT_GE(least(spencer_pattern(scotopic, SpencerState::Scotopic, 1), scotopic), 0.1);
 }
 
-// Radii of the published ring: 3 degrees times the wavelength over 568 nm, blue inside. Means over a channel's wavelengths: 2.4 degrees for
-// 455 nm, 2.85 for 540, 3.2 for 605.
+// Radii of the published ring: 3 degrees times the wavelength over 568 nm, blue inside. Means over a channel's
+// wavelengths: 2.4 degrees for 455 nm, 2.85 for 540, 3.2 for 605.
 TEST(GlarePattern, TheHaloIsAtItsPublishedRadiiAndColours) {
     const EyeScatter smooth = veil(SpencerState::Scotopic);
     const GlarePattern p = spencer_pattern(smooth, SpencerState::Scotopic, 1);
@@ -105,7 +114,9 @@ TEST(GlarePattern, TheHaloIsAtItsPublishedRadiiAndColours) {
     // The light of the ring is what the weight of f3 says, over the plateau that stands for it elsewhere.
     dvec3 energy(0), ring(0);
     for (int row = 0; row < kRows; ++row) {
-        const double theta = middle(row), plateau = spencer_veil(theta, SpencerState::Scotopic) - spencer_smooth_glare(theta, spencer_weights(SpencerState::Scotopic));
+        const double theta = middle(row),
+                     plateau = spencer_veil(theta, SpencerState::Scotopic) -
+                               spencer_smooth_glare(theta, spencer_weights(SpencerState::Scotopic));
         energy += steradians(row) * mean(p, row);
         ring += steradians(row) * (mean(p, row) + plateau / smooth.total());
     }
@@ -140,7 +151,9 @@ TEST(GlarePattern, SpencersNeedlesStandOutFurtherFromTheLamp) {
     EXPECT_GT(at(1), 0.4);
     EXPECT_GT(at(3), at(1));
     for (int row = 0; row < kRows; ++row)
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean(p, row)[c] / spencer_smooth_glare(middle(row), spencer_weights(SpencerState::Photopic)), 0, 1e-5);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(mean(p, row)[c] / spencer_smooth_glare(middle(row), spencer_weights(SpencerState::Photopic)), 0,
+                        1e-5);
 }
 
 // White light draws the grains of one wavelength out to needles: along a radius the pattern changes slower than around.
@@ -161,7 +174,9 @@ TEST(GlarePattern, NeedlesAreRadial) {
 
 TEST(GlarePattern, MovesSlowlyAndOnlyWithTime) {
     const EyeScatter smooth = cie(24);
-    const auto at = [&](double seconds) { return temporal_pattern(smooth, aperture(), restless_pupil(5, seconds, 1), seconds); };
+    const auto at = [&](double seconds) {
+        return temporal_pattern(smooth, aperture(), restless_pupil(5, seconds, 1), seconds);
+    };
     const auto apart = [](const GlarePattern& a, const GlarePattern& b) {
         double difference = 0, all = 0;
         for (int row = int(GlarePattern::row_of(0.2)); row < kRows; ++row)
@@ -173,7 +188,8 @@ TEST(GlarePattern, MovesSlowlyAndOnlyWithTime) {
     };
     const GlarePattern first = at(10);
     EXPECT_EQ(apart(first, at(10)), 0) << "the same moment, the same picture";
-    const double frame = apart(first, at(10 + 1.0 / 60)), blink = apart(first, at(10 + 1e-4)), second = apart(first, at(11));
+    const double frame = apart(first, at(10 + 1.0 / 60)), blink = apart(first, at(10 + 1e-4)),
+                 second = apart(first, at(11));
     EXPECT_GT(frame, 0);
     EXPECT_LT(blink, 1e-4);
     EXPECT_LT(frame, 0.1);

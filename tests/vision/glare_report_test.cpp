@@ -8,19 +8,19 @@
 #include <gtest/gtest.h>
 
 #include "base/angle.h"
-#include "vision/visibility.h"
 #include "photometry/road.h"
+#include "vision/visibility.h"
 
 namespace vesper {
 namespace {
-
 
 struct Picture {
     ImageAngles image{321, 201, {-0.6, -0.375}, {0.6, 0.375}};
     std::vector<float> rgba;
 
     explicit Picture(float luminance) {
-        for (int i = 0; i < image.width * image.height; ++i) rgba.insert(rgba.end(), {luminance, luminance, luminance, 1});
+        for (int i = 0; i < image.width * image.height; ++i)
+            rgba.insert(rgba.end(), {luminance, luminance, luminance, 1});
     }
     void set(int x, int y, float value) {
         for (size_t c = 0; c < 3; ++c) rgba[4 * size_t(y * image.width + x) + c] = value;
@@ -33,12 +33,14 @@ TEST(GlareReport, LampsInAndBesideThePictureAddUp) {
     Picture picture(0.5f);
     picture.set(250, 60, 2e5f);
     const glm::dvec3 inside = picture.towards(250, 60), outside = glm::normalize(glm::dvec3(1, 0.2, -1));
-    const GlareReport report = report_glare(picture.image, picture.rgba, std::vector{DazzlingLight{outside, 3}}, {.eye = {60, 0.5}, .source_luminance = 100});
+    const GlareReport report = report_glare(picture.image, picture.rgba, std::vector{DazzlingLight{outside, 3}},
+                                            {.eye = {60, 0.5}, .source_luminance = 100});
 
     double want = 0, road = 0;
     for (const auto& [direction, lux] : {std::pair{inside, 2e5 * picture.steradians(250, 60)}, {outside, 3.0}}) {
         const double theta = std::acos(-direction.z) * kDegreesPerRadian, e = lux * -direction.z;
-        want += e * (10 / std::pow(theta, 3) + (5 / (theta * theta) + 0.05 / theta) * (1 + std::pow(60 / 62.5, 4)) + 0.00125);
+        want += e * (10 / std::pow(theta, 3) + (5 / (theta * theta) + 0.05 / theta) * (1 + std::pow(60 / 62.5, 4)) +
+                     0.00125);
         road += e * 9.86 * (1 + std::pow(60 / 66.4, 4)) / (theta * theta);
     }
     // 1e-6: floats of the picture.
@@ -61,8 +63,11 @@ TEST(GlareReport, WhatIsLookedAtIsNoGlare) {
 TEST(GlareReport, SourcesStandOutFromThePicture) {
     Picture picture(0.5f);
     picture.set(250, 60, 49), picture.set(60, 60, 52);
-    EXPECT_NEAR(report_glare(picture.image, picture.rgba, {}, {}).veil / report_glare(picture.image, picture.rgba, {}, {.source_luminance = 50.01}).veil, 1, 1e-12);
-    EXPECT_LT(report_glare(picture.image, picture.rgba, {}, {}).veil, 0.7 * report_glare(picture.image, picture.rgba, {}, {.source_luminance = 48}).veil);
+    EXPECT_NEAR(report_glare(picture.image, picture.rgba, {}, {}).veil /
+                    report_glare(picture.image, picture.rgba, {}, {.source_luminance = 50.01}).veil,
+                1, 1e-12);
+    EXPECT_LT(report_glare(picture.image, picture.rgba, {}, {}).veil,
+              0.7 * report_glare(picture.image, picture.rgba, {}, {.source_luminance = 48}).veil);
 }
 
 // Half of the picture is a sky of nothing: the road is no source, the lamp above it is.
@@ -79,14 +84,17 @@ TEST(GlareReport, ABlackSkyMakesNoSourcesOfTheRoad) {
 TEST(GlareReport, OnABlackRoadTheIncrementHasNoEnd) {
     Picture picture(0);
     EXPECT_EQ(report_glare(picture.image, picture.rgba, {}, {}).increment, 0);
-    EXPECT_TRUE(std::isinf(report_glare(picture.image, picture.rgba, std::vector{DazzlingLight{glm::normalize(glm::dvec3(1, 0, -4)), 3}}, {}).increment));
+    EXPECT_TRUE(std::isinf(report_glare(picture.image, picture.rgba,
+                                        std::vector{DazzlingLight{glm::normalize(glm::dvec3(1, 0, -4)), 3}}, {})
+                               .increment));
 }
 
 TEST(GlareReport, NothingIsNotANumber) {
     Picture picture(0);
     picture.set(3, 3, std::numeric_limits<float>::quiet_NaN());
     picture.set(4, 3, std::numeric_limits<float>::infinity());
-    const GlareReport report = report_glare(picture.image, picture.rgba, std::vector{DazzlingLight{{0, 0, 1}, 5}}, {.source_luminance = 1, .target = MarkedTarget{{0.4, 0.4}, {0.1, 0.1}}});
+    const GlareReport report = report_glare(picture.image, picture.rgba, std::vector{DazzlingLight{{0, 0, 1}, 5}},
+                                            {.source_luminance = 1, .target = MarkedTarget{{0.4, 0.4}, {0.1, 0.1}}});
     EXPECT_EQ(report.veil, 0);
     EXPECT_EQ(report.increment, 0);
     EXPECT_TRUE(std::isfinite(report.visibility));
@@ -98,15 +106,27 @@ TEST(GlareReport, GlareHidesATarget) {
     for (int y = 98; y < 102; ++y)
         for (int x = 158; x < 162; ++x) picture.set(x, y, 0.6f);
     const MarkedTarget target{{158.0 / 321, 98.0 / 201}, {4.0 / 321, 4.0 / 201}};
-    const auto ask = [&] { return report_glare(picture.image, picture.rgba, {}, {.eye = {23, 0.5}, .source_luminance = 100, .target = target}); };
+    const auto ask = [&] {
+        return report_glare(picture.image, picture.rgba, {},
+                            {.eye = {23, 0.5}, .source_luminance = 100, .target = target});
+    };
     const GlareReport free = ask();
     EXPECT_NEAR(free.target, 0.6, 1e-6);
     EXPECT_NEAR(free.around, 0.3, 1e-6);
     const double steradians = 16 * picture.steradians(160, 100);
-    EXPECT_NEAR(free.visibility / visibility_level(0.6, 0.3, {.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegreesPerRadian * 60}), 1, 1e-3);
+    EXPECT_NEAR(
+        free.visibility /
+            visibility_level(0.6, 0.3, {.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegreesPerRadian * 60}),
+        1, 1e-3);
     picture.set(175, 99, float(2 / picture.steradians(175, 99)));  // 2 lx at 3.2 degrees
     const GlareReport dazzled = ask();
-    EXPECT_NEAR(dazzled.target_veil, 2 * cie_general_glare(std::acos(glm::dot(picture.towards(175, 99), glm::normalize(glm::dvec3(picture.image.at({160, 100}), -1)))) * kDegreesPerRadian, {23, 0.5}), 0.01);
+    EXPECT_NEAR(
+        dazzled.target_veil,
+        2 * cie_general_glare(std::acos(glm::dot(picture.towards(175, 99),
+                                                 glm::normalize(glm::dvec3(picture.image.at({160, 100}), -1)))) *
+                                  kDegreesPerRadian,
+                              {23, 0.5}),
+        0.01);
     EXPECT_LT(dazzled.visibility, 0.5 * free.visibility);
 }
 

@@ -10,8 +10,9 @@ namespace {
 
 // tone-mapping.md, section 4: half saturation of cones and rods. Six digits.
 TEST(Pattanaik, HalfSaturationsAreThoseOfTheTable) {
-    const double table[][3]{{1e-3, 13.0936, 0.0312609}, {0.01, 13.7690, 0.213156}, {0.1, 18.2352, 1.45230},   {1, 75.3453, 9.89445}, {10, 350.759, 67.4101},
-                            {25, 646.106, 144.658},     {100, 1628.08, 459.260},   {1e3, 7556.90, 3128.90}, {1e4, 35076, 21317}};
+    const double table[][3]{{1e-3, 13.0936, 0.0312609}, {0.01, 13.7690, 0.213156}, {0.1, 18.2352, 1.45230},
+                            {1, 75.3453, 9.89445},      {10, 350.759, 67.4101},    {25, 646.106, 144.658},
+                            {100, 1628.08, 459.260},    {1e3, 7556.90, 3128.90},   {1e4, 35076, 21317}};
     for (const auto& [adaptation, cones, rods] : table) {
         EXPECT_NEAR(pattanaik::cone_sigma(adaptation) / cones, 1, 2e-5) << adaptation;
         EXPECT_NEAR(pattanaik::rod_sigma(adaptation) / rods, 1, 3e-5) << adaptation;
@@ -35,12 +36,14 @@ TEST(Pattanaik, TimeIsIntegratedExactly) {
     EXPECT_NEAR(pattanaik::after(once, 7, 7, 0).cones, once.cones, 1e-12);
 }
 
-// The observer of the display sees what it shows: adapted to 25 cd/m^2 without rods the picture is the scene over 125 cd/m^2.
+// The observer of the display sees what it shows: adapted to 25 cd/m^2 without rods the picture is the scene over 125
+// cd/m^2.
 TEST(Pattanaik, TheDisplaysObserverSeesTheSceneAsItIs) {
     pattanaik::State state = pattanaik::adapted(25, 25);
     state.rod_pigment = 0, state.cone_pigment = 1;
     const pattanaik::Appearance appearance(state);
-    for (double luminance : {4.0, 25.0, 100.0, 120.0}) EXPECT_NEAR(appearance(luminance, luminance).luminance, luminance / 125, 1e-9) << luminance;
+    for (double luminance : {4.0, 25.0, 100.0, 120.0})
+        EXPECT_NEAR(appearance(luminance, luminance).luminance, luminance / 125, 1e-9) << luminance;
     EXPECT_EQ(appearance(10, 10).cone_share, 1);
     // S_d = 0.138311 (computed there): n x / (1 + x)^2 / S_d is largest, n / 4 / S_d, at L = sigma.
     EXPECT_NEAR(appearance(646.106, 1).colour_exponent, 0.73 / 4 / 0.138311, 1e-4);

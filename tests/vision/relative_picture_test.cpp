@@ -1,4 +1,5 @@
-// The scale of pictures without a unit: closed forms, what does not count, invariance and continuity. SPDX-License-Identifier: MIT
+// The scale of pictures without a unit: closed forms, what does not count, invariance and continuity.
+// SPDX-License-Identifier: MIT
 #include "vision/relative_picture.h"
 
 #include <cmath>
@@ -48,10 +49,12 @@ TEST(RelativePicture, OfTwoLuminancesFollowsTheRule) {
     std::vector<double> two(1000, 1.0);
     std::fill(two.begin(), two.begin() + 100, 100.0);
     const RelativeLuminance found = relative_luminance(greys(two));
-    EXPECT_NEAR(found.log_average, std::pow(10, 2 * 99 / 999.0), 1e-5) << "of 999 pixels, as the brightest thousandth does not count";
+    EXPECT_NEAR(found.log_average, std::pow(10, 2 * 99 / 999.0), 1e-5)
+        << "of 999 pixels, as the brightest thousandth does not count";
     EXPECT_NEAR(found.highlights, 100, 1e-3);
     EXPECT_NEAR(plausible_luminance(found), std::pow(10, 3.5 - 0.75 * (2 - 2 * 99 / 999.0)), 1e-3);
-    EXPECT_NEAR(plausible_scale(found), plausible_luminance(found) / found.log_average, kDigits * plausible_scale(found));
+    EXPECT_NEAR(plausible_scale(found), plausible_luminance(found) / found.log_average,
+                kDigits * plausible_scale(found));
     EXPECT_EQ(plausible_luminance({1, 1e9}), 0.1) << "no darker than a night";
 }
 
@@ -69,9 +72,11 @@ TEST(RelativePicture, BordersSunsAndDamageDoNotCount) {
     append(more, 5000, 0, 0, 0);
     EXPECT_EQ(scale_of(more), scale) << "black borders";
     const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
-    append(more, 300, nan, 1, 1), append(more, 300, inf, 1, 1), append(more, 300, -inf, 1, 1), append(more, 300, -5, -1, -1);
+    append(more, 300, nan, 1, 1), append(more, 300, inf, 1, 1), append(more, 300, -inf, 1, 1),
+        append(more, 300, -5, -1, -1);
     EXPECT_EQ(scale_of(more), scale) << "no light";
-    // Noise of a lossy border, 1e-9 of the highlights: none of it counts in the log average; it counts for which hundredth is brightest.
+    // Noise of a lossy border, 1e-9 of the highlights: none of it counts in the log average; it counts for which
+    // hundredth is brightest.
     std::vector<float> noisy = rgb;
     append(noisy, 1000, 1e-9f, 1e-9f, 1e-9f);
     EXPECT_NEAR(relative_luminance(noisy).log_average / relative_luminance(rgb).log_average, 1, 2e-3);
@@ -119,7 +124,8 @@ TEST(RelativePicture, NothingJumps) {
         most = std::max(most, std::abs(std::log10(scale / last)));
         last = scale;
     }
-    // One of the 90 highlights changes by 4 decades, of which 0.75 count, and one of 10,000 pixels by 5, of which 0.25 count.
+    // One of the 90 highlights changes by 4 decades, of which 0.75 count, and one of 10,000 pixels by 5, of which 0.25
+    // count.
     EXPECT_LE(most, 0.75 * 4.2 / 90 + 0.25 * 6 / 10000);
     EXPECT_GT(most, 0.01);
     // So does a border that grows out of black.

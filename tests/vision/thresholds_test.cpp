@@ -13,7 +13,7 @@ constexpr double kTableDigits = 5e-6;
 
 // tone-mapping.md, 1.1: log10 L, cones, rods, both.
 TEST(Thresholds, OfConesRodsAndBothAreThoseOfTheTable) {
-    const double table[][4]{{-4, 0.190546, 0.00138038, 0.00138},   {-3, 0.190546, 0.00184003, 0.00184003},
+    const double table[][4]{{-4, 0.190546, 0.00138038, 0.00138},    {-3, 0.190546, 0.00184003, 0.00184003},
                             {-2, 0.193277, 0.00547234, 0.00547234}, {-1, 0.231643, 0.0402717, 0.0402717},
                             {-0.5, 0.285768, 0.127350, 0.127350},   {0, 0.391302, 0.402717, 0.391302},
                             {1, 1.07190, 4.02717, 1.07190},         {1.5, 2.21169, 12.7350, 2.21169},
@@ -38,7 +38,9 @@ TEST(Thresholds, BranchesMeetWhereTheyShould) {
     EXPECT_NEAR(step(cone_threshold, continuous.cones, continuous), 0, 1e-5);
     EXPECT_NEAR(step(rod_threshold, continuous.rods, continuous), 0, 5e-4) << "almost touch";
     for (double l = -6; l < 6; l += 0.01) {
-        EXPECT_GE(human_threshold(std::pow(10, l + 0.01), continuous), human_threshold(std::pow(10, l), continuous) * (1 - 1e-9)) << l;
+        EXPECT_GE(human_threshold(std::pow(10, l + 0.01), continuous),
+                  human_threshold(std::pow(10, l), continuous) * (1 - 1e-9))
+            << l;
         EXPECT_LT(std::abs(step(human_threshold, l, continuous)), 5e-4) << l;
     }
 }
@@ -46,7 +48,8 @@ TEST(Thresholds, BranchesMeetWhereTheyShould) {
 TEST(Thresholds, AreFiniteFarOutside) {
     for (double luminance : {1e-30, 1e30})
         for (auto breaks : {ThresholdBreaks::published(), ThresholdBreaks::continuous()})
-            for (double t : {cone_threshold(luminance, breaks), rod_threshold(luminance, breaks), human_threshold(luminance, breaks)}) {
+            for (double t : {cone_threshold(luminance, breaks), rod_threshold(luminance, breaks),
+                             human_threshold(luminance, breaks)}) {
                 EXPECT_TRUE(std::isfinite(t));
                 EXPECT_GT(t, 0);
             }
@@ -54,8 +57,9 @@ TEST(Thresholds, AreFiniteFarOutside) {
 
 // tone-mapping.md, 2.4: diameter and trolands after Moon and Spencer.
 TEST(Thresholds, PupilsOfMoonAndSpencer) {
-    const double table[][3]{{-4, 7.665, 0.00461}, {-2, 6.892, 0.3731}, {-1, 6.040, 2.865}, {0, 4.900, 18.86}, {1, 3.760, 111.1},
-                            {1.5, 3.289, 268.6},  {2, 2.908, 664.1},   {3, 2.399, 4520},   {4, 2.135, 35800}, {5, 2.008, 316650}};
+    const double table[][3]{{-4, 7.665, 0.00461}, {-2, 6.892, 0.3731}, {-1, 6.040, 2.865}, {0, 4.900, 18.86},
+                            {1, 3.760, 111.1},    {1.5, 3.289, 268.6}, {2, 2.908, 664.1},  {3, 2.399, 4520},
+                            {4, 2.135, 35800},    {5, 2.008, 316650}};
     for (const auto& [l, diameter, td] : table) {
         EXPECT_NEAR(pupil_moon_spencer(std::pow(10, l)), diameter, 6e-4) << l;
         EXPECT_NEAR(trolands(std::pow(10, l)) / td, 1, 1.5e-3) << l;  // three digits in places
@@ -85,7 +89,8 @@ TEST(Thresholds, OlderEyesNeedMore) {
     EXPECT_EQ(age_factor(90), age_factor(75)) << "no data";
 }
 
-// By hand from the formula: light of equal energy, incandescent light (A), daylight (D65). Measured spectra have 2.26, 1.41, 2.47.
+// By hand from the formula: light of equal energy, incandescent light (A), daylight (D65). Measured spectra
+// have 2.26, 1.41, 2.47.
 TEST(Thresholds, ScotopicLuminanceOfAColour) {
     EXPECT_NEAR(scotopic_luminance(1, 1, 1), 2.31, 1e-12);
     EXPECT_NEAR(scotopic_luminance(2 * 1.0985, 2, 2 * 0.3558), 2 * 1.29156, 1e-4);

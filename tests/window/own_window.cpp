@@ -1,12 +1,13 @@
-// A window of the host's: Vesper renders into the images of its swapchain, between the semaphores of taking and showing them, and the
-// validation layer watches. Ends with 77 where there is nothing to open a window on. SPDX-License-Identifier: MIT
+// A window of the host's: Vesper renders into the images of its swapchain, between the semaphores of taking and showing
+// them, and the validation layer watches. Ends with 77 where there is nothing to open a window on.
+// SPDX-License-Identifier: MIT
 #include <cstdio>
 
 #include <vulkan/vulkan.h>
 
 #include <GLFW/glfw3.h>
-#include <vesper/vesper.hpp>
 #include <vesper/vulkan.h>
+#include <vesper/vesper.hpp>
 
 #include "../apps/examples/own-device/host.h"
 
@@ -35,7 +36,8 @@ void render(const VesperHostDevice& lent, VkSwapchainKHR swapchain, const VkSwap
     std::vector<VkImage> images(count);
     check(vkGetSwapchainImagesKHR(lent.device, swapchain, &count, images.data()), "listing images");
     std::vector<VkSemaphore> acquired, drawn;
-    for (uint32_t i = 0; i < count; ++i) acquired.push_back(make_semaphore(lent.device)), drawn.push_back(make_semaphore(lent.device));
+    for (uint32_t i = 0; i < count; ++i)
+        acquired.push_back(make_semaphore(lent.device)), drawn.push_back(make_semaphore(lent.device));
     {
         const Device device = make<Device>(vesper_device_borrow, &lent);
         const Scene scene = make<Scene>(vesper_scene_create);
@@ -48,13 +50,17 @@ void render(const VesperHostDevice& lent, VkSwapchainKHR swapchain, const VkSwap
         view.forward[2] = -1, view.up[1] = 1, view.vertical_fov = 0.7f, view.near_plane = 0.1f;
         for (unsigned frame = 0; frame < kFrames; ++frame) {
             uint32_t next = 0;
-            check(vkAcquireNextImageKHR(lent.device, swapchain, UINT64_MAX, acquired[frame % count], VK_NULL_HANDLE, &next), "taking an image");
+            check(vkAcquireNextImageKHR(lent.device, swapchain, UINT64_MAX, acquired[frame % count], VK_NULL_HANDLE,
+                                        &next),
+                  "taking an image");
             auto to = sized<VesperImage>();
             to.image = images[next], to.format = made.imageFormat, to.width = view.width, to.height = view.height;
             to.layout_before = VK_IMAGE_LAYOUT_UNDEFINED, to.layout_after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
-            const VkSemaphoreSubmitInfo on_acquired = at_all_commands(acquired[frame % count]), on_drawn = at_all_commands(drawn[next]);
+            const VkSemaphoreSubmitInfo on_acquired = at_all_commands(acquired[frame % count]),
+                                        on_drawn = at_all_commands(drawn[next]);
             auto handover = sized<VesperHandover>();
-            handover.wait_count = handover.signal_count = 1, handover.waits = &on_acquired, handover.signals = &on_drawn;
+            handover.wait_count = handover.signal_count = 1, handover.waits = &on_acquired,
+            handover.signals = &on_drawn;
             call(vesper_render_image, renderer.get(), &settings, &view, 0.02f, &to, &handover);
             VkPresentInfoKHR present{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
             present.waitSemaphoreCount = 1, present.pWaitSemaphores = &drawn[next];
@@ -92,7 +98,8 @@ void run(const Instance& instance, GLFWwindow* window) {
     info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = uint32_t(extensions.size()), info.ppEnabledExtensionNames = extensions.data();
     auto lent = sized<VesperHostDevice>();
-    lent.api_version = VK_API_VERSION_1_3, lent.instance = instance.get(), lent.physical_device = physical, lent.created_with = &info;
+    lent.api_version = VK_API_VERSION_1_3, lent.instance = instance.get(), lent.physical_device = physical,
+    lent.created_with = &info;
     check(vkCreateDevice(physical, &info, nullptr, &lent.device), "opening the device");
     vkGetDeviceQueue(lent.device, 0, 0, &lent.queue);
 
@@ -100,8 +107,10 @@ void run(const Instance& instance, GLFWwindow* window) {
     check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(physical, surface, &can), "asking for a surface");
     VkSwapchainCreateInfoKHR wanted{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     wanted.surface = surface, wanted.minImageCount = can.minImageCount, wanted.imageArrayLayers = 1;
-    wanted.imageFormat = VK_FORMAT_B8G8R8A8_UNORM, wanted.imageExtent = can.currentExtent, wanted.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    wanted.preTransform = can.currentTransform, wanted.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR, wanted.presentMode = VK_PRESENT_MODE_FIFO_KHR;
+    wanted.imageFormat = VK_FORMAT_B8G8R8A8_UNORM, wanted.imageExtent = can.currentExtent,
+    wanted.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    wanted.preTransform = can.currentTransform, wanted.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
+    wanted.presentMode = VK_PRESENT_MODE_FIFO_KHR;
     VkSwapchainKHR swapchain = VK_NULL_HANDLE;
     check(vkCreateSwapchainKHR(lent.device, &wanted, nullptr, &swapchain), "making a swapchain");
     render(lent, swapchain, wanted);

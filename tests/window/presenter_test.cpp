@@ -1,4 +1,5 @@
-// Pictures in windows: codes arrive unchanged, other sizes are scaled as said, and instruments lie over them. SPDX-License-Identifier: MIT
+// Pictures in windows: codes arrive unchanged, other sizes are scaled as said, and instruments lie over them.
+// SPDX-License-Identifier: MIT
 #include "window/presenter.h"
 
 #include <cmath>
@@ -15,15 +16,20 @@ namespace {
 class PresenterTest : public testing::Test {
 protected:
     std::string complaints;
-    Device device{{.select = "", .validation = true, .on_message = [this](const std::string& message) { complaints += message + "\n"; }}};
+    Device device{{.select = "", .validation = true, .on_message = [this](const std::string& message) {
+                       complaints += message + "\n";
+                   }}};
     std::vector<uint8_t> letters = std::vector<uint8_t>(4, 255);
     Presenter presenter{device, {2, 2}, letters};
 
     ~PresenterTest() override { EXPECT_EQ(complaints, ""); }
 
     /// What an image of a window would hold, as words of its format.
-    std::vector<uint32_t> drawn(VkFormat format, VkExtent2D window, const Picture& picture, Scaling scaling, const Overlay& overlay = {}, bool hdr10 = false) {
-        const OwnedImage image = make_image(device, image_info(format, window, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+    std::vector<uint32_t> drawn(VkFormat format, VkExtent2D window, const Picture& picture, Scaling scaling,
+                                const Overlay& overlay = {}, bool hdr10 = false) {
+        const OwnedImage image = make_image(
+            device,
+            image_info(format, window, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
         Arena arena(device);
         arena.bind(image.get());
         const OwnedImageView view = make_view(device, image.get(), format);
@@ -31,31 +37,37 @@ protected:
         const HostBuffer back(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostBuffer::Direction::FromDevice);
         device.run_once([&](VkCommandBuffer commands) {
             const auto change = [&](VkImageLayout from, VkImageLayout to) {
-                const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                                    .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                                    .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                                    .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                                    .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                                    .oldLayout = from,
-                                                    .newLayout = to,
-                                                    .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                                    .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                                    .image = image.get(),
-                                                    .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-                const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
+                const VkImageMemoryBarrier2 barrier{
+                    .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                    .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                    .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                    .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                    .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                    .oldLayout = from,
+                    .newLayout = to,
+                    .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                    .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                    .image = image.get(),
+                    .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+                const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                                  .imageMemoryBarrierCount = 1,
+                                                  .pImageMemoryBarriers = &barrier};
                 vkCmdPipelineBarrier2(commands, &dependency);
             };
             change(VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
             presenter.draw(commands, {view.get(), window, format, hdr10, 0}, picture, scaling, overlay);
             change(VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-            const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {window.width, window.height, 1}};
-            vkCmdCopyImageToBuffer(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.buffer(), 1, &copy);
+            const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                         .imageExtent = {window.width, window.height, 1}};
+            vkCmdCopyImageToBuffer(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, back.buffer(), 1,
+                                   &copy);
             const VkMemoryBarrier2 host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                         .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
                                         .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                         .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
                                         .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-            const VkDependencyInfo dependency{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &host};
+            const VkDependencyInfo dependency{
+                .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &host};
             vkCmdPipelineBarrier2(commands, &dependency);
         });
         back.invalidate();
@@ -70,7 +82,8 @@ std::vector<uint32_t> words_of(VkExtent2D extent, uint32_t bits) {
     std::vector<uint32_t> words;
     const uint32_t most = (1u << bits) - 1;
     for (uint32_t i = 0; i < extent.width * extent.height; ++i)
-        words.push_back((i & most) | ((i * 7 + 3) & most) << bits | ((i * 31 + 5) & most) << 2 * bits | (bits == 8 ? 255u << 24 : 3u << 30));
+        words.push_back((i & most) | ((i * 7 + 3) & most) << bits | ((i * 31 + 5) & most) << 2 * bits |
+                        (bits == 8 ? 255u << 24 : 3u << 30));
     return words;
 }
 
@@ -94,7 +107,8 @@ TEST_F(PresenterTest, CodesArriveUnchanged) {
 TEST_F(PresenterTest, TenBitsArriveUnchanged) {
     const VkExtent2D extent{64, 16};  // all 1024
     const auto words = words_of(extent, 10);
-    EXPECT_EQ(drawn(VK_FORMAT_A2B10G10R10_UNORM_PACK32, extent, picture_of(words, extent, 10), Scaling::Fit, {}, true), words);
+    EXPECT_EQ(drawn(VK_FORMAT_A2B10G10R10_UNORM_PACK32, extent, picture_of(words, extent, 10), Scaling::Fit, {}, true),
+              words);
 }
 
 TEST_F(PresenterTest, WholeMultiplesRepeatPixelsAmidBlack) {
@@ -104,7 +118,9 @@ TEST_F(PresenterTest, WholeMultiplesRepeatPixelsAmidBlack) {
     for (uint32_t y = 0; y < window.height; ++y)
         for (uint32_t x = 0; x < window.width; ++x) {
             const bool inside = x >= 1 && x < 10 && y >= 1 && y < 7;
-            EXPECT_EQ(shown[y * window.width + x], inside ? words[(y - 1) / 3 * extent.width + (x - 1) / 3] : 0xff000000u) << x << "," << y;
+            EXPECT_EQ(shown[y * window.width + x],
+                      inside ? words[(y - 1) / 3 * extent.width + (x - 1) / 3] : 0xff000000u)
+                << x << "," << y;
         }
 }
 
@@ -130,7 +146,8 @@ TEST_F(PresenterTest, AFlatPictureStaysFlatAtAnySize) {
         const auto shown = drawn(VK_FORMAT_R8G8B8A8_UNORM, window, picture_of(words, extent), Scaling::Fit);
         for (uint32_t y = 0; y < window.height; ++y)
             for (uint32_t x = 0; x < window.width; ++x) {
-                const bool inside = int(x) >= at.area.offset.x && x < at.area.offset.x + at.area.extent.width && int(y) >= at.area.offset.y && y < at.area.offset.y + at.area.extent.height;
+                const bool inside = int(x) >= at.area.offset.x && x < at.area.offset.x + at.area.extent.width &&
+                                    int(y) >= at.area.offset.y && y < at.area.offset.y + at.area.extent.height;
                 EXPECT_EQ(shown[y * window.width + x], inside ? words[0] : 0xff000000u);
             }
     }
@@ -140,19 +157,27 @@ TEST_F(PresenterTest, InstrumentsLieOverThePictureWithinTheirClips) {
     const VkExtent2D extent{8, 4};
     const std::vector<uint32_t> words(32, 0xff000000u);
     // A square over all, half opaque white, in a clip that leaves the window.
-    const Overlay overlay{.vertices = {{{0, 0}, {0.5f, 0.5f}, 0x80ffffffu}, {{8, 0}, {0.5f, 0.5f}, 0x80ffffffu}, {{8, 4}, {0.5f, 0.5f}, 0x80ffffffu}, {{0, 4}, {0.5f, 0.5f}, 0x80ffffffu}},
+    const Overlay overlay{.vertices = {{{0, 0}, {0.5f, 0.5f}, 0x80ffffffu},
+                                       {{8, 0}, {0.5f, 0.5f}, 0x80ffffffu},
+                                       {{8, 4}, {0.5f, 0.5f}, 0x80ffffffu},
+                                       {{0, 4}, {0.5f, 0.5f}, 0x80ffffffu}},
                           .indices = {0, 1, 2, 0, 2, 3},
                           .batches = {{0, 6, {{2, 1}, {100, 2}}}, {0, 6, {{8, 0}, {1, 1}}}}};
     const auto shown = drawn(VK_FORMAT_R8G8B8A8_UNORM, extent, picture_of(words, extent), Scaling::Fit, overlay);
     for (uint32_t y = 0; y < 4; ++y)
-        for (uint32_t x = 0; x < 8; ++x) EXPECT_EQ(shown[y * 8 + x], x >= 2 && y >= 1 && y < 3 ? 0xff808080u : 0xff000000u) << x << "," << y;
+        for (uint32_t x = 0; x < 8; ++x)
+            EXPECT_EQ(shown[y * 8 + x], x >= 2 && y >= 1 && y < 3 ? 0xff808080u : 0xff000000u) << x << "," << y;
 }
 
 TEST_F(PresenterTest, WhiteOfInstrumentsIsGraphicsWhiteInHdr10) {
     const VkExtent2D extent{2, 2};
-    const Overlay overlay{.vertices = {{{-2, -2}, {0.5f, 0.5f}, ~0u}, {{6, -2}, {0.5f, 0.5f}, ~0u}, {{-2, 6}, {0.5f, 0.5f}, ~0u}}, .indices = {0, 1, 2}, .batches = {{0, 3, {{0, 0}, {2, 2}}}}};
+    const Overlay overlay{
+        .vertices = {{{-2, -2}, {0.5f, 0.5f}, ~0u}, {{6, -2}, {0.5f, 0.5f}, ~0u}, {{-2, 6}, {0.5f, 0.5f}, ~0u}},
+        .indices = {0, 1, 2},
+        .batches = {{0, 3, {{0, 0}, {2, 2}}}}};
     const uint32_t word = drawn(VK_FORMAT_A2B10G10R10_UNORM_PACK32, extent, {}, Scaling::Fit, overlay, true)[3];
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(int(word >> 10 * c & 1023), 594, 1) << c;  // 203 cd/m^2 are 58 % of PQ (ITU-R BT.2408)
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(int(word >> 10 * c & 1023), 594, 1) << c;  // 203 cd/m^2 are 58 % of PQ (ITU-R BT.2408)
 }
 
 TEST(Placement, IsCentredAndNeverEmpty) {

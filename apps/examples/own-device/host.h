@@ -1,4 +1,5 @@
-// A host's own Vulkan: a device, images, and frames that are recorded and submitted. Nothing of Vesper. SPDX-License-Identifier: MIT
+// A host's own Vulkan: a device, images, and frames that are recorded and submitted. Nothing of Vesper.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <functional>

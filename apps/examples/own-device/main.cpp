@@ -1,13 +1,14 @@
-// Own device: a host that renders with Vulkan lets Vesper tone-map its images on its device and queue, without ever waiting, and goes on
-// rendering when Vesper is gone. Every mistake that the validation layer hears of, the host's or Vesper's, fails it.
+// Own device: a host that renders with Vulkan lets Vesper tone-map its images on its device and queue, without ever
+// waiting, and goes on rendering when Vesper is gone. Every mistake that the validation layer hears of, the host's or
+// Vesper's, fails it.
 //     own_device OUT.ppm
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <memory>
 #include <string_view>
 
-#include <vesper/vesper.hpp>
 #include <vesper/vulkan.h>
+#include <vesper/vesper.hpp>
 
 #include "host.h"
 
@@ -40,10 +41,12 @@ void draw_street(VkCommandBuffer commands, const Image& hdr, unsigned frame) {
     }
     for (unsigned lamp = 1; lamp < 6; ++lamp) {
         const uint32_t size = 2 + 2 * lamp, away = 20 + 42 * lamp + 4 * frame;
-        for (const uint32_t x : {kExtent.width / 2 - away, kExtent.width / 2 + away}) fill({{int32_t(x), int32_t(190 - 25 * lamp)}, {size, size / 2}}, {{60, 45, 20, 1}});
+        for (const uint32_t x : {kExtent.width / 2 - away, kExtent.width / 2 + away})
+            fill({{int32_t(x), int32_t(190 - 25 * lamp)}, {size, size / 2}}, {{60, 45, 20, 1}});
     }
     vkCmdEndRendering(commands);
-    change_layout(commands, hdr.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    change_layout(commands, hdr.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 uint32_t graphics_family(VkPhysicalDevice device) {
@@ -52,7 +55,8 @@ uint32_t graphics_family(VkPhysicalDevice device) {
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     for (uint32_t i = 0; i < count; ++i)
-        if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) && (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) return i;
+        if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) && (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT))
+            return i;
     throw std::runtime_error("no queue for graphics and compute");
 }
 
@@ -74,7 +78,8 @@ void run(const Instance& instance, const char* out) {
     f12.timelineSemaphore = VK_TRUE;
     call(vesper_device_features, physical, &features);
     const float priority = 1;
-    const VkDeviceQueueCreateInfo queue_info{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, family, 1, &priority};
+    const VkDeviceQueueCreateInfo queue_info{
+        VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, family, 1, &priority};
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue_info;
     info.ppEnabledExtensionNames = vesper_device_extensions(&info.enabledExtensionCount);
@@ -82,11 +87,14 @@ void run(const Instance& instance, const char* out) {
     check(vkCreateDevice(physical, &info, nullptr, &device), "opening the device");
     VkQueue queue = VK_NULL_HANDLE;
     vkGetDeviceQueue(device, family, 0, &queue);
-    const std::unique_ptr<VkDevice_T, void (*)(VkDevice)> closes(device, [](VkDevice opened) { vkDestroyDevice(opened, nullptr); });
+    const std::unique_ptr<VkDevice_T, void (*)(VkDevice)> closes(
+        device, [](VkDevice opened) { vkDestroyDevice(opened, nullptr); });
 
     Host host(physical, device, queue, family);
-    Image hdr = host.make_image(VK_FORMAT_R16G16B16A16_SFLOAT, kExtent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
-    Image shown = host.make_image(VK_FORMAT_R8G8B8A8_SRGB, kExtent, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    Image hdr = host.make_image(VK_FORMAT_R16G16B16A16_SFLOAT, kExtent,
+                                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    Image shown = host.make_image(VK_FORMAT_R8G8B8A8_SRGB, kExtent,
+                                  VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
 
     // Lent to Vesper.
     auto lent = sized<VesperHostDevice>();
@@ -108,8 +116,8 @@ void run(const Instance& instance, const char* out) {
     VesperToneSettings settings = default_tone_settings();
     settings.glare = VESPER_GLARE_CIE;
 
-    // Frames: the timeline is at 2 i + 1 when the host's part of frame i is done, and at 2 i + 2 when Vesper's is. On one queue that is not
-    // needed; another, such as one that presents, would wait for it.
+    // Frames: the timeline is at 2 i + 1 when the host's part of frame i is done, and at 2 i + 2 when Vesper's is. On
+    // one queue that is not needed; another, such as one that presents, would wait for it.
     uint64_t time = 0;
     for (unsigned frame = 0; frame < kFrames; ++frame) {
         host.submit([&](VkCommandBuffer commands) { draw_street(commands, hdr, frame); }, ++time);
@@ -123,7 +131,8 @@ void run(const Instance& instance, const char* out) {
     }
     auto report = sized<VesperFrameReport>();
     call(vesper_tone_mapper_finish, mapper.get(), &report);
-    std::printf("%u frames on %s: the eye is adapted to %.3g cd/m^2\n", kFrames, vesper_device_name(device_of_vesper.get()), report.adaptation);
+    std::printf("%u frames on %s: the eye is adapted to %.3g cd/m^2\n", kFrames,
+                vesper_device_name(device_of_vesper.get()), report.adaptation);
     write_picture(out, host.read(shown, kExtent, ++time));
 
     // Vesper goes, the host goes on.
@@ -138,16 +147,19 @@ void run(const Instance& instance, const char* out) {
 int main(int count, char** arguments) {
     const std::string_view argument = count == 2 ? arguments[1] : "";
     if (argument == "--help" || argument == "-h") {
-        std::printf("Renders six frames of a street on a Vulkan device of its own, lets Vesper tone-map them there, and writes the last.\n"
-                    "Usage: own_device OUT.ppm\n"
-                    "\n"
-                    "  OUT.ppm    the picture, %u x %u px\n"
-                    "  -h,--help  this text\n"
-                    "\n"
-                    "The device is the first of Vulkan's list. Prints the eye's adaptation luminance, and whether the validation layer,\n"
-                    "where it is installed, complained.\n"
-                    "Ends with 0, 1 if something failed or the layer complained, 2 without a file to write.\n",
-                    kExtent.width, kExtent.height);
+        std::printf(
+            "Renders six frames of a street on a Vulkan device of its own, lets Vesper tone-map them there, and writes "
+            "the last.\n"
+            "Usage: own_device OUT.ppm\n"
+            "\n"
+            "  OUT.ppm    the picture, %u x %u px\n"
+            "  -h,--help  this text\n"
+            "\n"
+            "The device is the first of Vulkan's list. Prints the eye's adaptation luminance, and whether the "
+            "validation layer,\n"
+            "where it is installed, complained.\n"
+            "Ends with 0, 1 if something failed or the layer complained, 2 without a file to write.\n",
+            kExtent.width, kExtent.height);
         return 0;
     }
     if (argument.empty() || argument.front() == '-') {
@@ -157,7 +169,9 @@ int main(int count, char** arguments) {
     try {
         const Instance instance;
         run(instance, arguments[1]);
-        std::printf("validation: %s\n", !instance.validated() ? "not installed" : instance.messages() ? "has complaints" : "silent");
+        std::printf("validation: %s\n", !instance.validated() ? "not installed"
+                                        : instance.messages() ? "has complaints"
+                                                              : "silent");
         return instance.messages() ? 1 : 0;
     } catch (const std::exception& failure) {
         std::fprintf(stderr, "own_device: %s\n", failure.what());

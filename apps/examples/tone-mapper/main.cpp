@@ -1,4 +1,5 @@
-// Tone mapper only: frames that another renderer made, in cd/m^2, to the display; what the eye remembers is kept and put back.
+// Tone mapper only: frames that another renderer made, in cd/m^2, to the display; what the eye remembers is kept and
+// put back.
 //     c++ -std=c++17 main.cpp -o tone_mapper $(pkg-config --cflags --libs vesper)
 // SPDX-License-Identifier: MIT
 #include <cmath>

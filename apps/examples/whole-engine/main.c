@@ -1,5 +1,5 @@
-/* Whole engine: a scene from a file, or of nothing (-); a car made in memory, with a headlamp, that drives; frames as pictures. SPDX-License-Identifier: MIT
- *     whole_engine SCENE.gltf|- OUT_%02d.ppm
+/* Whole engine: a scene from a file, or of nothing (-); a car made in memory, with a headlamp, that drives; frames as
+ * pictures. SPDX-License-Identifier: MIT whole_engine SCENE.gltf|- OUT_%02d.ppm
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,16 +9,16 @@
 
 enum { kWidth = 640, kHeight = 400, kFrames = 3 };
 
-static void stop_if(VesperResult result, const VesperError *error) {
+static void stop_if(VesperResult result, const VesperError* error) {
     if (result == VESPER_OK) return;
     fprintf(stderr, "whole_engine: %s\n", error->message);
     exit(1);
 }
 
-static void write_picture(const char *pattern, int frame, const uint8_t *codes) {
+static void write_picture(const char* pattern, int frame, const uint8_t* codes) {
     char name[1024];
     snprintf(name, sizeof name, pattern, frame);
-    FILE *file = fopen(name, "wb");
+    FILE* file = fopen(name, "wb");
     if (!file) {
         perror(name);
         exit(1);
@@ -29,9 +29,11 @@ static void write_picture(const char *pattern, int frame, const uint8_t *codes) 
 }
 
 /* A box of 1 m about the middle of its bottom: 8 corners, 12 triangles seen from outside. */
-static uint32_t add_box(VesperScene *scene, float red, float green, float blue) {
-    static const float corners[] = {-.5f, 0, -.5f, .5f, 0, -.5f, .5f, 1, -.5f, -.5f, 1, -.5f, -.5f, 0, .5f, .5f, 0, .5f, .5f, 1, .5f, -.5f, 1, .5f};
-    static const uint32_t triangles[] = {0, 3, 2, 0, 2, 1, 4, 5, 6, 4, 6, 7, 0, 4, 7, 0, 7, 3, 1, 2, 6, 1, 6, 5, 3, 7, 6, 3, 6, 2, 0, 1, 5, 0, 5, 4};
+static uint32_t add_box(VesperScene* scene, float red, float green, float blue) {
+    static const float corners[] = {-.5f, 0, -.5f, .5f, 0, -.5f, .5f, 1, -.5f, -.5f, 1, -.5f,
+                                    -.5f, 0, .5f,  .5f, 0, .5f,  .5f, 1, .5f,  -.5f, 1, .5f};
+    static const uint32_t triangles[] = {0, 3, 2, 0, 2, 1, 4, 5, 6, 4, 6, 7, 0, 4, 7, 0, 7, 3,
+                                         1, 2, 6, 1, 6, 5, 3, 7, 6, 3, 6, 2, 0, 1, 5, 0, 5, 4};
     VesperError error;
     uint32_t index = 0;
     VesperMaterial material = VESPER_INIT(VesperMaterial);
@@ -46,22 +48,25 @@ static uint32_t add_box(VesperScene *scene, float red, float green, float blue) 
     return index;
 }
 
-int main(int count, char **arguments) {
+int main(int count, char** arguments) {
     if (count != 3) {
         fprintf(stderr, "usage: whole_engine SCENE.gltf|- OUT_%%02d.ppm\n");
         return 2;
     }
     VesperError error;
-    VesperDevice *device = NULL;
-    VesperScene *scene = NULL;
-    VesperRenderer *renderer = NULL;
+    VesperDevice* device = NULL;
+    VesperScene* scene = NULL;
+    VesperRenderer* renderer = NULL;
     stop_if(vesper_device_open(NULL, &device, &error), &error);
     const int from_nothing = strcmp(arguments[1], "-") == 0;
-    stop_if(from_nothing ? vesper_scene_create(&scene, &error) : vesper_scene_read(arguments[1], &scene, &error), &error);
+    stop_if(from_nothing ? vesper_scene_create(&scene, &error) : vesper_scene_read(arguments[1], &scene, &error),
+            &error);
 
-    /* A car that heads to the right, its frame on the road below its middle: a body, a cabin, and a headlamp of 20,000 cd that looks down a little. */
+    /* A car that heads to the right, its frame on the road below its middle: a body, a cabin, and a headlamp of 20,000
+     * cd that looks down a little. */
     uint32_t car = 0, part = 0, ground = 0, lamp = 0;
-    const float body[16] = {4, 0, 0, 0, 0, 0.7f, 0, 0, 0, 0, 1.7f, 0, 0, 0.2f, 0, 1}, cabin[16] = {2, 0, 0, 0, 0, 0.6f, 0, 0, 0, 0, 1.5f, 0, -0.3f, 0.9f, 0, 1};
+    const float body[16] = {4, 0, 0, 0, 0, 0.7f, 0, 0, 0, 0, 1.7f, 0, 0, 0.2f, 0, 1},
+                cabin[16] = {2, 0, 0, 0, 0, 0.6f, 0, 0, 0, 0, 1.5f, 0, -0.3f, 0.9f, 0, 1};
     const float road[16] = {60, 0, 0, 0, 0, 0.1f, 0, 0, 0, 0, 30, 0, 0, -0.11f, 0, 1};
     const uint32_t red = add_box(scene, 0.5f, 0.1f, 0.05f), grey = add_box(scene, 0.2f, 0.2f, 0.2f);
     stop_if(vesper_scene_add_node(scene, "road", grey, road, &ground, &error), &error);
@@ -90,7 +95,7 @@ int main(int count, char **arguments) {
     view.eye[1] = 1.2f, view.eye[2] = 12;
     view.forward[2] = -1, view.up[1] = 1;
     view.vertical_fov = 0.7f, view.near_plane = 0.1f;
-    uint8_t *codes = malloc((size_t)kWidth * kHeight * 4);
+    uint8_t* codes = malloc((size_t)kWidth * kHeight * 4);
     if (!codes) return 1;
     VesperFrameReport report = VESPER_INIT(VesperFrameReport);
     VesperOutputs outputs = VESPER_INIT(VesperOutputs);

@@ -67,7 +67,8 @@ typedef struct VesperError {
 #ifdef __cplusplus
 #define VESPER_INIT(type) vesper_init<type>()
 #else
-#define VESPER_INIT(type) {.size = sizeof(type)}
+#define VESPER_INIT(type) \
+    { .size = sizeof(type) }
 #endif
 
 /** Index of no object. */
@@ -82,32 +83,33 @@ typedef struct VesperDevice VesperDevice;
 /** Choice of a device, and its validation. */
 typedef struct VesperDeviceOptions {
     uint32_t size; /**< of this structure */
-    const char *select; /**< part of a name, "cpu", or an index; null: the environment's VESPER_DEVICE, else the best device */
+    const char*
+        select; /**< part of a name, "cpu", or an index; null: the environment's VESPER_DEVICE, else the best device */
     int32_t validation; /**< 1: the Khronos validation layer, which must be installed, checks all calls */
-    void (*on_message)(const char *message, void *user); /**< called for each message of the layer; may be null */
-    void *user; /**< passed to on_message */
+    void (*on_message)(const char* message, void* user); /**< called for each message of the layer; may be null */
+    void* user;                                          /**< passed to on_message */
 } VesperDeviceOptions;
 
 /** Opens a Vulkan 1.3 device. `options` may be null. */
-VesperResult vesper_device_open(const VesperDeviceOptions *options, VesperDevice **device, VesperError *error);
+VesperResult vesper_device_open(const VesperDeviceOptions* options, VesperDevice** device, VesperError* error);
 /** Closes a device after all its objects are destroyed. A borrowed Vulkan device stays open. */
-void vesper_device_close(VesperDevice *device);
+void vesper_device_close(VesperDevice* device);
 /** Name of the device; valid until the device is closed. */
-const char *vesper_device_name(const VesperDevice *device);
+const char* vesper_device_name(const VesperDevice* device);
 
 /** @} */
 
 /** @name Tone mapping settings
  * @{ */
 
-/** Tone operators (docs/tone.md), by the names of vesper/operators.h: VESPER_IRAWAN is 0. VESPER_LDR shows no luminances and is
- * refused. */
+/** Tone operators (docs/tone.md), by the names of vesper/operators.h: VESPER_IRAWAN is 0. VESPER_LDR shows no
+ * luminances and is refused. */
 typedef enum VesperOperator {
 /** @cond */
 #define VESPER_OPERATOR_VALUE(NAME, Name, name, value, summary) VESPER_##NAME = (value),
     VESPER_OPERATORS(VESPER_OPERATOR_VALUE)
 #undef VESPER_OPERATOR_VALUE
-/** @endcond */
+    /** @endcond */
 } VesperOperator;
 
 /** Light scattered in the eye before it adapts (docs/glare.md). */
@@ -146,63 +148,63 @@ typedef enum VesperGamut {
 /** Settings of tone mapping, as the options of vesper tonemap. Begin with vesper_tone_settings_defaults: some zeros are
  * refused. */
 typedef struct VesperToneSettings {
-    uint32_t size;             /**< of this structure */
-    uint32_t tone_operator;    /**< a VesperOperator */
-    uint32_t glare;            /**< a VesperGlare */
-    uint32_t bins;             /**< of the histogram, 1 to 256 */
-    float age;                 /**< of the observer, years */
-    float pigmentation;        /**< of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue */
-    float gaze[2];             /**< where the eye looks, parts of the image from its top left */
-    int32_t colour_loss;       /**< 1: dim light loses its colour */
-    int32_t acuity_loss;       /**< 1: dim light is blurred to the resolution of the eye */
-    int32_t purkinje;          /**< 1: dim light has the weights of rods */
-    const char *display;       /**< name or file of a profile (docs/display.md), read for every picture; null: the five
-                                * numbers below */
-    float display_peak;        /**< luminance of white in the dark, cd/m^2 */
-    float display_black;       /**< luminance of black in the dark, cd/m^2 */
-    float display_ambient;     /**< illuminance on the screen, lx */
-    float display_gamma;       /**< exponent */
-    float display_reflection;  /**< diffuse reflectance of the screen */
-    uint32_t adapt_to;         /**< a VesperAdaptTo */
-    float smoothing;           /**< time constant of the curve against flicker, s; 0: none */
-    float low_vision;          /**< factor on all thresholds of the observer */
-    int32_t rods;              /**< 1: rods see, too */
-    float histogram_low;       /**< least luminance of the histogram, cd/m^2 */
-    float histogram_high;      /**< greatest luminance of the histogram, cd/m^2 */
-    float key;                 /**< VESPER_REINHARD: displayed log average, relative to white */
-    float white;               /**< VESPER_REINHARD, VESPER_LINEAR: luminance shown as white, cd/m^2; 0: the frame's
-                                * maximum */
-    float black;               /**< VESPER_LINEAR: luminance shown as black, cd/m^2 */
-    uint32_t pupil;            /**< a VesperPupil */
-    uint32_t eye_seed;         /**< VESPER_GLARE_TEMPORAL and _SPENCER: selects the needles of the eye */
-    int32_t lashes;            /**< VESPER_GLARE_TEMPORAL: 1: the eye squints */
-    uint32_t gamut;            /**< a VesperGamut */
+    uint32_t size;            /**< of this structure */
+    uint32_t tone_operator;   /**< a VesperOperator */
+    uint32_t glare;           /**< a VesperGlare */
+    uint32_t bins;            /**< of the histogram, 1 to 256 */
+    float age;                /**< of the observer, years */
+    float pigmentation;       /**< of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue */
+    float gaze[2];            /**< where the eye looks, parts of the image from its top left */
+    int32_t colour_loss;      /**< 1: dim light loses its colour */
+    int32_t acuity_loss;      /**< 1: dim light is blurred to the resolution of the eye */
+    int32_t purkinje;         /**< 1: dim light has the weights of rods */
+    const char* display;      /**< name or file of a profile (docs/display.md), read for every picture; null: the five
+                               * numbers below */
+    float display_peak;       /**< luminance of white in the dark, cd/m^2 */
+    float display_black;      /**< luminance of black in the dark, cd/m^2 */
+    float display_ambient;    /**< illuminance on the screen, lx */
+    float display_gamma;      /**< exponent */
+    float display_reflection; /**< diffuse reflectance of the screen */
+    uint32_t adapt_to;        /**< a VesperAdaptTo */
+    float smoothing;          /**< time constant of the curve against flicker, s; 0: none */
+    float low_vision;         /**< factor on all thresholds of the observer */
+    int32_t rods;             /**< 1: rods see, too */
+    float histogram_low;      /**< least luminance of the histogram, cd/m^2 */
+    float histogram_high;     /**< greatest luminance of the histogram, cd/m^2 */
+    float key;                /**< VESPER_REINHARD: displayed log average, relative to white */
+    float white;              /**< VESPER_REINHARD, VESPER_LINEAR: luminance shown as white, cd/m^2; 0: the frame's
+                               * maximum */
+    float black;              /**< VESPER_LINEAR: luminance shown as black, cd/m^2 */
+    uint32_t pupil;           /**< a VesperPupil */
+    uint32_t eye_seed;        /**< VESPER_GLARE_TEMPORAL and _SPENCER: selects the needles of the eye */
+    int32_t lashes;           /**< VESPER_GLARE_TEMPORAL: 1: the eye squints */
+    uint32_t gamut;           /**< a VesperGamut */
 } VesperToneSettings;
 
 /** Sets the defaults of `vesper tonemap`. `size`: sizeof the caller's structure. */
-void vesper_tone_settings_defaults(VesperToneSettings *settings, size_t size);
+void vesper_tone_settings_defaults(VesperToneSettings* settings, size_t size);
 
 /** Sets the bits of a code, 8 or 10, of a display (name or file, as VesperToneSettings::display). */
-VesperResult vesper_display_bits(const char *display, uint32_t *bits, VesperError *error);
+VesperResult vesper_display_bits(const char* display, uint32_t* bits, VesperError* error);
 
 /** Figures of a frame. */
 typedef struct VesperFrameReport {
-    uint32_t size;        /**< of this structure; on return the size that is filled in */
-    float adaptation;     /**< luminance of adaptation, cd/m^2 */
-    float log_average;    /**< log average of the luminance of the frame, cd/m^2 */
-    uint64_t not_finite;  /**< pixels that are NaN or infinite: shown black */
-    double milliseconds;  /**< picture in arrays: time on the host's clock until the device is done, without the upload
-                           * of a changed scene. Picture in images: time from its first pass to its last on the device's
-                           * clock (0: the device has no clock) */
+    uint32_t size;       /**< of this structure; on return the size that is filled in */
+    float adaptation;    /**< luminance of adaptation, cd/m^2 */
+    float log_average;   /**< log average of the luminance of the frame, cd/m^2 */
+    uint64_t not_finite; /**< pixels that are NaN or infinite: shown black */
+    double milliseconds; /**< picture in arrays: time on the host's clock until the device is done, without the upload
+                          * of a changed scene. Picture in images: time from its first pass to its last on the device's
+                          * clock (0: the device has no clock) */
 } VesperFrameReport;
 
 /** Buffers of the caller for a frame, width * height * 4 values each. Null outputs are not made. */
 typedef struct VesperOutputs {
-    uint32_t size;        /**< of this structure */
-    uint8_t *codes;      /**< RGBA of the display, 8 bits; for a display of 10 bits words of A2B10G10R10 */
-    float *luminance;    /**< RGBA, cd/m^2 of the scene, without glare */
-    float *display_light; /**< RGBA, cd/m^2 of the display without its limits of gamut and peak */
-    VesperFrameReport *report; /**< its size must be set */
+    uint32_t size;             /**< of this structure */
+    uint8_t* codes;            /**< RGBA of the display, 8 bits; for a display of 10 bits words of A2B10G10R10 */
+    float* luminance;          /**< RGBA, cd/m^2 of the scene, without glare */
+    float* display_light;      /**< RGBA, cd/m^2 of the display without its limits of gamut and peak */
+    VesperFrameReport* report; /**< its size must be set */
 } VesperOutputs;
 
 /** @} */
@@ -215,37 +217,37 @@ typedef struct VesperToneMapper VesperToneMapper;
 
 /** A picture in an array. */
 typedef struct VesperPicture {
-    uint32_t size;           /**< of this structure */
-    uint32_t width;          /**< px */
-    uint32_t height;         /**< px */
-    uint32_t channels;       /**< 3 (RGB) or 4 (the fourth is ignored) */
-    const float *values;     /**< width * height * channels */
-    float scale;             /**< cd/m^2 of a value of 1 */
-    float vertical_fov;      /**< angle of the picture's height, rad; used if all `edges` are 0 */
-    float edges[4];          /**< tangents of the angles from straight ahead to the left, right, bottom and top edge,
-                              * for off-axis pictures and pixels that are not square; all 0: vertical_fov */
+    uint32_t size;       /**< of this structure */
+    uint32_t width;      /**< px */
+    uint32_t height;     /**< px */
+    uint32_t channels;   /**< 3 (RGB) or 4 (the fourth is ignored) */
+    const float* values; /**< width * height * channels */
+    float scale;         /**< cd/m^2 of a value of 1 */
+    float vertical_fov;  /**< angle of the picture's height, rad; used if all `edges` are 0 */
+    float edges[4];      /**< tangents of the angles from straight ahead to the left, right, bottom and top edge,
+                          * for off-axis pictures and pixels that are not square; all 0: vertical_fov */
 } VesperPicture;
 
 /** Makes a tone mapper and compiles its shaders. */
-VesperResult vesper_tone_mapper_create(VesperDevice *device, VesperToneMapper **mapper, VesperError *error);
+VesperResult vesper_tone_mapper_create(VesperDevice* device, VesperToneMapper** mapper, VesperError* error);
 /** Waits for submitted pictures and destroys the tone mapper. */
-void vesper_tone_mapper_destroy(VesperToneMapper *mapper);
+void vesper_tone_mapper_destroy(VesperToneMapper* mapper);
 /** Maps a picture in an array. `seconds`: time since the last picture, for the adaptation of the eye. Sizes may
  * differ. */
-VesperResult vesper_tone_map(VesperToneMapper *mapper, const VesperToneSettings *settings, const VesperPicture *picture, float seconds,
-                             const VesperOutputs *outputs, VesperError *error);
+VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings* settings, const VesperPicture* picture,
+                             float seconds, const VesperOutputs* outputs, VesperError* error);
 /** Resets the eye's state, as at a cut. Waits for the picture before. */
-VesperResult vesper_tone_mapper_reset(VesperToneMapper *mapper, VesperError *error);
+VesperResult vesper_tone_mapper_reset(VesperToneMapper* mapper, VesperError* error);
 /** Waits for the last picture of vesper_tone_map_image and fills `report`. A picture is reported once; without a new
  * one `report` is zero except its size. */
-VesperResult vesper_tone_mapper_finish(VesperToneMapper *mapper, VesperFrameReport *report, VesperError *error);
+VesperResult vesper_tone_mapper_finish(VesperToneMapper* mapper, VesperFrameReport* report, VesperError* error);
 /** Bytes of the eye's state. */
 size_t vesper_eye_size(void);
 /** Waits for the last picture and copies the eye's state, vesper_eye_size() bytes, for the same version of the
  * library. */
-VesperResult vesper_tone_mapper_eye(VesperToneMapper *mapper, void *bytes, VesperError *error);
+VesperResult vesper_tone_mapper_eye(VesperToneMapper* mapper, void* bytes, VesperError* error);
 /** Sets the eye's state for the next picture. Waits for the picture before. */
-VesperResult vesper_tone_mapper_set_eye(VesperToneMapper *mapper, const void *bytes, size_t size, VesperError *error);
+VesperResult vesper_tone_mapper_set_eye(VesperToneMapper* mapper, const void* bytes, size_t size, VesperError* error);
 
 /** @} */
 
@@ -260,15 +262,15 @@ VesperResult vesper_tone_mapper_set_eye(VesperToneMapper *mapper, const void *by
 typedef struct VesperScene VesperScene;
 
 /** Makes an empty scene. */
-VesperResult vesper_scene_create(VesperScene **scene, VesperError *error);
+VesperResult vesper_scene_create(VesperScene** scene, VesperError* error);
 /** Reads a photometric scene (.gltf or .glb, as vesper convert writes them). */
-VesperResult vesper_scene_read(const char *file, VesperScene **scene, VesperError *error);
+VesperResult vesper_scene_read(const char* file, VesperScene** scene, VesperError* error);
 /** Destroys a scene. Its renderers must be destroyed before. */
-void vesper_scene_destroy(VesperScene *scene);
+void vesper_scene_destroy(VesperScene* scene);
 /** Number of nodes, including removed ones. */
-uint32_t vesper_scene_node_count(const VesperScene *scene);
+uint32_t vesper_scene_node_count(const VesperScene* scene);
 /** Name of a node, valid until the scene changes; null if the node does not exist. */
-const char *vesper_scene_node_name(const VesperScene *scene, uint32_t node);
+const char* vesper_scene_node_name(const VesperScene* scene, uint32_t node);
 
 /** A surface. Set all fields: zeros are a black mirror. */
 typedef struct VesperMaterial {
@@ -278,31 +280,33 @@ typedef struct VesperMaterial {
     float roughness;         /**< 0 to 1; 1 is matt */
     float emission[3];       /**< cd/m^2 */
     int32_t double_sided;    /**< 1: the back is visible, too */
-    const uint8_t *texture;  /**< texture_width * texture_height * 4 codes (RGBA, sRGB); repeated; may be null */
+    const uint8_t* texture;  /**< texture_width * texture_height * 4 codes (RGBA, sRGB); repeated; may be null */
     uint32_t texture_width;  /**< px */
     uint32_t texture_height; /**< px */
 } VesperMaterial;
 
 /** Copies a material into the scene and sets its index. */
-VesperResult vesper_scene_add_material(VesperScene *scene, const VesperMaterial *material, uint32_t *index, VesperError *error);
+VesperResult vesper_scene_add_material(VesperScene* scene, const VesperMaterial* material, uint32_t* index,
+                                       VesperError* error);
 
 /** Triangles of one material. */
 typedef struct VesperMesh {
     uint32_t size;           /**< of this structure */
     uint32_t material;       /**< of the scene */
     uint32_t vertex_count;   /**< 3 or more */
-    const float *positions;  /**< 3 per vertex, m */
-    const float *normals;    /**< 3 per vertex, of any length; zero: mean of the triangles around; null: flat */
-    const float *uvs;        /**< 2 per vertex; may be null */
+    const float* positions;  /**< 3 per vertex, m */
+    const float* normals;    /**< 3 per vertex, of any length; zero: mean of the triangles around; null: flat */
+    const float* uvs;        /**< 2 per vertex; may be null */
     uint32_t index_count;    /**< a multiple of 3 */
-    const uint32_t *indices; /**< three per triangle, counter-clockwise seen from the front */
+    const uint32_t* indices; /**< three per triangle, counter-clockwise seen from the front */
 } VesperMesh;
 
 /** Copies a mesh into the scene and sets its index. It is drawn at the nodes that have it. */
-VesperResult vesper_scene_add_mesh(VesperScene *scene, const VesperMesh *mesh, uint32_t *index, VesperError *error);
+VesperResult vesper_scene_add_mesh(VesperScene* scene, const VesperMesh* mesh, uint32_t* index, VesperError* error);
 /** Adds a node with a mesh, or with VESPER_NONE as a parent of others. `node_to_world`: 16 values, m; null: at the
  * origin. */
-VesperResult vesper_scene_add_node(VesperScene *scene, const char *name, uint32_t mesh, const float *node_to_world, uint32_t *node, VesperError *error);
+VesperResult vesper_scene_add_node(VesperScene* scene, const char* name, uint32_t mesh, const float* node_to_world,
+                                   uint32_t* node, VesperError* error);
 
 /** A lamp: a cone, or a measured distribution. */
 typedef struct VesperLamp {
@@ -314,23 +318,24 @@ typedef struct VesperLamp {
     float colour[3];          /**< scaled to luminance 1 */
     float outer_cone;         /**< half angle of no intensity, rad, up to pi / 2; 0: a point lamp */
     float inner_cone;         /**< half angle of full intensity, rad */
-    const char *distribution; /**< file: .ies, .ldt, or a grid (.csv, .exr; docs/distributions.md), in place of the
+    const char* distribution; /**< file: .ies, .ldt, or a grid (.csv, .exr; docs/distributions.md), in place of the
                                * cones; null: the cones. Read for every lamp; lamps of an unchanged file share one
                                * distribution */
-    float opening_width;     /**< of the luminous opening along its x, m; 0: as the file states, or none */
-    float opening_height;      /**< of the luminous opening along its y, m */
+    float opening_width;      /**< of the luminous opening along its x, m; 0: as the file states, or none */
+    float opening_height;     /**< of the luminous opening along its y, m */
 } VesperLamp;
 
 /** Adds a lamp at a new node and sets its number, unless `node` is null. A scene can be rendered with at most 21,000
  * lamps. */
-VesperResult vesper_scene_add_lamp(VesperScene *scene, const VesperLamp *lamp, uint32_t *node, VesperError *error);
+VesperResult vesper_scene_add_lamp(VesperScene* scene, const VesperLamp* lamp, uint32_t* node, VesperError* error);
 /** Makes an earlier node the parent of a node. The node's transform is then relative to its parent. */
-VesperResult vesper_scene_attach(VesperScene *scene, uint32_t node, uint32_t to, VesperError *error);
+VesperResult vesper_scene_attach(VesperScene* scene, uint32_t node, uint32_t to, VesperError* error);
 /** Removes a node, its mesh or lamp, and its children. A mesh without nodes is freed. */
-VesperResult vesper_scene_remove(VesperScene *scene, uint32_t node, VesperError *error);
+VesperResult vesper_scene_remove(VesperScene* scene, uint32_t node, VesperError* error);
 /** Sets ambient illuminance on all surfaces, RGB lx, and luminance of the background, RGB cd/m^2. Replaces a sky
  * picture. */
-VesperResult vesper_scene_set_sky(VesperScene *scene, const float illuminance[3], const float luminance[3], VesperError *error);
+VesperResult vesper_scene_set_sky(VesperScene* scene, const float illuminance[3], const float luminance[3],
+                                  VesperError* error);
 
 /** @} */
 
@@ -341,43 +346,45 @@ VesperResult vesper_scene_set_sky(VesperScene *scene, const float illuminance[3]
 typedef struct VesperRenderer VesperRenderer;
 
 /** Makes a renderer and uploads the scene, which must outlive it. */
-VesperResult vesper_renderer_create(VesperDevice *device, const VesperScene *scene, VesperRenderer **renderer, VesperError *error);
+VesperResult vesper_renderer_create(VesperDevice* device, const VesperScene* scene, VesperRenderer** renderer,
+                                    VesperError* error);
 /** Waits for submitted frames and destroys the renderer. */
-void vesper_renderer_destroy(VesperRenderer *renderer);
+void vesper_renderer_destroy(VesperRenderer* renderer);
 /** Sets the transform of a node, with its children, for all later frames: node frame to world, m. */
-VesperResult vesper_renderer_place(VesperRenderer *renderer, uint32_t node, const float node_to_world[16], VesperError *error);
+VesperResult vesper_renderer_place(VesperRenderer* renderer, uint32_t node, const float node_to_world[16],
+                                   VesperError* error);
 /** Scales the intensity of the lamp at a node for all later frames; 0 switches it off. The node must have a lamp. */
-VesperResult vesper_renderer_dim(VesperRenderer *renderer, uint32_t node, float factor, VesperError *error);
+VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float factor, VesperError* error);
 
 /** Position and angles of the eye, and size of the picture. */
 typedef struct VesperView {
-    uint32_t size;            /**< of this structure */
-    uint32_t width;           /**< px */
-    uint32_t height;          /**< px */
-    const char *camera;       /**< name of a camera of the scene; empty: a view of the whole scene; null: the six fields
-                               * below */
-    float eye[3];             /**< world, m */
-    float forward[3];         /**< world, of any length */
-    float up[3];              /**< world, of any length */
-    float vertical_fov;       /**< rad; used if all `edges` are 0 */
-    float near_plane;         /**< nearest drawn distance, m, above 0 */
-    float edges[4];           /**< tangents of the angles from `forward` to the left, right, bottom and top edge, for an
-                               * off-axis screen; all 0: vertical_fov, symmetric */
-    double scene_seconds;     /**< time of the scene's animations, s */
+    uint32_t size;        /**< of this structure */
+    uint32_t width;       /**< px */
+    uint32_t height;      /**< px */
+    const char* camera;   /**< name of a camera of the scene; empty: a view of the whole scene; null: the six fields
+                           * below */
+    float eye[3];         /**< world, m */
+    float forward[3];     /**< world, of any length */
+    float up[3];          /**< world, of any length */
+    float vertical_fov;   /**< rad; used if all `edges` are 0 */
+    float near_plane;     /**< nearest drawn distance, m, above 0 */
+    float edges[4];       /**< tangents of the angles from `forward` to the left, right, bottom and top edge, for an
+                           * off-axis screen; all 0: vertical_fov, symmetric */
+    double scene_seconds; /**< time of the scene's animations, s */
 } VesperView;
 
 /** Renders into arrays. `seconds`: time since the last frame, for the adaptation of the eye. */
-VesperResult vesper_render(VesperRenderer *renderer, const VesperToneSettings *settings, const VesperView *view, float seconds,
-                           const VesperOutputs *outputs, VesperError *error);
+VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view,
+                           float seconds, const VesperOutputs* outputs, VesperError* error);
 /** Waits for the last frame of vesper_render_image and fills `report`, as vesper_tone_mapper_finish. */
-VesperResult vesper_renderer_finish(VesperRenderer *renderer, VesperFrameReport *report, VesperError *error);
+VesperResult vesper_renderer_finish(VesperRenderer* renderer, VesperFrameReport* report, VesperError* error);
 /** Resets the eye's state, as at a camera cut. Waits for the frame before. */
-VesperResult vesper_renderer_reset(VesperRenderer *renderer, VesperError *error);
+VesperResult vesper_renderer_reset(VesperRenderer* renderer, VesperError* error);
 /** Waits for the last frame and copies the eye's state, as vesper_tone_mapper_eye. Both kinds of states are the
  * same. */
-VesperResult vesper_renderer_eye(VesperRenderer *renderer, void *bytes, VesperError *error);
+VesperResult vesper_renderer_eye(VesperRenderer* renderer, void* bytes, VesperError* error);
 /** Sets the eye's state for the next frame. Waits for the frame before. */
-VesperResult vesper_renderer_set_eye(VesperRenderer *renderer, const void *bytes, size_t size, VesperError *error);
+VesperResult vesper_renderer_set_eye(VesperRenderer* renderer, const void* bytes, size_t size, VesperError* error);
 
 /** @} */
 

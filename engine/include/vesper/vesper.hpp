@@ -31,10 +31,11 @@ struct Destroyer {
         Destroy(object);
     }
 };
-using Device = std::unique_ptr<VesperDevice, Destroyer<vesper_device_close>>;                  /**< owner of a device */
-using ToneMapper = std::unique_ptr<VesperToneMapper, Destroyer<vesper_tone_mapper_destroy>>;   /**< owner of a tone mapper */
-using Scene = std::unique_ptr<VesperScene, Destroyer<vesper_scene_destroy>>;                   /**< owner of a scene */
-using Renderer = std::unique_ptr<VesperRenderer, Destroyer<vesper_renderer_destroy>>;          /**< owner of a renderer */
+using Device = std::unique_ptr<VesperDevice, Destroyer<vesper_device_close>>; /**< owner of a device */
+using ToneMapper =
+    std::unique_ptr<VesperToneMapper, Destroyer<vesper_tone_mapper_destroy>>;         /**< owner of a tone mapper */
+using Scene = std::unique_ptr<VesperScene, Destroyer<vesper_scene_destroy>>;          /**< owner of a scene */
+using Renderer = std::unique_ptr<VesperRenderer, Destroyer<vesper_renderer_destroy>>; /**< owner of a renderer */
 
 /** Calls a function of vesper.h, without its last argument (the error). Throws Failure. Example:
  *     call(vesper_render, renderer.get(), &settings, &view, seconds, &outputs); */

@@ -35,29 +35,30 @@ extern "C" {
  * @{ */
 
 /** Names of the required device extensions, valid for ever. The instance must be made for Vulkan 1.3. */
-const char *const *vesper_device_extensions(uint32_t *count);
+const char* const* vesper_device_extensions(uint32_t* count);
 /** Sets the required features and leaves other features unchanged. The chain of `features` must hold the structures of
  * Vulkan 1.2 and 1.3, or those of the extensions that they include. Fails if the device lacks a feature, and names all
  * missing ones. */
-VesperResult vesper_device_features(VkPhysicalDevice physical_device, VkPhysicalDeviceFeatures2 *features, VesperError *error);
+VesperResult vesper_device_features(VkPhysicalDevice physical_device, VkPhysicalDeviceFeatures2* features,
+                                    VesperError* error);
 
 /** A device that the host made. */
 typedef struct VesperHostDevice {
-    uint32_t size;                         /**< of this structure */
-    uint32_t api_version;                  /**< of the instance (VkApplicationInfo::apiVersion) */
-    VkInstance instance;                   /**< of the device */
-    VkPhysicalDevice physical_device;      /**< of the device */
-    VkDevice device;                       /**< the borrowed device */
-    const VkDeviceCreateInfo *created_with; /**< argument of vkCreateDevice; read during the call only */
-    VkQueue queue;                         /**< queue for graphics and compute */
-    uint32_t queue_family;                 /**< of the queue */
-    void (*lock_queue)(void *user);        /**< called before each use of the queue; may be null */
-    void (*unlock_queue)(void *user);      /**< called after each use; null if lock_queue is */
-    void *user;                            /**< passed to both */
+    uint32_t size;                          /**< of this structure */
+    uint32_t api_version;                   /**< of the instance (VkApplicationInfo::apiVersion) */
+    VkInstance instance;                    /**< of the device */
+    VkPhysicalDevice physical_device;       /**< of the device */
+    VkDevice device;                        /**< the borrowed device */
+    const VkDeviceCreateInfo* created_with; /**< argument of vkCreateDevice; read during the call only */
+    VkQueue queue;                          /**< queue for graphics and compute */
+    uint32_t queue_family;                  /**< of the queue */
+    void (*lock_queue)(void* user);         /**< called before each use of the queue; may be null */
+    void (*unlock_queue)(void* user);       /**< called after each use; null if lock_queue is */
+    void* user;                             /**< passed to both */
 } VesperHostDevice;
 
 /** Borrows a device. Fails if the device lacks a required extension or feature, and names all missing ones. */
-VesperResult vesper_device_borrow(const VesperHostDevice *host, VesperDevice **device, VesperError *error);
+VesperResult vesper_device_borrow(const VesperHostDevice* host, VesperDevice** device, VesperError* error);
 
 /** @} */
 
@@ -81,17 +82,17 @@ typedef struct VesperImage {
 
 /** Semaphores around the work of a call, for other queues. Both lists may be empty. */
 typedef struct VesperHandover {
-    uint32_t size;                         /**< of this structure */
-    uint32_t wait_count;                   /**< of `waits` */
-    uint32_t signal_count;                 /**< of `signals` */
-    const VkSemaphoreSubmitInfo *waits;    /**< binary or timeline; waited for before the work */
-    const VkSemaphoreSubmitInfo *signals;  /**< signalled after the work */
+    uint32_t size;                        /**< of this structure */
+    uint32_t wait_count;                  /**< of `waits` */
+    uint32_t signal_count;                /**< of `signals` */
+    const VkSemaphoreSubmitInfo* waits;   /**< binary or timeline; waited for before the work */
+    const VkSemaphoreSubmitInfo* signals; /**< signalled after the work */
 } VesperHandover;
 
 /** A picture in an image. */
 typedef struct VesperImagePicture {
     uint32_t size;            /**< of this structure */
-    const VesperImage *image; /**< linear Rec. 709 */
+    const VesperImage* image; /**< linear Rec. 709 */
     float scale;              /**< cd/m^2 of a value of 1 */
     float vertical_fov;       /**< angle of the picture's height, rad; used if all `edges` are 0 */
     float edges[4];           /**< as VesperPicture::edges */
@@ -100,11 +101,13 @@ typedef struct VesperImagePicture {
 /** As vesper_tone_map, from an image to an image of the same extent. Submits the work and returns. At most three
  * pictures are in flight. Waits for the picture before if sizes or settings have changed, and with
  * VESPER_GLARE_TEMPORAL and _SPENCER. `handover` may be null. */
-VesperResult vesper_tone_map_image(VesperToneMapper *mapper, const VesperToneSettings *settings, const VesperImagePicture *picture, float seconds,
-                                   const VesperImage *shown, const VesperHandover *handover, VesperError *error);
+VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSettings* settings,
+                                   const VesperImagePicture* picture, float seconds, const VesperImage* shown,
+                                   const VesperHandover* handover, VesperError* error);
 /** As vesper_render, into an image of the view's extent. Submits and waits as vesper_tone_map_image. */
-VesperResult vesper_render_image(VesperRenderer *renderer, const VesperToneSettings *settings, const VesperView *view, float seconds,
-                                 const VesperImage *shown, const VesperHandover *handover, VesperError *error);
+VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSettings* settings, const VesperView* view,
+                                 float seconds, const VesperImage* shown, const VesperHandover* handover,
+                                 VesperError* error);
 
 /** @} */
 

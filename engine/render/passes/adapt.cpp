@@ -29,7 +29,8 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
                                        const Display& display, const FovealView& fovea, float seconds) {
     const uint32_t ceiling = tone.ceiling.value_or(op.ceiling);
     // What others have computed with the published curves is to be met; an eye that adapts needs continuous ones.
-    const ThresholdBreaks breaks = ceiling == shared::kCeilingEye || op.bands ? ThresholdBreaks::continuous() : ThresholdBreaks::published();
+    const ThresholdBreaks breaks =
+        ceiling == shared::kCeilingEye || op.bands ? ThresholdBreaks::continuous() : ThresholdBreaks::published();
     const ReceptorModel viewer(ReceptorKind::Cones, Receptors::cones());
     const float texel = float(1u << fovea.level);
     const OperatorBlock block = tone.operators.block(op.tone_operator, display);
@@ -62,7 +63,8 @@ Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inp
                           shared::ToneParameters parameters) {
     const auto& [pyramid, foveal_level, histogram, colours, eye] = inputs;
     parameters.colour_tiles = {colours.extent.width, colours.extent.height};
-    const Resource curve = frame.graph.transient("tone curve", buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT));
+    const Resource curve =
+        frame.graph.transient("tone curve", buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT));
     const History history = frame.graph.history(kEyeHistory, buffer_shape(sizeof(shared::EyeState)));
     // Declared in both cases: frames with the same resources keep their memory.
     const Resource value = frame.graph.upload("eye of the host", std::vector{eye.value});

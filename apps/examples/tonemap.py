@@ -8,7 +8,8 @@ import sys
 
 import numpy as np
 
-OPERATORS = ["irawan", "ward", "reinhard", "linear", None, "pattanaik", "ferwerda", "durand", "grave"]
+OPERATORS = ["irawan", "ward", "reinhard", "linear", None, "pattanaik", "ferwerda", "durand", "grave",
+             "drago", "devlin", "neutral"]
 
 
 class Error(c.Structure):

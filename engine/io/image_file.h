@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/scene.h"
+#include "base/image.h"
 
 namespace vesper {
 

@@ -13,6 +13,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "base/image.h"
 #include "photometry/distribution.h"
 #include "photometry/environment.h"
 #include "photometry/luminance_picture.h"
@@ -37,13 +38,6 @@ struct Transfer {
     enum class Kind : uint8_t { Srgb, Gamma };
     Kind kind = Kind::Srgb;
     float gamma = 2.2f;  ///< Kind::Gamma: value = T^gamma (Petit, Bremond and Vienne, Eq. 1: gamma = 2.2)
-};
-
-/// A picture as in its file: RGBA with 8 bits per channel, rows from the top, not linear.
-struct Image {
-    std::string name;
-    uint32_t width = 0, height = 0;
-    std::vector<uint8_t> rgba;  ///< width * height * 4 codes
 };
 
 enum class Wrap : uint8_t { Repeat, Mirror, Clamp };

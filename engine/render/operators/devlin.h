@@ -10,10 +10,10 @@ namespace vesper {
 struct DevlinSettings {
     static constexpr OperatorTraits traits{.form = 10, .chromatic = true};
 
-    float intensity = 0;             ///< f'
-    float contrast = 0;              ///< m; 0: from the key of the frame
-    float light_adaptation = 1;      ///< a: 0 to the frame, 1 to the pixel
-    float chromatic_adaptation = 0;  ///< c: 0 to luminance, 1 to each channel
+    float intensity = 0;                ///< f'
+    float contrast = 0;                 ///< m; 0: from the key of the frame
+    float light_adaptation = 0.75f;     ///< a: 0 to the frame, 1 to the pixel; default as pfstools 2.2.0, paper: 1
+    float chromatic_adaptation = 0.5f;  ///< c: 0 to luminance, 1 to each channel; default as pfstools 2.2.0, paper: 0
 
     template <class Visit>
     void options(const Visit& visit) {

@@ -1,5 +1,5 @@
-// A world on the scene's nodes: what moves is posed, and its lamps are lit, frame by frame. SPDX-License-Identifier:
-// MIT
+// A world on the scene's nodes: what moves is posed, and its lamps are lit, frame by frame.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
-// The frame graph: a frame is declared once, as resources and passes in the order they run. SPDX-License-Identifier:
-// MIT A declared frame is compiled to a Plan (graph/plan.h), which knows no device; an Executor (graph/executor.h) runs
-// it.
+// The frame graph: a frame is declared once, as resources and passes in the order they run.
+// SPDX-License-Identifier: MIT
+// A declared frame is compiled to a Plan (graph/plan.h), which knows no device; an Executor (graph/executor.h) runs it.
 #pragma once
 
 #include <cstring>

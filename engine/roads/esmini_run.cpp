@@ -1,5 +1,5 @@
-// Reading a run: the table, the entities of its scenario, lamps that follow from how it goes. SPDX-License-Identifier:
-// MIT
+// Reading a run: the table, the entities of its scenario, lamps that follow from how it goes.
+// SPDX-License-Identifier: MIT
 #include "roads/esmini_run.h"
 
 #include <algorithm>

@@ -23,7 +23,7 @@ json quantity_of(const char* name, const ColouredQuantity& quantity) {
     return {{name, quantity.value}, {"colour", colour_of(quantity.colour)}};
 }
 
-/// The extras block, docs/photometry.md.
+/// The extras block, docs/gltf.md.
 json block_of(const Conversion& conversion, const std::filesystem::path& input,
               const std::filesystem::path& photometry) {
     const Photometry& p = conversion.photometry;

@@ -33,7 +33,7 @@ struct LoadedScene {
 };
 
 /// Reads a scene: meshes, materials, node tree, cameras, KHR_lights_punctual (cd), EXT_lights_ies,
-/// KHR_materials_emissive_strength (cd/m^2), animations of nodes, and the vesper extras block (docs/photometry.md)
+/// KHR_materials_emissive_strength (cd/m^2), animations of nodes, and the vesper extras block (docs/gltf.md)
 /// where there is one. Throws Error naming the file, the place in it (JSON pointer or byte) and the reason.
 LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limits = {});
 

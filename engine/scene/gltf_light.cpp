@@ -1,5 +1,5 @@
-// Lamps of a glTF file, and what our extras block says of them, the ambient light and the sky. SPDX-License-Identifier:
-// MIT
+// Lamps of a glTF file, and what our extras block says of them, the ambient light and the sky.
+// SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -110,7 +110,7 @@ void read_nodes(GltfReader& reader);
 Node read_placed(const GltfPart<tinygltf::Node>& source);
 uint32_t add_node(GltfReader& reader, const JsonValue& source, Node node);
 void read_animations(GltfReader& reader);
-/// The extras block of a converted file (docs/photometry.md).
+/// The extras block of a converted file (docs/gltf.md).
 void read_photometry_block(GltfReader& reader);
 /// "reflection_tables" and "roads" of that block.
 void read_reflection_tables(GltfReader& reader, const JsonValue& block);

@@ -9,7 +9,7 @@
 namespace vesper {
 
 /// Writes the scene to a self-contained file, named .gltf or .glb, that read_gltf gives back: lamps and materials in
-/// the standard parts and the vesper extras block (docs/photometry.md). The file is replaced only when all of it is
+/// the standard parts and the vesper extras block (docs/gltf.md). The file is replaced only when all of it is
 /// written. Scenes with pictures (textures, luminance pictures, an environment) come from glTF files and are converted
 /// there: here they are refused. `source` goes into the provenance. Throws Error.
 void save_gltf(const Scene& scene, const std::string& source, const std::filesystem::path& file);

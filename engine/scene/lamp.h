@@ -1,5 +1,5 @@
-// Luminous intensity and flux of a scene's lamps, and the luminance they give their openings. SPDX-License-Identifier:
-// MIT
+// Luminous intensity and flux of a scene's lamps, and the luminance they give their openings.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// The photometry file, which makes a database photometric (docs/photometry.md). SPDX-License-Identifier:
-// MIT
+// The photometry file, which makes a database photometric (docs/photometry.md).
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The eye over time and the parameters of operators, against published digits and properties. SPDX-License-Identifier:
-// MIT
+// The eye over time and the parameters of operators, against published digits and properties.
+// SPDX-License-Identifier: MIT
 #include "passes/adapt_reference.h"
 #include "render/passes/adapt.h"
 

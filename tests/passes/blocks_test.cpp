@@ -1,5 +1,5 @@
-// Blocks of the image on the device: their classes, and the lamps that are added up over them. SPDX-License-Identifier:
-// MIT
+// Blocks of the image on the device: their classes, and the lamps that are added up over them.
+// SPDX-License-Identifier: MIT
 #include "passes/blocks_reference.h"
 
 #include <algorithm>

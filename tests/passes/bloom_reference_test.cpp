@@ -1,5 +1,5 @@
-// The display-image glare: a normalised Gaussian, and how near the small separable one comes. SPDX-License-Identifier:
-// MIT
+// The display-image glare: a normalised Gaussian, and how near the small separable one comes.
+// SPDX-License-Identifier: MIT
 #include "passes/bloom_reference.h"
 
 #include <numeric>

@@ -1,5 +1,5 @@
-// Light scattered in the eye: the definition, and the fitted pyramid step by step, in double. SPDX-License-Identifier:
-// MIT
+// Light scattered in the eye: the definition, and the fitted pyramid step by step, in double.
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <algorithm>

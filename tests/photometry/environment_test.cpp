@@ -1,5 +1,5 @@
-// Skies: against closed forms, and polynomial and blurred maps against sums over all pixels. SPDX-License-Identifier:
-// MIT
+// Skies: against closed forms, and polynomial and blurred maps against sums over all pixels.
+// SPDX-License-Identifier: MIT
 #include "photometry/environment.h"
 
 #include <algorithm>

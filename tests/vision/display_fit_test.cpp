@@ -1,5 +1,5 @@
-// Displays from measurements: known ones are found again, nonsense is refused where it stands. SPDX-License-Identifier:
-// MIT
+// Displays from measurements: known ones are found again, nonsense is refused where it stands.
+// SPDX-License-Identifier: MIT
 #include "vision/display_fit.h"
 
 #include <cmath>

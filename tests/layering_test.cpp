@@ -97,6 +97,7 @@ TEST(Layering, TheRulesRefuse) {
     EXPECT_NE(objection("gpu/kernel.h", "graph/plan.h"), "");
     EXPECT_NE(objection("scene/scene.h", "io/image_file.h"), "");
     EXPECT_NE(objection("io/image_file.h", "scene/convert.h"), "");
+    EXPECT_NE(objection("gpu_scene/view.cpp", "roads/road_layout.h"), "") << "is no part of the renderer";
     EXPECT_NE(objection("render/passes/a.cpp", "io/image_file.h"), "");
     EXPECT_NE(objection("graph/plan.h", "../gpu/kernel.h"), "");
     EXPECT_NE(objection("elsewhere/a.cpp", "base/error.h"), "");

@@ -10,9 +10,9 @@
 #include "in_file.h"
 #include "road_render.h"
 #include "road_report.h"
+#include "roads/layout_file.h"
+#include "roads/layout_scene.h"
 #include "scene/gltf_save.h"
-#include "scene/road_file.h"
-#include "scene/road_scene.h"
 
 namespace vesper {
 namespace {
@@ -20,14 +20,14 @@ namespace {
 struct RoadArguments {
     std::string layout, csv, json, wanted, device, scene;
     std::vector<std::string> pictures;
-    RoadOverrides overrides;
+    roads::LayoutOverrides overrides;
     bool grid = false;
 };
 
 /// The road as a scene whose luminaires are seen, too, where their file states an opening.
-Scene lit_road(const RoadLayout& road) {
-    Scene scene = road_scene(road);
-    for (Lamp& lamp : scene.lamps) lamp.opening = road.distribution.opening;
+Scene lit_road(const roads::RoadLayout& layout) {
+    Scene scene = layout_scene(layout);
+    for (Lamp& lamp : scene.lamps) lamp.opening = layout.distribution.opening;
     return scene;
 }
 
@@ -47,10 +47,11 @@ void run(const RoadArguments& arguments) {
     if (!arguments.device.empty() && arguments.pictures.empty())
         throw Error("--device has a meaning only beside --render");
     const FilesRead read;
-    const RoadFile file = read_road(arguments.layout, arguments.overrides);
+    const roads::LayoutFile file = roads::read_layout(arguments.layout, arguments.overrides);
     files.refuse_overwriting(read);
-    const RoadResult result = in_file(arguments.layout, [&] { return calculate_road(file.layout); });
-    const LightingClass* wanted = find_lighting_class(arguments.wanted.empty() ? file.wanted_class : arguments.wanted);
+    const roads::RoadLighting result = in_file(arguments.layout, [&] { return calculate_lighting(file.layout); });
+    const roads::LightingClass* wanted =
+        roads::find_lighting_class(arguments.wanted.empty() ? file.wanted_class : arguments.wanted);
     std::fputs(text_of(file.layout, result, wanted ? wanted : reached_class(result)).c_str(), stdout);
     if (arguments.grid) std::fputs(grid_text_of(result).c_str(), stdout);
     RenderedRoad rendered;
@@ -71,9 +72,9 @@ void run(const RoadArguments& arguments) {
 void add_road(Command program) {
     Command command = program.add_command("road", "Calculate road lighting: Lav, Uo, Ul, TI, EIR (EN 13201-3)");
     const auto a = std::make_shared<RoadArguments>();
-    RoadOverrides& o = a->overrides;
+    roads::LayoutOverrides& o = a->overrides;
     std::vector<std::string> classes;
-    for (const LightingClass& c : lighting_classes()) classes.emplace_back(c.name);
+    for (const roads::LightingClass& c : roads::lighting_classes()) classes.emplace_back(c.name);
     command.add_option("layout", a->layout, "The road: a .json file (docs/road.md)").required();
     command.add_flag("--grid", a->grid, "Print illuminance and luminance of every point");
     command.add_option("--csv", a->csv, "Write the points to a CSV file");

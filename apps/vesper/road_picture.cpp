@@ -3,9 +3,9 @@
 
 #include "arguments.h"
 #include "false_colour.h"
-#include "gpu_scene/road_view.h"
 #include "io/image_file.h"
 #include "road_render.h"
+#include "road_view.h"
 #include "scene/colour.h"
 
 namespace vesper {
@@ -30,25 +30,26 @@ struct Panel {
     }
 };
 
-void outline_field(Canvas& canvas, const Panel& panel, const RoadLayout& road) {
-    const glm::dvec2 corners[] = {panel.at({0, 0, 0}), panel.at({road.spacing, 0, 0}),
-                                  panel.at({road.spacing, road.width, 0}), panel.at({0, road.width, 0}),
+void outline_field(Canvas& canvas, const Panel& panel, const roads::RoadLayout& layout) {
+    const glm::dvec2 corners[] = {panel.at({0, 0, 0}), panel.at({layout.spacing, 0, 0}),
+                                  panel.at({layout.spacing, layout.width, 0}), panel.at({0, layout.width, 0}),
                                   panel.at({0, 0, 0})};
     canvas.line(corners, CanvasColour(1), 1.2, true);
 }
 
-void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, const RoadResult& result, size_t index,
-                   const RenderedObserver& seen, const ColourScale& scale) {
-    const RoadObserver& observer = result.observers[index];
+void draw_observer(Canvas& canvas, glm::dvec2 corner, const roads::RoadLayout& layout,
+                   const roads::RoadLighting& result, size_t index, const RenderedObserver& seen,
+                   const ColourScale& scale) {
+    const roads::LaneObserver& observer = result.observers[index];
     const ValuePicture picture = resized(luminances_of(seen.view.extent, seen.rgba), kPanelWidth, kPanelHeight);
     canvas.pixels(static_cast<int>(corner.x), static_cast<int>(corner.y), kPanelWidth, kPanelHeight,
                   false_colours(picture, scale));
     std::vector<double> levels;
-    for (const LightingClass& c : lighting_classes()) levels.push_back(c.luminance);
+    for (const roads::LightingClass& c : roads::lighting_classes()) levels.push_back(c.luminance);
     draw_contours(canvas, picture, levels, corner);
     const Panel panel{seen.view, corner, {kPanelWidth, kPanelHeight}};
-    outline_field(canvas, panel, road);
-    for (const FieldPoint& point : result.points) {
+    outline_field(canvas, panel, layout);
+    for (const roads::FieldPoint& point : result.points) {
         canvas.disc(panel.at({point.x, point.y, 0}), 2.5, CanvasColour(1));
         canvas.disc(panel.at({point.x, point.y, 0}), 1.5, CanvasColour(0));
     }
@@ -70,7 +71,7 @@ void draw_observer(Canvas& canvas, glm::dvec2 corner, const RoadLayout& road, co
     canvas.text(corner + glm::dvec2(kPanelWidth, -14), format("heights \u00d7 %.1f", tall), 13, Canvas::Align::Right);
 }
 
-void write_false_colours(const std::string& file, const RoadLayout& road, const RoadResult& result,
+void write_false_colours(const std::string& file, const roads::RoadLayout& layout, const roads::RoadLighting& result,
                          const RenderedRoad& rendered) {
     std::vector<float> all;
     for (const RenderedObserver& seen : rendered.observers)
@@ -80,7 +81,7 @@ void write_false_colours(const std::string& file, const RoadLayout& road, const 
     const double top = 96,
                  tall = overview.height + kGap + static_cast<double>(rendered.observers.size()) * (kPanelHeight + kGap);
     Canvas canvas(static_cast<uint32_t>(kLeft + kPanelWidth + 24 + kBarWidth), static_cast<uint32_t>(top + tall));
-    canvas.text({kLeft, 24}, column(road.name, 100), 17);
+    canvas.text({kLeft, 24}, column(layout.name, 100), 17);
     canvas.text({kLeft, 48},
                 "Luminance of the road from the standard observers, 60 m before the field and 1.5 m up; lines: limits "
                 "of the classes M6 to M1",
@@ -89,19 +90,19 @@ void write_false_colours(const std::string& file, const RoadLayout& road, const 
                 format("As seen from lane %d; dashed: the field", result.observers[rendered.darkest].lane), 13);
     canvas.pixels(static_cast<int>(kLeft), static_cast<int>(top), overview.width, overview.height,
                   false_colours(overview, scale));
-    outline_field(canvas, {rendered.overview, {kLeft, top}, {overview.width, overview.height}}, road);
+    outline_field(canvas, {rendered.overview, {kLeft, top}, {overview.width, overview.height}}, layout);
     double y = top + overview.height + kGap;
     for (size_t i = 0; i < rendered.observers.size(); ++i, y += kPanelHeight + kGap)
-        draw_observer(canvas, {kLeft, y}, road, result, i, rendered.observers[i], scale);
+        draw_observer(canvas, {kLeft, y}, layout, result, i, rendered.observers[i], scale);
     draw_colour_bar(canvas, {kLeft + kPanelWidth + 24, top}, std::min(tall - kGap, 700.0), scale, "cd/m\u00b2");
     canvas.save(file);
 }
 
 }  // namespace
 
-void write_picture(const std::string& file, const RoadLayout& road, const RoadResult& result,
+void write_picture(const std::string& file, const roads::RoadLayout& layout, const roads::RoadLighting& result,
                    const RenderedRoad& rendered) {
-    if (file.ends_with(".png")) return write_false_colours(file, road, result, rendered);
+    if (file.ends_with(".png")) return write_false_colours(file, layout, result, rendered);
     for (size_t i = 0; i < rendered.observers.size(); ++i) {
         const View& view = rendered.observers[i].view;
         const int lane = result.observers[i].lane;
@@ -110,7 +111,7 @@ void write_picture(const std::string& file, const RoadLayout& road, const RoadRe
         const glm::dvec3 eye = result.observers[i].eye;
         write_exr(name, view.extent.width, view.extent.height, rendered.observers[i].rgba,
                   {{"vesper:version", VESPER_VERSION},
-                   {"vesper:road", road.name},
+                   {"vesper:road", layout.name},
                    {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
                    {"vesper:device", rendered.device},
                    {"vesper:eye", format("%.9g %.9g %.9g", eye.x, eye.y, eye.z)},

@@ -7,9 +7,9 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
-#include "gpu_scene/road_view.h"
 #include "render/renderer.h"
-#include "scene/road_scene.h"
+#include "road_view.h"
+#include "roads/layout_scene.h"
 
 namespace vesper {
 namespace {
@@ -19,12 +19,12 @@ double difference_percent(double picture, double calculated, double average) {
     return 100 * (picture - calculated) / std::max(calculated, 1e-3 * average);
 }
 
-void summarise(const RoadLayout& road, const RoadResult& result, size_t index, RoadReading& reading) {
-    const RoadObserver& observer = result.observers[index];
+void summarise(const roads::RoadLayout& layout, const roads::RoadLighting& result, size_t index, RoadReading& reading) {
+    const roads::LaneObserver& observer = result.observers[index];
     double sum = 0, squares = 0, least = HUGE_VAL, lane_least = HUGE_VAL, lane_greatest = 0;
     for (size_t i = 0; i < result.points.size(); ++i) {
         const double value = reading.luminance[i];
-        if (!std::isfinite(value)) throw Error(road.name + ": the picture has no luminance at a point of the grid");
+        if (!std::isfinite(value)) throw Error(layout.name + ": the picture has no luminance at a point of the grid");
         const double difference =
             difference_percent(value, result.points[i].luminance[index], observer.average_luminance);
         sum += value;
@@ -34,7 +34,7 @@ void summarise(const RoadLayout& road, const RoadResult& result, size_t index, R
             reading.largest_difference = difference;
             reading.largest_at = i;
         }
-        if (std::abs(result.points[i].y - observer.eye.y) > road.width / road.lanes / 6) continue;
+        if (std::abs(result.points[i].y - observer.eye.y) > layout.width / layout.lanes / 6) continue;
         lane_least = std::min(lane_least, value);
         lane_greatest = std::max(lane_greatest, value);
     }
@@ -44,7 +44,7 @@ void summarise(const RoadLayout& road, const RoadResult& result, size_t index, R
     reading.average_difference =
         difference_percent(reading.average_luminance, observer.average_luminance, observer.average_luminance);
     reading.overall_uniformity = sum > 0 ? least / reading.average_luminance : 0;
-    reading.lengthwise_uniformity = lane_greatest > 0 ? lane_least / lane_greatest : 0;
+    reading.longitudinal_uniformity = lane_greatest > 0 ? lane_least / lane_greatest : 0;
 }
 
 /// Points of the grid of one observer.
@@ -54,14 +54,15 @@ struct Wanted {
 /// By the luminaires of the scene that light them in the calculation.
 using Groups = std::map<std::vector<bool>, std::vector<Wanted>>;
 
-Groups groups_of(const RoadLayout& road, const std::vector<RoadLuminaire>& lamps, const RoadResult& result) {
+Groups groups_of(const roads::RoadLayout& layout, const std::vector<roads::PlacedLuminaire>& lamps,
+                 const roads::RoadLighting& result) {
     Groups groups;
     for (size_t o = 0; o < result.observers.size(); ++o)
         for (size_t i = 0; i < result.points.size(); ++i) {
             const glm::dvec2 point(result.points[i].x, result.points[i].y);
             std::vector<bool> counted;
-            for (const RoadLuminaire& lamp : lamps)
-                counted.push_back(reflected_towards(road, lamp, point, result.observers[o].eye) > 0);
+            for (const roads::PlacedLuminaire& lamp : lamps)
+                counted.push_back(reflected_towards(layout, lamp, point, result.observers[o].eye) > 0);
             groups[counted].push_back({o, i});
         }
     return groups;
@@ -96,8 +97,8 @@ private:
 };
 
 /// Veil and TI off a picture of what dazzles; lamps above the roof of the car do not.
-GlareReport read_glare(const RoadLayout& road, const RoadObserver& observer, Device& device) {
-    const Scene scene = road_glare_scene(road, observer.glare_eye.x);
+GlareReport read_glare(const roads::RoadLayout& layout, const roads::LaneObserver& observer, Device& device) {
+    const Scene scene = layout_glare_scene(layout, observer.glare_eye.x);
     Renderer renderer(device, scene);
     const View view = road_glare_view(observer.glare_eye);
     const Frame frame =
@@ -107,26 +108,27 @@ GlareReport read_glare(const RoadLayout& road, const RoadObserver& observer, Dev
         if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z)
             beside.push_back({lamp.direction, luminance(lamp.illuminance)});
     const ImageAngles image = angles_of(view);
-    const double average = observer.average_luminance / road.maintenance_factor;
+    const double average = observer.average_luminance / layout.maintenance_factor;
     const glm::dvec2 sight = image.pixels_at({0, 0}) / glm::dvec2(image.width, image.height);
     return report_glare(image, frame.scene, beside,
-                        {.eye = {road.age}, .gaze = sight, .source_luminance = 0, .average_luminance = average});
+                        {.eye = {layout.age}, .gaze = sight, .source_luminance = 0, .average_luminance = average});
 }
 
-double read_point(const std::vector<float>& rgba, const View& view, const FieldPoint& point) {
+double read_point(const std::vector<float>& rgba, const View& view, const roads::FieldPoint& point) {
     return luminance_at(rgba, view.extent, project(view, {point.x, point.y, 0}));
 }
 
-std::string summary_line(const RoadObserver& a, const RoadReading& b) {
+std::string summary_line(const roads::LaneObserver& a, const RoadReading& b) {
     std::string text =
         format("  %4d  %7.4f %7.4f %+6.2f %%", a.lane, a.average_luminance, b.average_luminance, b.average_difference);
-    text += format("   %6.3f %6.3f   %6.3f %6.3f", a.overall_uniformity, b.overall_uniformity, a.lengthwise_uniformity,
-                   b.lengthwise_uniformity);
+    text += format("   %6.3f %6.3f   %6.3f %6.3f", a.overall_uniformity, b.overall_uniformity,
+                   a.longitudinal_uniformity, b.longitudinal_uniformity);
     return text + format("   %5.2f %%  %+6.2f %%\n", b.mean_difference, b.largest_difference);
 }
 
 /// What differs most of all observers.
-std::string worst_line(const RoadResult& result, const RenderedRoad& rendered, RoadReading RenderedObserver::*which) {
+std::string worst_line(const roads::RoadLighting& result, const RenderedRoad& rendered,
+                       RoadReading RenderedObserver::*which) {
     const RoadReading* worst = &(rendered.observers.front().*which);
     double average = 0;
     for (const RenderedObserver& seen : rendered.observers) {
@@ -134,32 +136,33 @@ std::string worst_line(const RoadResult& result, const RenderedRoad& rendered, R
         if (std::abs(reading.largest_difference) > std::abs(worst->largest_difference)) worst = &reading;
         if (std::abs(reading.average_difference) > std::abs(average)) average = reading.average_difference;
     }
-    const FieldPoint& at = result.points[worst->largest_at];
+    const roads::FieldPoint& at = result.points[worst->largest_at];
     return format("%+.2f %% at x = %.2f m, y = %.2f m; of Lav: %+.2f %%\n", worst->largest_difference, at.x, at.y,
                   average);
 }
 
 }  // namespace
 
-RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const std::string& select) {
-    const Scene scene = road_scene(road);
+RenderedRoad render_road(const roads::RoadLayout& layout, const roads::RoadLighting& result,
+                         const std::string& select) {
+    const Scene scene = layout_scene(layout);
     Device device({.select = select});
     RenderedRoad made{.device = device.name()};
     RoadPictures whole(device, scene);
     for (size_t i = 0; i < result.observers.size(); ++i) {
         RenderedObserver seen;
-        seen.view = road_view(road, result.observers[i]);
+        seen.view = road_view(layout, result.observers[i]);
         seen.rgba = whole.render(seen.view);
         seen.longest_pixel = depth_of_pixel(seen.view, result.observers[i], result.field.x.back());
-        for (const FieldPoint& point : result.points)
+        for (const roads::FieldPoint& point : result.points)
             seen.every.luminance.push_back(read_point(seen.rgba, seen.view, point));
         seen.counted.luminance.resize(result.points.size());
         made.observers.push_back(std::move(seen));
         if (result.observers[i].average_luminance < result.observers[made.darkest].average_luminance) made.darkest = i;
     }
     for (size_t i = 0; i < made.observers.size(); ++i)
-        made.observers[i].glare = read_glare(road, result.observers[i], device);
-    for (const auto& [counted, wanted] : groups_of(road, road_scene_luminaires(road), result)) {
+        made.observers[i].glare = read_glare(layout, result.observers[i], device);
+    for (const auto& [counted, wanted] : groups_of(layout, layout_scene_luminaires(layout), result)) {
         RoadPictures some(device, with_luminaires(scene, counted));
         for (const auto& [observer, point] : wanted) {
             const View view =
@@ -169,21 +172,21 @@ RenderedRoad render_road(const RoadLayout& road, const RoadResult& result, const
         }
     }
     for (size_t i = 0; i < made.observers.size(); ++i) {
-        summarise(road, result, i, made.observers[i].counted);
-        summarise(road, result, i, made.observers[i].every);
+        summarise(layout, result, i, made.observers[i].counted);
+        summarise(layout, result, i, made.observers[i].every);
     }
-    made.overview = road_overview(road, result.observers[made.darkest], 1000);
+    made.overview = road_overview(layout, result.observers[made.darkest], 1000);
     made.overview_rgba = whole.render(made.overview);
     return made;
 }
 
-std::string text_of(const RoadResult& result, const RenderedRoad& rendered) {
+std::string text_of(const roads::RoadLighting& result, const RenderedRoad& rendered) {
     const size_t columns = result.field.x.size();
     std::string text =
         "\nRendered on " + rendered.device +
         ", with the luminaires that count for each point, at 1 mm a pixel: calculated, rendered, difference in %\n";
     for (size_t o = 0; o < result.observers.size(); ++o) {
-        const RoadObserver& observer = result.observers[o];
+        const roads::LaneObserver& observer = result.observers[o];
         const RenderedObserver& seen = rendered.observers[o];
         text += format(
             "\nLuminance for the observer of lane %d, cd/m2 (the picture by every luminaire: %u x %u px, at most %.1f "
@@ -210,7 +213,7 @@ std::string text_of(const RoadResult& result, const RenderedRoad& rendered) {
         text += summary_line(result.observers[o], rendered.observers[o].every);
     text += "\nGlare, off a picture of the new luminaires: veil in cd/m2 and TI, calculated, rendered\n";
     for (size_t o = 0; o < result.observers.size(); ++o) {
-        const RoadObserver& a = result.observers[o];
+        const roads::LaneObserver& a = result.observers[o];
         const GlareReport& b = rendered.observers[o].glare;
         text += format("  %4d  %7.4f %7.4f   %6.2f %% %6.2f %%\n", a.lane, a.veil, b.road_veil, a.threshold_increment,
                        b.increment);

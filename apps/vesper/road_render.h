@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gpu_scene/view.h"
-#include "photometry/road.h"
+#include "roads/road_lighting.h"
 #include "vision/glare_report.h"
 
 namespace vesper {
@@ -13,11 +13,11 @@ namespace vesper {
 /// What was read off pictures at the points of the grid, beside the calculation.
 struct RoadReading {
     std::vector<double> luminance;  ///< at each point, cd/m^2
-    double average_luminance = 0, overall_uniformity = 0, lengthwise_uniformity = 0;
+    double average_luminance = 0, overall_uniformity = 0, longitudinal_uniformity = 0;
     /// (picture - calculation) / calculation, %: of the average, of all points (root of the mean square), and the
     /// largest.
     double average_difference = 0, mean_difference = 0, largest_difference = 0;
-    size_t largest_at = 0;  ///< index into RoadResult::points
+    size_t largest_at = 0;  ///< index into RoadLighting::points
 };
 
 /// What an observer sees in the picture.
@@ -29,7 +29,7 @@ struct RenderedObserver {
     /// it. And off the picture above, for what that leaves out.
     RoadReading counted, every;
     double longest_pixel = 0;  ///< m of road in a pixel, at the far end of the field
-    /// Off a picture of the new luminaires from RoadObserver::glare_eye, those outside of it added.
+    /// Off a picture of the new luminaires from LaneObserver::glare_eye, those outside of it added.
     GlareReport glare;
 };
 
@@ -42,12 +42,12 @@ struct RenderedRoad {
 };
 
 /// Renders the scene of the road for every observer on a device and reads the grid off the pictures. Throws Error.
-RenderedRoad render_road(const RoadLayout&, const RoadResult&, const std::string& device);
+RenderedRoad render_road(const roads::RoadLayout&, const roads::RoadLighting&, const std::string& device);
 
 /// Calculation and picture side by side.
-std::string text_of(const RoadResult&, const RenderedRoad&);
+std::string text_of(const roads::RoadLighting&, const RenderedRoad&);
 /// Writes false colours (.png) or the luminances of each observer (.exr, with the lane in the name where there are
 /// several).
-void write_picture(const std::string& file, const RoadLayout&, const RoadResult&, const RenderedRoad&);
+void write_picture(const std::string& file, const roads::RoadLayout&, const roads::RoadLighting&, const RenderedRoad&);
 
 }  // namespace vesper

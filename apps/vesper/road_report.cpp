@@ -7,19 +7,19 @@
 namespace vesper {
 namespace {
 
-const char* name_of(Arrangement arrangement) {
+const char* name_of(roads::Arrangement arrangement) {
     switch (arrangement) {
-        case Arrangement::Right:
+        case roads::Arrangement::Right:
             return "a row on the right";
-        case Arrangement::Left:
+        case roads::Arrangement::Left:
             return "a row on the left";
-        case Arrangement::Opposite:
+        case roads::Arrangement::Opposite:
             return "facing rows";
-        case Arrangement::Staggered:
+        case roads::Arrangement::Staggered:
             return "staggered rows";
-        case Arrangement::Central:
+        case roads::Arrangement::Central:
             return "back to back on the reservation";
-        case Arrangement::List:
+        case roads::Arrangement::List:
             return "as listed";
     }
     return "";
@@ -29,14 +29,14 @@ double q0_of(const ReflectionTable& table) {
     return table.stated_q0 > 0 ? table.stated_q0 : average_luminance_coefficient(table);
 }
 
-std::string head_of(const RoadLayout& road, const RoadResult& result) {
-    std::string text = road.name + "\n";
-    text += format("  carriageway  %g m, %d lanes, surface %s with Q0 %.3g, S1 %.2f\n", road.width, road.lanes,
-                   road.surface.name.c_str(), q0_of(road.surface), specular_factor(road.surface));
-    text += format("  luminaires   %s, every %g m, %g m high, overhang %g m, tilt %g deg\n", name_of(road.arrangement),
-                   road.spacing, road_height(road), road.overhang, road.tilt);
-    text += format("               %s, %.0f lm, maintenance factor %g\n", road.distribution.name.c_str(),
-                   luminous_flux(road.distribution) * road.flux_factor, road.maintenance_factor);
+std::string head_of(const roads::RoadLayout& layout, const roads::RoadLighting& result) {
+    std::string text = layout.name + "\n";
+    text += format("  carriageway  %g m, %d lanes, surface %s with Q0 %.3g, S1 %.2f\n", layout.width, layout.lanes,
+                   layout.surface.name.c_str(), q0_of(layout.surface), specular_factor(layout.surface));
+    text += format("  luminaires   %s, every %g m, %g m high, overhang %g m, tilt %g deg\n",
+                   name_of(layout.arrangement), layout.spacing, mounting_height(layout), layout.overhang, layout.tilt);
+    text += format("               %s, %.0f lm, maintenance factor %g\n", layout.distribution.name.c_str(),
+                   luminous_flux(layout.distribution) * layout.flux_factor, layout.maintenance_factor);
     text += format("  grid         %zu x %zu points, %.3g m apart\n", result.field.x.size(), result.field.y.size(),
                    result.field.step);
     return text;
@@ -46,33 +46,33 @@ struct Figure {
     const char *name, *key, *unit;
     int decimals;
     double value;
-    double LightingClass::*limit;
+    double roads::LightingClass::*limit;
 };
 
-std::vector<Figure> figures_of(const RoadResult& r) {
+std::vector<Figure> figures_of(const roads::RoadLighting& r) {
     // Of a wet road, classes limit the overall uniformity alone.
     if (r.wet)
         return {{"Lav", "average_luminance_cd_m2", "cd/m2", 3, r.average_luminance, nullptr},
-                {"Uow", "overall_uniformity", "", 3, r.overall_uniformity, &LightingClass::overall_wet},
-                {"Ul", "lengthwise_uniformity", "", 3, r.lengthwise_uniformity, nullptr},
+                {"Uow", "overall_uniformity", "", 3, r.overall_uniformity, &roads::LightingClass::overall_wet},
+                {"Ul", "lengthwise_uniformity", "", 3, r.longitudinal_uniformity, nullptr},
                 {"TI", "threshold_increment_percent", "%", 2, r.threshold_increment, nullptr},
                 {"EIR", "edge_illuminance_ratio", "", 3, r.edge_ratio, nullptr}};
-    return {{"Lav", "average_luminance_cd_m2", "cd/m2", 3, r.average_luminance, &LightingClass::luminance},
-            {"Uo", "overall_uniformity", "", 3, r.overall_uniformity, &LightingClass::overall},
-            {"Ul", "lengthwise_uniformity", "", 3, r.lengthwise_uniformity, &LightingClass::lengthwise},
-            {"TI", "threshold_increment_percent", "%", 2, r.threshold_increment, &LightingClass::increment},
-            {"EIR", "edge_illuminance_ratio", "", 3, r.edge_ratio, &LightingClass::edge}};
+    return {{"Lav", "average_luminance_cd_m2", "cd/m2", 3, r.average_luminance, &roads::LightingClass::luminance},
+            {"Uo", "overall_uniformity", "", 3, r.overall_uniformity, &roads::LightingClass::overall},
+            {"Ul", "lengthwise_uniformity", "", 3, r.longitudinal_uniformity, &roads::LightingClass::longitudinal},
+            {"TI", "threshold_increment_percent", "%", 2, r.threshold_increment, &roads::LightingClass::increment},
+            {"EIR", "edge_illuminance_ratio", "", 3, r.edge_ratio, &roads::LightingClass::edge}};
 }
 
-bool holds(const Figure& figure, const LightingClass& wanted) {
+bool holds(const Figure& figure, const roads::LightingClass& wanted) {
     const double limit = wanted.*figure.limit;
-    return figure.limit == &LightingClass::increment ? figure.value <= limit : figure.value >= limit;
+    return figure.limit == &roads::LightingClass::increment ? figure.value <= limit : figure.value >= limit;
 }
 
 nlohmann::ordered_json json_of(const RoadReading& reading) {
     return {{"average_luminance_cd_m2", reading.average_luminance},
             {"overall_uniformity", reading.overall_uniformity},
-            {"lengthwise_uniformity", reading.lengthwise_uniformity},
+            {"lengthwise_uniformity", reading.longitudinal_uniformity},
             {"average_difference_percent", reading.average_difference},
             {"rms_difference_percent", reading.mean_difference},
             {"largest_difference_percent", reading.largest_difference}};
@@ -80,13 +80,14 @@ nlohmann::ordered_json json_of(const RoadReading& reading) {
 
 }  // namespace
 
-std::string text_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted) {
-    std::string text = head_of(road, result) + "\n";
+std::string text_of(const roads::RoadLayout& layout, const roads::RoadLighting& result,
+                    const roads::LightingClass* wanted) {
+    std::string text = head_of(layout, result) + "\n";
     text += wanted ? format("                  value   %s asks\n", wanted->name) : "                  value\n";
     for (const Figure& f : figures_of(result)) {
         text += format("  %-4s %-6s %10.*f", f.name, f.unit, f.decimals, f.value);
         if (wanted && f.limit)
-            text += format("   %s %-5g %s", f.limit == &LightingClass::increment ? "<=" : ">=", wanted->*f.limit,
+            text += format("   %s %-5g %s", f.limit == &roads::LightingClass::increment ? "<=" : ">=", wanted->*f.limit,
                            holds(f, *wanted) ? "ok" : "missed");
         text += "\n";
     }
@@ -95,11 +96,11 @@ std::string text_of(const RoadLayout& road, const RoadResult& result, const Ligh
     text += format("  EIR  right %.3f, left %.3f\n\n", result.edge_ratio_right, result.edge_ratio_left);
 
     text += "  lane  eye at y, m   Lav cd/m2      Uo      Ul    TI %   Lv cd/m2   worst from x, m\n";
-    for (const RoadObserver& o : result.observers)
+    for (const roads::LaneObserver& o : result.observers)
         text +=
             format("  %4d  %11.2f  %10.3f  %6.3f  %6.3f  %6.2f  %9.4f  %16.1f\n", o.lane, o.eye.y, o.average_luminance,
-                   o.overall_uniformity, o.lengthwise_uniformity, o.threshold_increment, o.veil, o.glare_eye.x);
-    const LightingClass* reached = reached_class(result);
+                   o.overall_uniformity, o.longitudinal_uniformity, o.threshold_increment, o.veil, o.glare_eye.x);
+    const roads::LightingClass* reached = reached_class(result);
     if (result.wet)
         text +=
             "\nA wet surface: the other limits of the classes (EN 13201-2:2015) are those of the road when it is dry\n";
@@ -108,7 +109,7 @@ std::string text_of(const RoadLayout& road, const RoadResult& result, const Ligh
     return text;
 }
 
-std::string grid_text_of(const RoadResult& result) {
+std::string grid_text_of(const roads::RoadLighting& result) {
     const size_t columns = result.field.x.size();
     std::string text;
     for (size_t table = 0; table <= result.observers.size(); ++table) {
@@ -120,7 +121,7 @@ std::string grid_text_of(const RoadResult& result) {
         for (size_t row = result.field.y.size(); row-- > 0;) {
             text += format("\n %7.3f", result.field.y[row]);
             for (size_t i = 0; i < columns; ++i) {
-                const FieldPoint& point = result.points[row * columns + i];
+                const roads::FieldPoint& point = result.points[row * columns + i];
                 text += table == 0 ? format(" %7.2f", point.illuminance) : format(" %7.3f", point.luminance[table - 1]);
             }
         }
@@ -129,14 +130,14 @@ std::string grid_text_of(const RoadResult& result) {
     return text;
 }
 
-std::string csv_of(const RoadLayout& road, const RoadResult& result, const RenderedRoad* rendered) {
-    std::string text = "# " + road.name + ": surface " + road.surface.name + ", x ahead and y to the left, m\n";
+std::string csv_of(const roads::RoadLayout& layout, const roads::RoadLighting& result, const RenderedRoad* rendered) {
+    std::string text = "# " + layout.name + ": surface " + layout.surface.name + ", x ahead and y to the left, m\n";
     text += "x_m,y_m,E_h_lx";
-    for (const RoadObserver& o : result.observers) text += format(",L_lane%d_cd_m2", o.lane);
+    for (const roads::LaneObserver& o : result.observers) text += format(",L_lane%d_cd_m2", o.lane);
     if (rendered)
-        for (const RoadObserver& o : result.observers) text += format(",L_lane%d_rendered_cd_m2", o.lane);
+        for (const roads::LaneObserver& o : result.observers) text += format(",L_lane%d_rendered_cd_m2", o.lane);
     for (size_t i = 0; i < result.points.size(); ++i) {
-        const FieldPoint& point = result.points[i];
+        const roads::FieldPoint& point = result.points[i];
         text += format("\n%.4f,%.4f,%.6g", point.x, point.y, point.illuminance);
         for (const double luminance : point.luminance) text += format(",%.6g", luminance);
         if (!rendered) continue;
@@ -145,28 +146,28 @@ std::string csv_of(const RoadLayout& road, const RoadResult& result, const Rende
     return text + "\n";
 }
 
-std::string json_of(const RoadLayout& road, const RoadResult& result, const LightingClass* wanted,
-                    const RenderedRoad* rendered) {
+std::string json_of(const roads::RoadLayout& layout, const roads::RoadLighting& result,
+                    const roads::LightingClass* wanted, const RenderedRoad* rendered) {
     nlohmann::ordered_json json = {
-        {"name", road.name}, {"surface", road.surface.name}, {"q0", q0_of(road.surface)}, {"wet", result.wet}};
+        {"name", layout.name}, {"surface", layout.surface.name}, {"q0", q0_of(layout.surface)}, {"wet", result.wet}};
     for (const Figure& figure : figures_of(result)) json[figure.key] = figure.value;
     json["edge_illuminance_ratio_right"] = result.edge_ratio_right;
     json["edge_illuminance_ratio_left"] = result.edge_ratio_left;
     json["average_illuminance_lx"] = result.average_illuminance;
     json["minimum_illuminance_lx"] = result.minimum_illuminance;
-    const LightingClass* reached = reached_class(result);
+    const roads::LightingClass* reached = reached_class(result);
     json["class_reached"] = reached ? nlohmann::ordered_json(reached->name) : nlohmann::ordered_json();
     if (wanted) json["class_wanted"] = {{"name", wanted->name}, {"fulfilled", fulfils(result, *wanted)}};
-    for (const RoadObserver& o : result.observers)
+    for (const roads::LaneObserver& o : result.observers)
         json["observers"].push_back({{"lane", o.lane},
                                      {"eye_m", {o.eye.x, o.eye.y, o.eye.z}},
                                      {"average_luminance_cd_m2", o.average_luminance},
                                      {"overall_uniformity", o.overall_uniformity},
-                                     {"lengthwise_uniformity", o.lengthwise_uniformity},
+                                     {"lengthwise_uniformity", o.longitudinal_uniformity},
                                      {"threshold_increment_percent", o.threshold_increment},
                                      {"veiling_luminance_cd_m2", o.veil},
                                      {"glare_eye_m", {o.glare_eye.x, o.glare_eye.y, o.glare_eye.z}}});
-    for (const FieldPoint& p : result.points)
+    for (const roads::FieldPoint& p : result.points)
         json["points"].push_back(
             {{"x_m", p.x}, {"y_m", p.y}, {"illuminance_lx", p.illuminance}, {"luminance_cd_m2", p.luminance}});
     if (rendered) {

@@ -44,6 +44,18 @@ double cie_small_angle_glare(double t, double age) { return cie_general_glare(t,
 
 double cie_age_adjusted_glare(double t, double age) { return 10 * (1 + fourth(age / 70)) / square(t); }
 
+double en13201_glare(double theta, double age) {
+    if (theta > 60 || theta < 0.1) return 0;
+    const double inverse = 1 / theta;
+    if (theta > 1.5) return 9.86 * (1 + std::pow(age / 66.4, 4)) * inverse * inverse;
+    return (10 * inverse + 5 * (1 + std::pow(age / 62.5, 4))) * inverse * inverse;
+}
+
+double threshold_increment(double veil, double average_luminance) {
+    return average_luminance > 5 ? 95 * veil / std::pow(average_luminance, 1.05)
+                                 : 65 * veil / std::pow(average_luminance, 0.8);
+}
+
 double spencer_core(double t) { return 2.61e6 * std::exp(-square(t / 0.02)); }
 double spencer_corona(double t) { return 20.91 / ((t + 0.02) * (t + 0.02) * (t + 0.02)); }
 double spencer_bloom(double t) { return 72.37 / square(t + 0.02); }

@@ -23,6 +23,11 @@ double cie_general_glare(double theta, const ScatteringEye& = {});
 double cie_small_angle_glare(double theta, double age = 35);
 /// CIE age-adjusted Stiles-Holladay equation (the same): 1 to 30 degrees.
 double cie_age_adjusted_glare(double theta, double age = 35);
+/// EN 13201-3:2015, 8.5: 9.86 (1 + (age/66.4)^4) / theta^2 above 1.5 and up to 60 degrees, 10/theta^3 + 5/theta^2 (1 +
+/// (age/62.5)^4) from 0.1 degrees on; otherwise 0.
+double en13201_glare(double theta, double age);
+/// TI of a veil, %: 65 Lv / Lav^0.8, above 5 cd/m^2 95 Lv / Lav^1.05 (CIE 140; EN 13201-3, 8.5). Luminances in cd/m^2.
+double threshold_increment(double veil, double average_luminance);
 
 /// The parts of Spencer, Shirley, Zimmerman and Greenberg 1995, each of which integrates to 1 over the hemisphere.
 double spencer_core(double theta);                           ///< f0: unscattered light

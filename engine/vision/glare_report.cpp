@@ -8,7 +8,6 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/luminance.h"
-#include "photometry/road.h"
 #include "vision/visibility.h"
 
 namespace vesper {
@@ -35,7 +34,7 @@ Veils veils_of(const std::vector<DazzlingLight>& lamps, dvec3 sight, const Scatt
         sum.illuminance += e;
         if (theta < kLooked) continue;
         sum.general += e * cie_general_glare(theta, eye);
-        sum.road += e * road_glare(theta, eye.age);
+        sum.road += e * en13201_glare(theta, eye.age);
     }
     return sum;
 }

@@ -16,11 +16,11 @@
 #include "photometry/reflection_table.h"
 #include "photometry/response.h"
 #include "places.h"
+#include "roads/layout_file.h"
 #include "roads/opendrive.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"
 #include "scene/photometry.h"
-#include "scene/road_file.h"
 #include "scene/scene_files.h"
 #include "support/shared_data.h"
 #include "traffic/world_file.h"
@@ -101,7 +101,7 @@ TEST(MemoryFaults, EveryReaderAndWriterReportsThem) {
     expect_survives("EULUMDAT", [] { read_distribution(kDataFolder / "road/luminaire.ldt"); });
     expect_survives("grid", [] { read_distribution(kDataFolder / "photometry/high-beam.csv"); });
     expect_survives("reflection table", [] { read_reflection_table(kDataFolder / "road/R3.csv"); });
-    expect_survives("road", [] { read_road(kDataFolder / "road/worked-example.json"); });
+    expect_survives("road", [] { roads::read_layout(kDataFolder / "road/worked-example.json"); });
     expect_survives("OpenDRIVE", [] { roads::read_opendrive(kDataFolder / "rivoli/rivoli.xodr"); });
     expect_survives("world", [] { traffic::read_world(kDataFolder / "rivoli/rivoli.world.json"); });
     expect_survives(

@@ -12,11 +12,11 @@
 #include "photometry/reflection_table.h"
 #include "photometry/response.h"
 #include "roads/esmini_run.h"
+#include "roads/layout_file.h"
 #include "roads/opendrive.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"
 #include "scene/photometry.h"
-#include "scene/road_file.h"
 #include "traffic/world_file.h"
 #include "vision/display_fit.h"
 
@@ -75,7 +75,7 @@ std::map<std::string, FuzzTarget> make_targets() {
         {"esmini_run", of_file("x.csv", [](const fs::path& file) { roads::read_esmini_run(file); })},
         {"world", of_file("x.world.json", [](const fs::path& file) { traffic::read_world(file); })},
         {"response", of_file("x.csv", [](const fs::path& file) { read_response(file); })},
-        {"road", of_file("x.json", [](const fs::path& file) { read_road(file); })},
+        {"road", of_file("x.json", [](const fs::path& file) { roads::read_layout(file); })},
         {"scenario", of_file("x.xosc", read_scenario)},
         {"image", [](Bytes bytes) { decode_image(bytes, 512, kSmall); }},
         {"exif", [](Bytes bytes) { read_exif(bytes); }},

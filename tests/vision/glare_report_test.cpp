@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "base/angle.h"
-#include "photometry/road.h"
 #include "vision/visibility.h"
 
 namespace vesper {
@@ -131,10 +130,10 @@ TEST(GlareReport, GlareHidesATarget) {
 }
 
 TEST(GlareReport, RoadEquationHasItsRanges) {
-    EXPECT_NEAR(road_glare(10, 23), 0.1, 1e-3) << "10 / theta^2";
-    EXPECT_NEAR(road_glare(1, 62.5), 20, 1e-12);
-    EXPECT_EQ(road_glare(61, 23), 0);
-    EXPECT_EQ(road_glare(0.05, 23), 0);
+    EXPECT_NEAR(en13201_glare(10, 23), 0.1, 1e-3) << "10 / theta^2";
+    EXPECT_NEAR(en13201_glare(1, 62.5), 20, 1e-12);
+    EXPECT_EQ(en13201_glare(61, 23), 0);
+    EXPECT_EQ(en13201_glare(0.05, 23), 0);
 }
 
 }  // namespace

@@ -1,17 +1,17 @@
-// Reading road layouts, strictly. SPDX-License-Identifier: MIT
-#include "scene/road_file.h"
+#include "roads/layout_file.h"
 
 #include <array>
 
 #include "base/error.h"
 #include "io/atomic_file.h"
+#include "roads/road_lighting.h"
 #include "scene/json_value.h"
 #include "scene/reflection_json.h"
 
-namespace vesper {
+namespace vesper::roads {
 namespace {
 
-constexpr uint64_t kMaxRoadFileBytes = 1u << 20;
+constexpr uint64_t kMaxLayoutBytes = 1u << 20;
 
 constexpr std::array<std::pair<const char*, Arrangement>, 6> kArrangements{{{"right", Arrangement::Right},
                                                                             {"left", Arrangement::Left},
@@ -26,12 +26,12 @@ bool is_one_of(const JsonValue& value, const char* yes, const char* no) {
     return false;
 }
 
-void read_carriageway(RoadLayout& road, const JsonValue& source) {
+void read_carriageway(RoadLayout& layout, const JsonValue& source) {
     source.allow_only({"width_m", "lanes", "traffic"});
-    road.width = source.at("width_m").number(1, 100);
-    road.lanes = static_cast<int>(source.at("lanes").integer(12));
-    if (road.lanes < 1) source.at("lanes").fail("must be at least 1");
-    if (const auto traffic = source.find("traffic")) road.left_hand_traffic = is_one_of(*traffic, "left", "right");
+    layout.width = source.at("width_m").number(1, 100);
+    layout.lanes = static_cast<int>(source.at("lanes").integer(12));
+    if (layout.lanes < 1) source.at("lanes").fail("must be at least 1");
+    if (const auto traffic = source.find("traffic")) layout.left_hand_traffic = is_one_of(*traffic, "left", "right");
 }
 
 Arrangement read_arrangement(const JsonValue& value) {
@@ -40,59 +40,59 @@ Arrangement read_arrangement(const JsonValue& value) {
     value.fail("is none of right, left, opposite, staggered, central and list");
 }
 
-RoadMount read_mount(const JsonValue& source, const RoadLayout& road) {
+LuminaireMount read_mount(const JsonValue& source, const RoadLayout& layout) {
     source.allow_only({"x_m", "y_m", "height_m", "facing_deg"});
-    RoadMount mount;
+    LuminaireMount mount;
     mount.position = {source.number_or("x_m", 0, -1000, 1000), source.at("y_m").number(-200, 200),
-                      source.number_or("height_m", road.height, 2, 40)};
-    mount.facing = source.number_or("facing_deg", mount.position.y > road.width / 2 ? -90 : 90, -360, 360);
+                      source.number_or("height_m", layout.height, 2, 40)};
+    mount.facing = source.number_or("facing_deg", mount.position.y > layout.width / 2 ? -90 : 90, -360, 360);
     return mount;
 }
 
-void read_positions(RoadLayout& road, const JsonValue& source) {
+void read_positions(RoadLayout& layout, const JsonValue& source) {
     const auto refuse = [&](const char* key, const char* reason) {
         if (const auto value = source.find(key)) value->fail(reason);
     };
-    if (road.arrangement == Arrangement::List) {
+    if (layout.arrangement == Arrangement::List) {
         refuse("overhang_m", "has no meaning beside a list of positions");
         const JsonValue positions = source.at("positions");
-        for (const JsonValue& position : positions.elements()) road.list.push_back(read_mount(position, road));
-        if (road.list.empty() || road.list.size() > 32) positions.fail("must have 1 to 32 elements");
+        for (const JsonValue& position : positions.elements()) layout.list.push_back(read_mount(position, layout));
+        if (layout.list.empty() || layout.list.size() > 32) positions.fail("must have 1 to 32 elements");
     } else {
         refuse("positions", "has a meaning only in the arrangement list");
-        road.overhang = source.number_or("overhang_m", 0, -50, 50);
+        layout.overhang = source.number_or("overhang_m", 0, -50, 50);
     }
-    if (road.arrangement != Arrangement::Central)
+    if (layout.arrangement != Arrangement::Central)
         refuse("reservation_m", "has a meaning only in the arrangement central");
-    road.reservation = source.number_or("reservation_m", 0, 0, 100);
+    layout.reservation = source.number_or("reservation_m", 0, 0, 100);
 }
 
-void read_luminaires(RoadLayout& road, const JsonValue& source, const std::filesystem::path& folder,
-                     const RoadOverrides& overrides) {
+void read_luminaires(RoadLayout& layout, const JsonValue& source, const std::filesystem::path& folder,
+                     const LayoutOverrides& overrides) {
     source.allow_only({"file", "c0", "flux_factor", "maintenance_factor", "colour_temperature_K", "arrangement",
                        "spacing_m", "height_m", "overhang_m", "reservation_m", "orientation_deg", "tilt_deg",
                        "roll_deg", "positions"});
-    road.arrangement = read_arrangement(source.at("arrangement"));
-    road.spacing = source.at("spacing_m").number(5, 500);
-    road.height = source.at("height_m").number(2, 40);
-    read_positions(road, source);
-    road.orientation = source.number_or("orientation_deg", 0, -180, 180);
-    road.tilt = source.number_or("tilt_deg", 0, -180, 180);
-    road.roll = source.number_or("roll_deg", 0, -180, 180);
-    if (const auto c0 = source.find("c0")) road.c0_street_side = is_one_of(*c0, "street side", "road");
-    road.flux_factor = source.number_or("flux_factor", 1, 1e-6, 1000);
-    road.maintenance_factor = source.number_or("maintenance_factor", 1, 0.01, 1);
-    road.colour_temperature = source.number_or("colour_temperature_K", 0, 1000, 25000);
+    layout.arrangement = read_arrangement(source.at("arrangement"));
+    layout.spacing = source.at("spacing_m").number(5, 500);
+    layout.height = source.at("height_m").number(2, 40);
+    read_positions(layout, source);
+    layout.orientation = source.number_or("orientation_deg", 0, -180, 180);
+    layout.tilt = source.number_or("tilt_deg", 0, -180, 180);
+    layout.roll = source.number_or("roll_deg", 0, -180, 180);
+    if (const auto c0 = source.find("c0")) layout.c0_street_side = is_one_of(*c0, "street side", "road");
+    layout.flux_factor = source.number_or("flux_factor", 1, 1e-6, 1000);
+    layout.maintenance_factor = source.number_or("maintenance_factor", 1, 0.01, 1);
+    layout.colour_temperature = source.number_or("colour_temperature_K", 0, 1000, 25000);
 
     const std::string file = source.at("file").text();
     const auto luminaire = overrides.luminaire.empty() ? folder / file : std::filesystem::path(overrides.luminaire);
-    road.distribution = read_distribution(luminaire);
-    if (!(largest_intensity(road.distribution) > 0))
+    layout.distribution = read_distribution(luminaire);
+    if (!(largest_intensity(layout.distribution) > 0))
         throw Error(one_line(luminaire.string()) + ": the luminaire gives no light");
 }
 
 ReflectionTable read_surface(const JsonValue& source, const std::filesystem::path& folder,
-                             const RoadOverrides& overrides) {
+                             const LayoutOverrides& overrides) {
     source.allow_only({"reflection_table", "q0"});
     ReflectionTable table = overrides.reflection_table.empty() ? read_named_table(source, folder)
                                                                : find_reflection_table(overrides.reflection_table);
@@ -101,34 +101,34 @@ ReflectionTable read_surface(const JsonValue& source, const std::filesystem::pat
 
 }  // namespace
 
-RoadFile read_road(const std::filesystem::path& file, const RoadOverrides& overrides) {
-    const JsonFile json = parse_json(read_file(file, kMaxRoadFileBytes), file.string());
+LayoutFile read_layout(const std::filesystem::path& file, const LayoutOverrides& overrides) {
+    const JsonFile json = parse_json(read_file(file, kMaxLayoutBytes), file.string());
     const JsonValue root(json);
     root.allow_only({"$schema", "version", "name", "carriageway", "surface", "luminaires", "observer_age", "class"});
     const JsonValue version = root.at("version");
     if (version.integer() != 1) version.fail("must be 1: this program knows no other");
-    RoadFile made;
-    RoadLayout& road = made.layout;
-    road.name = one_line(root.text_or("name", file.stem().string()), 100);
-    road.age = root.number_or("observer_age", 23, 1, 120);
+    LayoutFile made;
+    RoadLayout& layout = made.layout;
+    layout.name = one_line(root.text_or("name", file.stem().string()), 100);
+    layout.age = root.number_or("observer_age", 23, 1, 120);
     if (const auto wanted = root.find("class")) {
         if (!find_lighting_class(wanted->text())) wanted->fail("is none of M1 to M6");
         made.wanted_class = wanted->text();
     }
-    read_carriageway(road, root.at("carriageway"));
-    read_luminaires(road, root.at("luminaires"), file.parent_path(), overrides);
-    road.surface = read_surface(root.at("surface"), file.parent_path(), overrides);
-    road.spacing = overrides.spacing.value_or(road.spacing);
-    road.height = overrides.height.value_or(road.height);
-    road.overhang = overrides.overhang.value_or(road.overhang);
-    road.tilt = overrides.tilt.value_or(road.tilt);
-    road.maintenance_factor = overrides.maintenance_factor.value_or(road.maintenance_factor);
+    read_carriageway(layout, root.at("carriageway"));
+    read_luminaires(layout, root.at("luminaires"), file.parent_path(), overrides);
+    layout.surface = read_surface(root.at("surface"), file.parent_path(), overrides);
+    layout.spacing = overrides.spacing.value_or(layout.spacing);
+    layout.height = overrides.height.value_or(layout.height);
+    layout.overhang = overrides.overhang.value_or(layout.overhang);
+    layout.tilt = overrides.tilt.value_or(layout.tilt);
+    layout.maintenance_factor = overrides.maintenance_factor.value_or(layout.maintenance_factor);
     try {
-        check_road(road);
+        check_layout(layout);
     } catch (const Error& error) {
         throw Error(one_line(file.string()) + ": " + error.what());
     }
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::roads

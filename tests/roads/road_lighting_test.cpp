@@ -1,6 +1,6 @@
 // Road lighting: closed forms, the rules of the grid, symmetry, and a worked example against independent numbers.
 // SPDX-License-Identifier: MIT
-#include "photometry/road.h"
+#include "roads/road_lighting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,10 @@
 
 #include "places.h"
 #include "scene/scene_files.h"
+#include "vision/glare.h"
 
 namespace vesper::test {
+using namespace roads;
 namespace {
 
 /// The same intensity in all directions, cd.
@@ -30,35 +32,35 @@ ReflectionTable matt_road(double q0) {
 
 /// The worked example of docs/road.md: 10 klm lamps on 8 m poles every 30 m along the right edge of 7 m of road.
 RoadLayout worked_example(const char* surface) {
-    RoadLayout road{.name = "example", .width = 7, .lanes = 2, .spacing = 30, .height = 8, .overhang = 0.5};
-    road.distribution = read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/road/luminaire.ldt");
-    road.surface = find_reflection_table(surface);
-    return road;
+    RoadLayout layout{.name = "example", .width = 7, .lanes = 2, .spacing = 30, .height = 8, .overhang = 0.5};
+    layout.distribution = read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/road/luminaire.ldt");
+    layout.surface = find_reflection_table(surface);
+    return layout;
 }
 
 RoadLayout isotropic_road() {
-    RoadLayout road{.name = "test"};
-    road.distribution = isotropic(1000);
-    road.surface = matt_road(0.05);
-    return road;
+    RoadLayout layout{.name = "test"};
+    layout.distribution = isotropic(1000);
+    layout.surface = matt_road(0.05);
+    return layout;
 }
 
-TEST(Road, OneIsotropicLampOverLambert) {
-    const RoadLayout road = isotropic_road();
-    const RoadLuminaire lamp{{5, 2, 8}, glm::dmat3(1)};
+TEST(RoadLighting, OneIsotropicLampOverLambert) {
+    const RoadLayout layout = isotropic_road();
+    const PlacedLuminaire lamp{{5, 2, 8}, glm::dmat3(1)};
     for (const glm::dvec2 p : {glm::dvec2(5, 2), glm::dvec2(0, 0), glm::dvec2(11, 5), glm::dvec2(-20, 6)}) {
         const double d2 = (p.x - 5) * (p.x - 5) + (p.y - 2) * (p.y - 2) + 64;
         const double e = 1000 * 8 / std::pow(d2, 1.5);  // I cos(gamma) / d^2
-        EXPECT_NEAR(horizontal_illuminance(road, {&lamp, 1}, p), e, 1e-12);
-        EXPECT_NEAR(road_luminance(road, {&lamp, 1}, p, {-60, 1.75}) / (0.05 * e), 1, 2e-4);
+        EXPECT_NEAR(horizontal_illuminance(layout, {&lamp, 1}, p), e, 1e-12);
+        EXPECT_NEAR(luminance_towards(layout, {&lamp, 1}, p, {-60, 1.75}) / (0.05 * e), 1, 2e-4);
     }
 }
 
-TEST(Road, LuminairesCountWithinTheirReach) {
-    const RoadLayout road = isotropic_road();
-    const RoadLuminaire lamp{{0, 0, 8}, glm::dmat3(1)};
-    const auto e = [&](double x, double y) { return horizontal_illuminance(road, {&lamp, 1}, {x, y}); };
-    const auto l = [&](double x, double y) { return road_luminance(road, {&lamp, 1}, {x, y}, {x - 60, y}); };
+TEST(RoadLighting, LuminairesCountWithinTheirReach) {
+    const RoadLayout layout = isotropic_road();
+    const PlacedLuminaire lamp{{0, 0, 8}, glm::dmat3(1)};
+    const auto e = [&](double x, double y) { return horizontal_illuminance(layout, {&lamp, 1}, {x, y}); };
+    const auto l = [&](double x, double y) { return luminance_towards(layout, {&lamp, 1}, {x, y}, {x - 60, y}); };
     EXPECT_GT(e(39.9, 0), 0);
     EXPECT_EQ(e(40.1, 0), 0);
     EXPECT_EQ(e(30, 30), 0);   // 5H in plan
@@ -70,28 +72,28 @@ TEST(Road, LuminairesCountWithinTheirReach) {
     EXPECT_EQ(l(0, -40.1), 0);
 }
 
-TEST(Road, TheLampBeyondThePointIsTheSpecularOne) {
-    RoadLayout road = isotropic_road();
-    road.surface = find_reflection_table("R3");
-    const RoadLuminaire lamp{{0, 1.75, 8}, glm::dmat3(1)};
-    const auto l = [&](double x) { return road_luminance(road, {&lamp, 1}, {x, 1.75}, {-80, 1.75}); };
+TEST(RoadLighting, TheLampBeyondThePointIsTheSpecularOne) {
+    RoadLayout layout = isotropic_road();
+    layout.surface = find_reflection_table("R3");
+    const PlacedLuminaire lamp{{0, 1.75, 8}, glm::dmat3(1)};
+    const auto l = [&](double x) { return luminance_towards(layout, {&lamp, 1}, {x, 1.75}, {-80, 1.75}); };
     EXPECT_NEAR(l(-16), 326e-4 * 1000 / 64, 1e-9);  // tan gamma 2, beta 0
     EXPECT_NEAR(l(16), 38e-4 * 1000 / 64, 1e-9);    // beta 180
     // A quarter turn: the observer looks along x, the lamp is across.
-    EXPECT_NEAR(road_luminance(road, {&lamp, 1}, {0, 1.75 - 16}, {-80, 1.75 - 16}), 34e-4 * 1000 / 64, 1e-9);
+    EXPECT_NEAR(luminance_towards(layout, {&lamp, 1}, {0, 1.75 - 16}, {-80, 1.75 - 16}), 34e-4 * 1000 / 64, 1e-9);
 }
 
-TEST(Road, GridFollowsTheSpacing) {
+TEST(RoadLighting, GridFollowsTheSpacing) {
     const struct {
         double spacing;
         size_t count;
     } cases[] = {{12, 10}, {30, 10}, {30.1, 11}, {33, 11}, {36, 12}, {45, 15}, {47, 16}, {60, 20}};
     for (const auto& c : cases) {
-        RoadLayout road = isotropic_road();
-        road.spacing = c.spacing;
-        road.lanes = 3;
-        road.width = 10.5;
-        const RoadField field = road_field(road);
+        RoadLayout layout = isotropic_road();
+        layout.spacing = c.spacing;
+        layout.lanes = 3;
+        layout.width = 10.5;
+        const CalculationField field = calculation_field(layout);
         ASSERT_EQ(field.x.size(), c.count) << c.spacing;
         EXPECT_DOUBLE_EQ(field.step, c.spacing / static_cast<double>(c.count));
         EXPECT_DOUBLE_EQ(field.x.front(), field.step / 2);
@@ -102,13 +104,13 @@ TEST(Road, GridFollowsTheSpacing) {
     }
 }
 
-TEST(Road, ArrangementsStandWhereTheySay) {
-    RoadLayout road = isotropic_road();
-    road.overhang = 1;
-    road.reservation = 4;
+TEST(RoadLighting, ArrangementsStandWhereTheySay) {
+    RoadLayout layout = isotropic_road();
+    layout.overhang = 1;
+    layout.reservation = 4;
     const auto mounts = [&](Arrangement arrangement) {
-        road.arrangement = arrangement;
-        return road_mounts(road);
+        layout.arrangement = arrangement;
+        return luminaire_mounts(layout);
     };
     EXPECT_EQ(mounts(Arrangement::Right)[0].position, glm::dvec3(0, 1, 8));
     EXPECT_EQ(mounts(Arrangement::Left)[0].position, glm::dvec3(0, 6, 8));
@@ -118,39 +120,39 @@ TEST(Road, ArrangementsStandWhereTheySay) {
     EXPECT_EQ(mounts(Arrangement::Central)[0].position, glm::dvec3(0, 6, 8));
     EXPECT_EQ(mounts(Arrangement::Central)[1].position, glm::dvec3(0, 12, 8));
     EXPECT_EQ(mounts(Arrangement::Central)[1].facing, 90);
-    road.left_hand_traffic = true;
+    layout.left_hand_traffic = true;
     EXPECT_EQ(mounts(Arrangement::Central)[0].position, glm::dvec3(0, 1, 8));
     EXPECT_EQ(mounts(Arrangement::Central)[1].position, glm::dvec3(0, -5, 8));
     EXPECT_EQ(mounts(Arrangement::Central)[1].facing, -90);
-    EXPECT_EQ(road_luminaires(road, -60, 60).size(), 10u);
+    EXPECT_EQ(placed_luminaires(layout, -60, 60).size(), 10u);
 }
 
-TEST(Road, LuminairesFaceTheCarriageway) {
-    RoadLayout road = isotropic_road();
-    road.arrangement = Arrangement::Opposite;
-    const auto axes = [&](size_t i) { return road_luminaires(road, 0, 0)[i].axes; };
+TEST(RoadLighting, LuminairesFaceTheCarriageway) {
+    RoadLayout layout = isotropic_road();
+    layout.arrangement = Arrangement::Opposite;
+    const auto axes = [&](size_t i) { return placed_luminaires(layout, 0, 0)[i].axes; };
     const auto near = [](glm::dvec3 a, glm::dvec3 b) { return glm::length(a - b) < 1e-12; };
     EXPECT_TRUE(near(axes(0)[0], {1, 0, 0}) && near(axes(0)[1], {0, 1, 0}) && near(axes(0)[2], {0, 0, 1}));
     EXPECT_TRUE(near(axes(1)[0], {-1, 0, 0}) && near(axes(1)[1], {0, -1, 0}) && near(axes(1)[2], {0, 0, 1}));
-    road.tilt = 30;  // the street side goes up, on either side
+    layout.tilt = 30;  // the street side goes up, on either side
     EXPECT_NEAR(axes(0)[1].z, 0.5, 1e-12);
     EXPECT_NEAR(axes(1)[1].z, 0.5, 1e-12);
-    road.tilt = 0;
-    road.roll = 30;
+    layout.tilt = 0;
+    layout.roll = 30;
     EXPECT_NEAR(axes(0)[0].z, -0.5, 1e-12);
-    road.roll = 0;
-    road.orientation = 90;
+    layout.roll = 0;
+    layout.orientation = 90;
     EXPECT_TRUE(near(axes(0)[0], {0, 1, 0}));
-    road.orientation = 0;
-    road.c0_street_side = true;
+    layout.orientation = 0;
+    layout.c0_street_side = true;
     EXPECT_TRUE(near(axes(0)[0], {0, 1, 0}) && near(axes(0)[1], {-1, 0, 0}));
     EXPECT_TRUE(near(axes(1)[0], {0, -1, 0}));
 }
 
-TEST(Road, SymmetricRoadsGiveSymmetricFigures) {
-    RoadLayout road = worked_example("R2");
-    road.arrangement = Arrangement::Opposite;
-    const RoadResult both = calculate_road(road);
+TEST(RoadLighting, SymmetricRoadsGiveSymmetricFigures) {
+    RoadLayout layout = worked_example("R2");
+    layout.arrangement = Arrangement::Opposite;
+    const RoadLighting both = calculate_lighting(layout);
     EXPECT_NEAR(both.edge_ratio_left, both.edge_ratio_right, 1e-12);
     EXPECT_NEAR(both.observers[0].average_luminance, both.observers[1].average_luminance, 1e-9);
     EXPECT_NEAR(both.observers[0].threshold_increment, both.observers[1].threshold_increment, 1e-9);
@@ -160,11 +162,11 @@ TEST(Road, SymmetricRoadsGiveSymmetricFigures) {
     EXPECT_GT(std::abs(both.points[0].luminance[0] - both.points[0].luminance[1]), 0.01);
 
     // The mirror image of a road has its figures, lane by lane.
-    road = worked_example("R3");
-    const RoadResult right = calculate_road(road);
-    road.arrangement = Arrangement::Left;
-    road.left_hand_traffic = true;
-    const RoadResult left = calculate_road(road);
+    layout = worked_example("R3");
+    const RoadLighting right = calculate_lighting(layout);
+    layout.arrangement = Arrangement::Left;
+    layout.left_hand_traffic = true;
+    const RoadLighting left = calculate_lighting(layout);
     for (size_t i = 0; i < 2; ++i) {
         EXPECT_NEAR(left.observers[i].average_luminance, right.observers[i].average_luminance, 1e-9);
         EXPECT_NEAR(left.observers[i].threshold_increment, right.observers[i].threshold_increment, 1e-9);
@@ -174,32 +176,32 @@ TEST(Road, SymmetricRoadsGiveSymmetricFigures) {
     EXPECT_GT(std::abs(right.observers[0].average_luminance - right.observers[1].average_luminance), 0.05);
 }
 
-TEST(Road, FluxAndMaintenanceScale) {
-    RoadLayout road = worked_example("R3");
-    const RoadResult plain = calculate_road(road);
-    road.maintenance_factor = 0.8;
-    const RoadResult kept = calculate_road(road);
+TEST(RoadLighting, FluxAndMaintenanceScale) {
+    RoadLayout layout = worked_example("R3");
+    const RoadLighting plain = calculate_lighting(layout);
+    layout.maintenance_factor = 0.8;
+    const RoadLighting kept = calculate_lighting(layout);
     EXPECT_NEAR(kept.average_luminance / plain.average_luminance, 0.8, 1e-12);
     EXPECT_NEAR(kept.minimum_illuminance / plain.minimum_illuminance, 0.8, 1e-12);
     EXPECT_NEAR(kept.threshold_increment, plain.threshold_increment, 1e-9);  // of the new installation
     EXPECT_NEAR(kept.overall_uniformity, plain.overall_uniformity, 1e-12);
-    road.maintenance_factor = 1;
-    road.flux_factor = 2;
-    const RoadResult twice = calculate_road(road);
+    layout.maintenance_factor = 1;
+    layout.flux_factor = 2;
+    const RoadLighting twice = calculate_lighting(layout);
     EXPECT_NEAR(twice.average_luminance / plain.average_luminance, 2, 1e-12);
     EXPECT_NEAR(twice.threshold_increment / plain.threshold_increment, std::pow(2, 0.2), 1e-9);
-    road.flux_factor = 0;
-    EXPECT_THROW(calculate_road(road), Error);
+    layout.flux_factor = 0;
+    EXPECT_THROW(calculate_lighting(layout), Error);
 }
 
-TEST(Road, VeilOfOneLamp) {
-    RoadLayout road = isotropic_road();
+TEST(RoadLighting, VeilOfOneLamp) {
+    RoadLayout layout = isotropic_road();
     // 10 degrees above the line of sight, itself 1 degree down.
     const auto lamp_at = [](double degrees, double distance) {
         const double a = (degrees - 1) * std::numbers::pi / 180;
-        return RoadLuminaire{{distance * std::cos(a), 1, 1.5 + distance * std::sin(a)}, glm::dmat3(1)};
+        return PlacedLuminaire{{distance * std::cos(a), 1, 1.5 + distance * std::sin(a)}, glm::dmat3(1)};
     };
-    const auto veil = [&](const RoadLuminaire& lamp) { return veiling_luminance(road, {&lamp, 1}, {0, 1, 1.5}); };
+    const auto veil = [&](const PlacedLuminaire& lamp) { return veiling_luminance(layout, {&lamp, 1}, {0, 1, 1.5}); };
     const double cos10 = std::cos(10 * std::numbers::pi / 180);
     const double k = 9.86 * (1 + std::pow(23 / 66.4, 4));
     EXPECT_NEAR(k, 10, 0.005);
@@ -210,17 +212,17 @@ TEST(Road, VeilOfOneLamp) {
     EXPECT_GT(veil(lamp_at(20.8, 40)), 0);
     EXPECT_EQ(veil(lamp_at(2, 501)), 0);
     EXPECT_EQ(veil(lamp_at(170, 20)), 0);
-    road.age = 66.4;
+    layout.age = 66.4;
     EXPECT_NEAR(veil(lamp_at(10, 40)), 2 * 9.86 * 1000 * cos10 / 1600 / 100, 1e-9);
-    const RoadLuminaire aside{{10, 1 + 10 * std::sqrt(3.0) + 0.5, 1.5}, glm::dmat3(1)};  // more than 60 degrees off
+    const PlacedLuminaire aside{{10, 1 + 10 * std::sqrt(3.0) + 0.5, 1.5}, glm::dmat3(1)};  // more than 60 degrees off
     EXPECT_EQ(veil(aside), 0);
     EXPECT_NEAR(threshold_increment(0.3, 1), 19.5, 1e-12);
     EXPECT_NEAR(threshold_increment(0.3, 10), 95 * 0.3 / std::pow(10, 1.05), 1e-12);
 }
 
-TEST(Road, ClassesHaveTheirLimits) {
-    RoadResult result;
-    result.average_luminance = 1.0, result.overall_uniformity = 0.40, result.lengthwise_uniformity = 0.60;
+TEST(RoadLighting, ClassesHaveTheirLimits) {
+    RoadLighting result;
+    result.average_luminance = 1.0, result.overall_uniformity = 0.40, result.longitudinal_uniformity = 0.60;
     result.threshold_increment = 15, result.edge_ratio = 0.30;
     ASSERT_TRUE(reached_class(result));
     EXPECT_STREQ(reached_class(result)->name, "M3");
@@ -236,20 +238,20 @@ TEST(Road, ClassesHaveTheirLimits) {
 
 /// Independent calculation (another program, double precision; its luminances agree with a Radiance simulation to
 /// 3e-6): Lav, Uo, Ul, TI %, average luminance of lanes 1 and 2.
-TEST(Road, WorkedExampleAgrees) {
+TEST(RoadLighting, WorkedExampleAgrees) {
     const struct {
         const char* surface;
-        double luminance, overall, lengthwise, increment, lane1, lane2;
+        double luminance, overall, longitudinal, increment, lane1, lane2;
     } expected[] = {
         {"R1", 1.4539, 0.6884, 0.7246, 12.522, 1.4539, 1.4794}, {"R2", 1.1389, 0.5413, 0.6590, 15.223, 1.1389, 1.1967},
         {"R3", 1.1637, 0.4450, 0.5442, 14.963, 1.1637, 1.2544}, {"R4", 1.3370, 0.3731, 0.5642, 13.390, 1.3370, 1.4642},
         {"C1", 1.5268, 0.6328, 0.7118, 12.041, 1.5268, 1.5626}, {"C2", 1.1765, 0.4670, 0.5627, 14.833, 1.1765, 1.2593}};
     for (const auto& e : expected) {
         SCOPED_TRACE(e.surface);
-        const RoadResult r = calculate_road(worked_example(e.surface));
+        const RoadLighting r = calculate_lighting(worked_example(e.surface));
         EXPECT_NEAR(r.average_luminance / e.luminance, 1, 1e-3);
         EXPECT_NEAR(r.overall_uniformity / e.overall, 1, 1e-3);
-        EXPECT_NEAR(r.lengthwise_uniformity / e.lengthwise, 1, 1e-3);
+        EXPECT_NEAR(r.longitudinal_uniformity / e.longitudinal, 1, 1e-3);
         EXPECT_NEAR(r.threshold_increment / e.increment, 1, 1e-3);
         EXPECT_NEAR(r.observers[0].average_luminance / e.lane1, 1, 1e-3);
         EXPECT_NEAR(r.observers[1].average_luminance / e.lane2, 1, 1e-3);
@@ -261,7 +263,7 @@ TEST(Road, WorkedExampleAgrees) {
     }
 }
 
-TEST(Road, WorkedExampleAgreesPointByPoint) {
+TEST(RoadLighting, WorkedExampleAgreesPointByPoint) {
     // x, y, E_h lx, luminance for the observers of lane 1 and lane 2; table R3. Same source.
     const struct {
         double x, y, illuminance, lane1, lane2;
@@ -270,7 +272,7 @@ TEST(Road, WorkedExampleAgreesPointByPoint) {
                     {22.5, 1.75, 12.29939, 1.320227, 1.394934},   {10.5, 2.9167, 12.36243, 1.402861, 1.798056},
                     {25.5, 4.0833, 15.14823, 0.819523, 0.922147}, {7.5, 5.25, 11.57585, 0.645537, 0.768367},
                     {1.5, 6.4167, 15.01482, 0.550920, 0.602004},  {19.5, 6.4167, 10.65355, 0.676092, 0.733749}};
-    const RoadResult r = calculate_road(worked_example("R3"));
+    const RoadLighting r = calculate_lighting(worked_example("R3"));
     ASSERT_EQ(r.points.size(), 60u);
     for (const auto& e : expected) {
         const auto found = std::find_if(r.points.begin(), r.points.end(), [&](const FieldPoint& p) {
@@ -283,12 +285,12 @@ TEST(Road, WorkedExampleAgreesPointByPoint) {
     }
 }
 
-TEST(Road, RefusesWhatIsNoRoad) {
+TEST(RoadLighting, RefusesWhatIsNoRoad) {
     const auto refused = [](auto&& change) {
-        RoadLayout road = isotropic_road();
-        change(road);
+        RoadLayout layout = isotropic_road();
+        change(layout);
         try {
-            calculate_road(road);
+            calculate_lighting(layout);
         } catch (const Error& error) {
             return std::string(error.what());
         }

@@ -5,25 +5,25 @@
 #include <optional>
 #include <string>
 
-#include "photometry/road.h"
+#include "roads/road_layout.h"
 
-namespace vesper {
+namespace vesper::roads {
 
 /// What takes the place of what the file says. Names of files are as the caller sees them.
-struct RoadOverrides {
+struct LayoutOverrides {
     std::string luminaire;         ///< a photometric file
     std::string reflection_table;  ///< a built-in name or a file; its own Q0 counts unless one is given here
     std::optional<double> q0, spacing, height, overhang, tilt, maintenance_factor;
 };
 
 /// A layout and the class its file asks for.
-struct RoadFile {
+struct LayoutFile {
     RoadLayout layout;
     std::string wanted_class;  ///< a name of lighting_classes(); may be empty
 };
 
 /// Reads and checks a layout with its luminaire and reflection table, both relative to the file's folder. Throws Error
 /// naming file, JSON pointer and reason.
-RoadFile read_road(const std::filesystem::path& file, const RoadOverrides& overrides = {});
+LayoutFile read_layout(const std::filesystem::path& file, const LayoutOverrides& overrides = {});
 
-}  // namespace vesper
+}  // namespace vesper::roads

@@ -1,33 +1,35 @@
 // The observers' views of a road: where grid points are seen, and what is read there. SPDX-License-Identifier: MIT
-#include "gpu_scene/road_view.h"
+#include "road_view.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 namespace vesper {
+using namespace roads;
 namespace {
 
-RoadLayout layout(double spacing, double width, int lanes) {
-    RoadLayout road;
-    road.width = width;
-    road.lanes = lanes;
-    road.spacing = spacing;
-    return road;
+RoadLayout layout_of(double spacing, double width, int lanes) {
+    RoadLayout layout;
+    layout.width = width;
+    layout.lanes = lanes;
+    layout.spacing = spacing;
+    return layout;
 }
 
 /// Where a pixel place meets the road: the inverse of project().
-glm::dvec2 on_road(const View& view, const RoadObserver& observer, glm::dvec2 place) {
+glm::dvec2 on_road(const View& view, const LaneObserver& observer, glm::dvec2 place) {
     const glm::dvec2 tangent = glm::dvec2(view.ray_scale()) * place + glm::dvec2(view.ray_offset());
     const double away = observer.eye.z / -tangent.y;
     return {observer.eye.x + away, observer.eye.y - tangent.x * away};
 }
 
 TEST(RoadView, HoldsEveryPointOfTheGrid) {
-    for (const RoadLayout& road : {layout(30, 7, 2), layout(12, 3.5, 1), layout(60, 14, 4), layout(100, 36, 12)})
-        for (const RoadObserver& observer : road_observers(road)) {
-            const View view = road_view(road, observer);
-            const RoadField field = road_field(road);
+    for (const RoadLayout& layout :
+         {layout_of(30, 7, 2), layout_of(12, 3.5, 1), layout_of(60, 14, 4), layout_of(100, 36, 12)})
+        for (const LaneObserver& observer : lane_observers(layout)) {
+            const View view = road_view(layout, observer);
+            const CalculationField field = calculation_field(layout);
             for (const double x : field.x)
                 for (const double y : field.y) {
                     const glm::dvec2 place = project(view, {x, y, 0});
@@ -43,18 +45,18 @@ TEST(RoadView, HoldsEveryPointOfTheGrid) {
                 }
         }
     // The standard observer sees the road of the worked example under 1.42 to 0.97 degrees.
-    const RoadLayout road = layout(30, 7, 2);
-    const View view = road_view(road, road_observers(road)[0]);
+    const RoadLayout layout = layout_of(30, 7, 2);
+    const View view = road_view(layout, lane_observers(layout)[0]);
     EXPECT_GT(view.extent.height, 500u);
-    const View few = road_view(road, road_observers(road)[0], 300);
+    const View few = road_view(layout, lane_observers(layout)[0], 300);
     EXPECT_EQ(few.extent.height, 300u);
 }
 
 TEST(RoadView, OfAPointHasItInTheMiddle) {
-    for (const RoadLayout& road : {layout(30, 7, 2), layout(12, 3.5, 1), layout(60, 14, 4)})
-        for (const RoadObserver& observer : road_observers(road))
-            for (const double x : road_field(road).x)
-                for (const double y : road_field(road).y) {
+    for (const RoadLayout& layout : {layout_of(30, 7, 2), layout_of(12, 3.5, 1), layout_of(60, 14, 4)})
+        for (const LaneObserver& observer : lane_observers(layout))
+            for (const double x : calculation_field(layout).x)
+                for (const double y : calculation_field(layout).y) {
                     const View view = road_point_view(observer, {x, y});
                     const glm::dvec2 place = project(view, {x, y, 0});
                     EXPECT_NEAR(place.x, 4, 0.02);  // tangents are floats
@@ -65,9 +67,9 @@ TEST(RoadView, OfAPointHasItInTheMiddle) {
 }
 
 TEST(RoadView, OverviewHasSquarePixelsAndTheHorizon) {
-    const RoadLayout road = layout(30, 7, 2);
-    const RoadObserver observer = road_observers(road)[1];
-    const View view = road_overview(road, observer, 800);
+    const RoadLayout layout = layout_of(30, 7, 2);
+    const LaneObserver observer = lane_observers(layout)[1];
+    const View view = road_overview(layout, observer, 800);
     EXPECT_NEAR(view.ray_scale().x / -view.ray_scale().y, 1, 0.01);
     EXPECT_GT(view.tangent_high.y, 0);
     const glm::dvec2 middle = project(view, {1e6, observer.eye.y, 0}), left = project(view, {0, 7, 0}),

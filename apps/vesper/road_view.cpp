@@ -1,4 +1,4 @@
-#include "gpu_scene/road_view.h"
+#include "road_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "roads/layout_scene.h"
 #include "scene/colour.h"
-#include "scene/road_scene.h"
 
 namespace vesper {
 namespace {
@@ -21,7 +21,7 @@ constexpr float kNear = 1;  // m
 /// The world from an eye that looks along the road, level.
 glm::mat4 along_road(glm::dvec3 eye) {
     glm::mat4 view(1);
-    view[3] = glm::vec4(-glm::vec3(road_to_world(eye)), 1);
+    view[3] = glm::vec4(-glm::vec3(roads::layout_to_world(eye)), 1);
     return view;
 }
 
@@ -32,12 +32,12 @@ uint32_t pixels(double span, double size, uint32_t most) {
 
 }  // namespace
 
-View road_view(const RoadLayout& road, const RoadObserver& observer, uint32_t max_rows) {
-    const RoadField field = road_field(road);
+View road_view(const roads::RoadLayout& layout, const roads::LaneObserver& observer, uint32_t max_rows) {
+    const roads::CalculationField field = calculation_field(layout);
     const glm::dvec3 eye = observer.eye;
-    const double across = road.width / static_cast<double>(field.y.size());
+    const double across = layout.width / static_cast<double>(field.y.size());
     const double near = field.x.front() - field.step / 2 - eye.x, far = field.x.back() + field.step - eye.x;
-    const double right = (eye.y + across) / near, left = (road.width - eye.y + across) / near;
+    const double right = (eye.y + across) / near, left = (layout.width - eye.y + across) / near;
     const double bottom = -eye.z / (near - field.step / 2), top = -eye.z / far;
     View view;
     view.extent = {pixels(right + left, kAcross / near, kMostColumns),
@@ -49,7 +49,7 @@ View road_view(const RoadLayout& road, const RoadObserver& observer, uint32_t ma
     return view;
 }
 
-View road_point_view(const RoadObserver& observer, glm::dvec2 point) {
+View road_point_view(const roads::LaneObserver& observer, glm::dvec2 point) {
     constexpr double kPixels = 8, kOfRoad = 0.001;  // m in one
     const glm::dvec2 away = point - glm::dvec2(observer.eye);
     const glm::dvec2 middle(-away.y / away.x, -observer.eye.z / away.x);
@@ -63,9 +63,9 @@ View road_point_view(const RoadObserver& observer, glm::dvec2 point) {
     return view;
 }
 
-View road_overview(const RoadLayout& road, const RoadObserver& observer, uint32_t width) {
+View road_overview(const roads::RoadLayout& layout, const roads::LaneObserver& observer, uint32_t width) {
     const double near = 40, bottom = -observer.eye.z / near, top = 0.2 * -bottom;
-    const double right = (observer.eye.y + 1) / near, left = (road.width - observer.eye.y + 1) / near;
+    const double right = (observer.eye.y + 1) / near, left = (layout.width - observer.eye.y + 1) / near;
     View view;
     view.extent = {width, std::max(1u, static_cast<uint32_t>(std::lround(width * (top - bottom) / (right + left))))};
     view.world_to_view = along_road(observer.eye);
@@ -87,14 +87,14 @@ View road_glare_view(glm::dvec3 eye) {
 }
 
 glm::dvec2 project(const View& view, glm::dvec3 road_point) {
-    const glm::dvec4 seen = view.world_to_view * glm::dvec4(road_to_world(road_point), 1);
+    const glm::dvec4 seen = view.world_to_view * glm::dvec4(roads::layout_to_world(road_point), 1);
     const glm::dvec2 tangent = glm::dvec2(seen) / -seen.z;
     const glm::dvec2 low(view.tangent_low), high(view.tangent_high);
     return glm::dvec2(view.extent.width, view.extent.height) *
            glm::dvec2((tangent.x - low.x) / (high.x - low.x), (high.y - tangent.y) / (high.y - low.y));
 }
 
-double depth_of_pixel(const View& view, const RoadObserver& observer, double x) {
+double depth_of_pixel(const View& view, const roads::LaneObserver& observer, double x) {
     const double tangent = static_cast<double>(view.tangent_high.y - view.tangent_low.y) / view.extent.height;
     const double away = x - observer.eye.x;
     return tangent * away * away / observer.eye.z;

@@ -1,0 +1,184 @@
+#include "roads/road_lighting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "vision/glare.h"
+
+namespace vesper::roads {
+namespace {
+
+/// Intensity of a new luminaire towards a point, cd.
+double intensity_towards(const RoadLayout& layout, const PlacedLuminaire& lamp, glm::dvec3 point) {
+    return layout.flux_factor * intensity(layout.distribution, glm::transpose(lamp.axes) * (point - lamp.position));
+}
+
+/// Mean illuminance on a strip that runs along the field from y = low to high.
+double strip_illuminance(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps,
+                         const CalculationField& field, double low, double high) {
+    double sum = 0;
+    for (const double x : field.x)
+        for (int j = 0; j < 3; ++j)
+            sum += horizontal_illuminance(layout, lamps, {x, low + (j + 0.5) * (high - low) / 3});
+    return sum / (3.0 * static_cast<double>(field.x.size()));
+}
+
+void find_worst_glare(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, const CalculationField& field,
+                      LaneObserver& observer) {
+    const double first =
+        -2.75 * (mounting_height(layout) - observer.eye.z);  // the luminaire at x = 0 comes out from behind the roof
+    observer.veil = -1;
+    for (size_t i = 0; i < field.x.size(); ++i) {
+        const glm::dvec3 eye(first + static_cast<double>(i) * field.step, observer.eye.y, observer.eye.z);
+        const double veil = veiling_luminance(layout, lamps, eye);
+        if (veil <= observer.veil) continue;
+        observer.veil = veil;
+        observer.glare_eye = eye;
+    }
+    observer.threshold_increment =
+        threshold_increment(observer.veil, observer.average_luminance / layout.maintenance_factor);
+}
+
+/// Averages and uniformities of what one observer sees; his lane's middle is the middle one of its three rows.
+void summarise(const RoadLayout& layout, const RoadLighting& result, size_t index, LaneObserver& observer) {
+    double sum = 0, least = HUGE_VAL, lane_least = HUGE_VAL, lane_greatest = 0;
+    for (const FieldPoint& point : result.points) {
+        const double value = point.luminance[index];
+        sum += value;
+        least = std::min(least, value);
+        if (std::abs(point.y - observer.eye.y) > layout.width / layout.lanes / 6) continue;
+        lane_least = std::min(lane_least, value);
+        lane_greatest = std::max(lane_greatest, value);
+    }
+    observer.average_luminance = sum / static_cast<double>(result.points.size());
+    if (!(lane_greatest > 0)) throw Error(layout.name + ": no light of these luminaires is seen on the road");
+    observer.overall_uniformity = least / observer.average_luminance;
+    observer.longitudinal_uniformity = lane_least / lane_greatest;
+}
+
+void summarise_illuminance(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, RoadLighting& result) {
+    double sum = 0;
+    result.minimum_illuminance = HUGE_VAL;
+    for (const FieldPoint& point : result.points) {
+        sum += point.illuminance;
+        result.minimum_illuminance = std::min(result.minimum_illuminance, point.illuminance);
+    }
+    result.average_illuminance = sum / static_cast<double>(result.points.size());
+    const double w = layout.width, lane = w / layout.lanes;
+    const auto ratio = [&](double outside, double inside) {
+        const double within = strip_illuminance(layout, lamps, result.field, inside, inside + lane);
+        return within > 0 ? strip_illuminance(layout, lamps, result.field, outside, outside + lane) / within : 0;
+    };
+    result.edge_ratio_right = ratio(-lane, 0);
+    result.edge_ratio_left = ratio(w, w - lane);
+    result.edge_ratio = std::min(result.edge_ratio_right, result.edge_ratio_left);
+}
+
+}  // namespace
+
+double horizontal_illuminance(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec2 point) {
+    double sum = 0;
+    for (const PlacedLuminaire& lamp : lamps) {
+        const glm::dvec3 away = lamp.position - glm::dvec3(point, 0);
+        if (std::hypot(away.x, away.y) > 5 * away.z) continue;
+        const double distance = glm::length(away);
+        sum += intensity_towards(layout, lamp, {point, 0}) * away.z / (distance * distance * distance);
+    }
+    return sum * layout.maintenance_factor;
+}
+
+double reflected_towards(const RoadLayout& layout, const PlacedLuminaire& lamp, glm::dvec2 point, glm::dvec2 observer) {
+    const glm::dvec3 away = lamp.position - glm::dvec3(point, 0);
+    const double h = away.z;
+    if (away.x < -5 * h || away.x > 12 * h || std::abs(away.y) > 5 * h) return 0;
+    const double sight = std::atan2(point.y - observer.y, point.x - observer.x);
+    const double beta = (std::atan2(away.y, away.x) - sight) * kDegreesPerRadian;
+    return reduced_luminance_coefficient(layout.surface, std::hypot(away.x, away.y) / h, beta);
+}
+
+double luminance_towards(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec2 point,
+                         glm::dvec2 observer) {
+    double sum = 0;
+    for (const PlacedLuminaire& lamp : lamps) {
+        const double h = lamp.position.z, r = reflected_towards(layout, lamp, point, observer);
+        if (r > 0) sum += r * intensity_towards(layout, lamp, {point, 0}) / (h * h);
+    }
+    return sum * layout.maintenance_factor;
+}
+
+double veiling_luminance(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec3 eye) {
+    static const double kRoof = std::tan(20 / kDegreesPerRadian);
+    static const glm::dvec3 kSight(std::cos(1 / kDegreesPerRadian), 0, -std::sin(1 / kDegreesPerRadian));
+    double sum = 0;
+    for (const PlacedLuminaire& lamp : lamps) {
+        const glm::dvec3 away = lamp.position - eye;
+        const double distance = glm::length(away);
+        if (away.x <= 0 || away.x > kGlareRange || away.z > kRoof * away.x) continue;
+        const double cosine = std::min(glm::dot(away, kSight) / distance, 1.0);
+        const double glare = en13201_glare(std::acos(cosine) * kDegreesPerRadian, layout.age);
+        if (glare > 0) sum += intensity_towards(layout, lamp, eye) * cosine / (distance * distance) * glare;
+    }
+    return sum;
+}
+
+RoadLighting calculate_lighting(const RoadLayout& layout) {
+    check_layout(layout);
+    RoadLighting result;
+    result.wet = layout.surface.wet;
+    result.field = calculation_field(layout);
+    result.observers = lane_observers(layout);
+    const double height = mounting_height(layout);
+    const auto lamps = placed_luminaires(layout, -5 * height, layout.spacing + std::max(12 * height, kGlareRange));
+
+    for (const double y : result.field.y)
+        for (const double x : result.field.x) {
+            FieldPoint point{x, y, horizontal_illuminance(layout, lamps, {x, y}), {}};
+            for (const LaneObserver& o : result.observers)
+                point.luminance.push_back(luminance_towards(layout, lamps, {x, y}, {o.eye.x, o.eye.y}));
+            result.points.push_back(std::move(point));
+        }
+    summarise_illuminance(layout, lamps, result);
+
+    result.average_luminance = result.overall_uniformity = result.longitudinal_uniformity = HUGE_VAL;
+    for (size_t i = 0; i < result.observers.size(); ++i) {
+        LaneObserver& o = result.observers[i];
+        summarise(layout, result, i, o);
+        find_worst_glare(layout, lamps, result.field, o);
+        result.average_luminance = std::min(result.average_luminance, o.average_luminance);
+        result.overall_uniformity = std::min(result.overall_uniformity, o.overall_uniformity);
+        result.longitudinal_uniformity = std::min(result.longitudinal_uniformity, o.longitudinal_uniformity);
+        result.threshold_increment = std::max(result.threshold_increment, o.threshold_increment);
+    }
+    return result;
+}
+
+std::span<const LightingClass> lighting_classes() {
+    static constexpr LightingClass kClasses[] = {
+        {"M1", 2.00, 0.40, 0.70, 10, 0.35}, {"M2", 1.50, 0.40, 0.70, 10, 0.35}, {"M3", 1.00, 0.40, 0.60, 15, 0.30},
+        {"M4", 0.75, 0.40, 0.60, 15, 0.30}, {"M5", 0.50, 0.35, 0.40, 15, 0.30}, {"M6", 0.30, 0.35, 0.40, 20, 0.30}};
+    return kClasses;
+}
+
+const LightingClass* find_lighting_class(const std::string& name) {
+    for (const LightingClass& c : lighting_classes())
+        if (name == c.name) return &c;
+    return nullptr;
+}
+
+bool fulfils(const RoadLighting& result, const LightingClass& wanted) {
+    if (result.wet) return result.overall_uniformity >= wanted.overall_wet;
+    return result.average_luminance >= wanted.luminance && result.overall_uniformity >= wanted.overall &&
+           result.longitudinal_uniformity >= wanted.longitudinal && result.threshold_increment <= wanted.increment &&
+           result.edge_ratio >= wanted.edge;
+}
+
+const LightingClass* reached_class(const RoadLighting& result) {
+    if (result.wet) return nullptr;
+    for (const LightingClass& c : lighting_classes())
+        if (fulfils(result, c)) return &c;
+    return nullptr;
+}
+
+}  // namespace vesper::roads

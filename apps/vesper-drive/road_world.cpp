@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "base/error.h"
-#include "in_file.h"
 #include "io/atomic_file.h"
+#include "io/in_file.h"
 #include "plain_car.h"
 #include "roads/esmini_run.h"
 #include "roads/lit_roads.h"

@@ -8,21 +8,16 @@
 
 #include "base/error.h"
 #include "commands.h"
-#include "in_file.h"
-#include "photometry/distribution.h"
-#include "roads/lit_roads.h"
-#include "roads/opendrive.h"
-#include "scene/gltf_save.h"
+#include "roads/convert_roads.h"
 
 namespace vesper {
 namespace {
 
-const std::map<std::string, roads::StreetLampOptions::Side> kSides{
-    {"auto", roads::StreetLampOptions::Side::Auto},
-    {"right", roads::StreetLampOptions::Side::Right},
-    {"left", roads::StreetLampOptions::Side::Left},
-    {"both", roads::StreetLampOptions::Side::Both},
-    {"alternating", roads::StreetLampOptions::Side::Alternating}};
+const std::map<std::string, roads::LampSide> kSides{{"auto", roads::LampSide::Auto},
+                                                    {"right", roads::LampSide::Right},
+                                                    {"left", roads::LampSide::Left},
+                                                    {"both", roads::LampSide::Both},
+                                                    {"alternating", roads::LampSide::Alternating}};
 
 struct ConvertArguments {
     std::string input, photometry, output;
@@ -48,15 +43,10 @@ void run_roads(const ConvertArguments& arguments) {
     refuse(arguments.for_databases, " has no meaning for an OpenDRIVE file: it has no materials and no nodes");
     const std::filesystem::path input = arguments.input;
     const std::string output = arguments.output.empty() ? input.stem().string() + ".gltf" : arguments.output;
-    roads::LitRoadOptions options;
-    for (const Option& option : arguments.for_lamps)
-        if (option.count() > 0) options.lamps = arguments.lamps, options.lamps->side = kSides.at(arguments.side);
-    if (options.lamps) options.lamps->beside_own = arguments.for_lamps.front().count() > 0;  // --lamp-spacing
-    if (!arguments.luminaire.empty()) options.lamps->luminaire = read_distribution(arguments.luminaire);
-    const roads::RoadNetwork network = roads::read_opendrive(input);
-    const roads::LitRoads lit = in_file(arguments.input, [&] { return lit_roads(network, options); });
-    save_gltf(lit.scene, input.filename().string(), output);
-    print(lit.notes, network.notes, output);
+    roads::ConvertOptions options{.lamps = arguments.lamps, .luminaire = arguments.luminaire};
+    options.lamps.side = kSides.at(arguments.side);
+    const roads::RoadConversion made = roads::convert_roads(input, output, options);
+    print(made.parts, made.notes, output);
 }
 
 void run(const ConvertArguments& arguments) {

@@ -3,13 +3,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include <vesper/road_lighting.hpp>
+
 #include "arguments.h"
 #include "base/error.h"
 #include "false_colour.h"
 #include "inspect.h"
 #include "io/atomic_file.h"
 #include "io/hdr_image.h"
-#include "roads/road_lighting.h"
 #include "scene/colour.h"
 #include "statistics.h"
 
@@ -65,7 +66,7 @@ void draw(const InspectArguments& arguments, const ValuePicture& full, const std
     canvas.pixels(16, 40, width, height, false_colours(shown, scale));
     if (arguments.contours) {
         std::vector<double> levels;
-        for (const roads::LightingClass& c : roads::lighting_classes()) levels.push_back(c.luminance);
+        for (const roads::LightingClass& c : roads::lighting_classes()) levels.push_back(c.average_luminance);
         draw_contours(canvas, shown, levels, corner);
     }
     for (const Probe& p : probes) {

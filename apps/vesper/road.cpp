@@ -7,7 +7,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "commands.h"
-#include "in_file.h"
+#include "io/in_file.h"
 #include "road_render.h"
 #include "road_report.h"
 #include "roads/layout_file.h"
@@ -25,7 +25,7 @@ struct RoadArguments {
 };
 
 /// The road as a scene whose luminaires are seen, too, where their file states an opening.
-Scene lit_road(const roads::RoadLayout& layout) {
+Scene lit_road(const roads::LoadedLayout& layout) {
     Scene scene = layout_scene(layout);
     for (Lamp& lamp : scene.lamps) lamp.opening = layout.distribution.opening;
     return scene;
@@ -47,24 +47,24 @@ void run(const RoadArguments& arguments) {
     if (!arguments.device.empty() && arguments.pictures.empty())
         throw Error("--device has a meaning only beside --render");
     const FilesRead read;
-    const roads::LayoutFile file = roads::read_layout(arguments.layout, arguments.overrides);
+    const roads::LoadedLayout layout = roads::read_layout(arguments.layout, arguments.overrides);
     files.refuse_overwriting(read);
-    const roads::RoadLighting result = in_file(arguments.layout, [&] { return calculate_lighting(file.layout); });
+    const roads::RoadLighting result = in_file(arguments.layout, [&] { return calculate_lighting(layout); });
     const roads::LightingClass* wanted =
-        roads::find_lighting_class(arguments.wanted.empty() ? file.wanted_class : arguments.wanted);
-    std::fputs(text_of(file.layout, result, wanted ? wanted : reached_class(result)).c_str(), stdout);
+        roads::find_lighting_class(arguments.wanted.empty() ? layout.wanted_class : arguments.wanted);
+    std::fputs(text_of(layout, result, wanted ? wanted : reached_class(result)).c_str(), stdout);
     if (arguments.grid) std::fputs(grid_text_of(result).c_str(), stdout);
     RenderedRoad rendered;
     if (!arguments.pictures.empty()) {
-        rendered = render_road(file.layout, result, arguments.device);
+        rendered = render_road(layout, result, arguments.device);
         std::fputs(text_of(result, rendered).c_str(), stdout);
-        for (const std::string& picture : arguments.pictures) write_picture(picture, file.layout, result, rendered);
+        for (const std::string& picture : arguments.pictures) write_picture(picture, layout, result, rendered);
     }
     const RenderedRoad* beside = arguments.pictures.empty() ? nullptr : &rendered;
     if (!arguments.scene.empty())
-        save_gltf(lit_road(file.layout), std::filesystem::path(arguments.layout).filename().string(), arguments.scene);
-    if (!arguments.csv.empty()) write_text(arguments.csv, csv_of(file.layout, result, beside));
-    if (!arguments.json.empty()) write_text(arguments.json, json_of(file.layout, result, wanted, beside));
+        save_gltf(lit_road(layout), std::filesystem::path(arguments.layout).filename().string(), arguments.scene);
+    if (!arguments.csv.empty()) write_text(arguments.csv, csv_of(layout, result, beside));
+    if (!arguments.json.empty()) write_text(arguments.json, json_of(layout, result, wanted, beside));
 }
 
 }  // namespace

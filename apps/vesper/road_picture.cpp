@@ -37,7 +37,7 @@ void outline_field(Canvas& canvas, const Panel& panel, const roads::RoadLayout& 
     canvas.line(corners, CanvasColour(1), 1.2, true);
 }
 
-void draw_observer(Canvas& canvas, glm::dvec2 corner, const roads::RoadLayout& layout,
+void draw_observer(Canvas& canvas, glm::dvec2 corner, const roads::LoadedLayout& layout,
                    const roads::RoadLighting& result, size_t index, const RenderedObserver& seen,
                    const ColourScale& scale) {
     const roads::LaneObserver& observer = result.observers[index];
@@ -45,7 +45,7 @@ void draw_observer(Canvas& canvas, glm::dvec2 corner, const roads::RoadLayout& l
     canvas.pixels(static_cast<int>(corner.x), static_cast<int>(corner.y), kPanelWidth, kPanelHeight,
                   false_colours(picture, scale));
     std::vector<double> levels;
-    for (const roads::LightingClass& c : roads::lighting_classes()) levels.push_back(c.luminance);
+    for (const roads::LightingClass& c : roads::lighting_classes()) levels.push_back(c.average_luminance);
     draw_contours(canvas, picture, levels, corner);
     const Panel panel{seen.view, corner, {kPanelWidth, kPanelHeight}};
     outline_field(canvas, panel, layout);
@@ -71,7 +71,7 @@ void draw_observer(Canvas& canvas, glm::dvec2 corner, const roads::RoadLayout& l
     canvas.text(corner + glm::dvec2(kPanelWidth, -14), format("heights \u00d7 %.1f", tall), 13, Canvas::Align::Right);
 }
 
-void write_false_colours(const std::string& file, const roads::RoadLayout& layout, const roads::RoadLighting& result,
+void write_false_colours(const std::string& file, const roads::LoadedLayout& layout, const roads::RoadLighting& result,
                          const RenderedRoad& rendered) {
     std::vector<float> all;
     for (const RenderedObserver& seen : rendered.observers)
@@ -100,7 +100,7 @@ void write_false_colours(const std::string& file, const roads::RoadLayout& layou
 
 }  // namespace
 
-void write_picture(const std::string& file, const roads::RoadLayout& layout, const roads::RoadLighting& result,
+void write_picture(const std::string& file, const roads::LoadedLayout& layout, const roads::RoadLighting& result,
                    const RenderedRoad& rendered) {
     if (file.ends_with(".png")) return write_false_colours(file, layout, result, rendered);
     for (size_t i = 0; i < rendered.observers.size(); ++i) {
@@ -108,7 +108,7 @@ void write_picture(const std::string& file, const roads::RoadLayout& layout, con
         const int lane = result.observers[i].lane;
         const std::string name =
             rendered.observers.size() == 1 ? file : file.substr(0, file.size() - 4) + format(".lane%d.exr", lane);
-        const glm::dvec3 eye = result.observers[i].eye;
+        const roads::LayoutPoint& eye = result.observers[i].eye;
         write_exr(name, view.extent.width, view.extent.height, rendered.observers[i].rgba,
                   {{"vesper:version", VESPER_VERSION},
                    {"vesper:road", layout.name},

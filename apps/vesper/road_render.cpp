@@ -19,7 +19,8 @@ double difference_percent(double picture, double calculated, double average) {
     return 100 * (picture - calculated) / std::max(calculated, 1e-3 * average);
 }
 
-void summarise(const roads::RoadLayout& layout, const roads::RoadLighting& result, size_t index, RoadReading& reading) {
+void summarise(const roads::LoadedLayout& layout, const roads::RoadLighting& result, size_t index,
+               RoadReading& reading) {
     const roads::LaneObserver& observer = result.observers[index];
     double sum = 0, squares = 0, least = HUGE_VAL, lane_least = HUGE_VAL, lane_greatest = 0;
     for (size_t i = 0; i < result.points.size(); ++i) {
@@ -54,7 +55,7 @@ struct Wanted {
 /// By the luminaires of the scene that light them in the calculation.
 using Groups = std::map<std::vector<bool>, std::vector<Wanted>>;
 
-Groups groups_of(const roads::RoadLayout& layout, const std::vector<roads::PlacedLuminaire>& lamps,
+Groups groups_of(const roads::LoadedLayout& layout, const std::vector<roads::PlacedLuminaire>& lamps,
                  const roads::RoadLighting& result) {
     Groups groups;
     for (size_t o = 0; o < result.observers.size(); ++o)
@@ -62,7 +63,7 @@ Groups groups_of(const roads::RoadLayout& layout, const std::vector<roads::Place
             const glm::dvec2 point(result.points[i].x, result.points[i].y);
             std::vector<bool> counted;
             for (const roads::PlacedLuminaire& lamp : lamps)
-                counted.push_back(reflected_towards(layout, lamp, point, result.observers[o].eye) > 0);
+                counted.push_back(reflected_towards(layout, lamp, point, vector_of(result.observers[o].eye)) > 0);
             groups[counted].push_back({o, i});
         }
     return groups;
@@ -97,10 +98,10 @@ private:
 };
 
 /// Veil and TI off a picture of what dazzles; lamps above the roof of the car do not.
-GlareReport read_glare(const roads::RoadLayout& layout, const roads::LaneObserver& observer, Device& device) {
+GlareReport read_glare(const roads::LoadedLayout& layout, const roads::LaneObserver& observer, Device& device) {
     const Scene scene = layout_glare_scene(layout, observer.glare_eye.x);
     Renderer renderer(device, scene);
-    const View view = road_glare_view(observer.glare_eye);
+    const View view = road_glare_view(vector_of(observer.glare_eye));
     const Frame frame =
         renderer.render(road_settings(), view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
     std::vector<DazzlingLight> beside;
@@ -110,8 +111,9 @@ GlareReport read_glare(const roads::RoadLayout& layout, const roads::LaneObserve
     const ImageAngles image = angles_of(view);
     const double average = observer.average_luminance / layout.maintenance_factor;
     const glm::dvec2 sight = image.pixels_at({0, 0}) / glm::dvec2(image.width, image.height);
-    return report_glare(image, frame.scene, beside,
-                        {.eye = {layout.age}, .gaze = sight, .source_luminance = 0, .average_luminance = average});
+    return report_glare(
+        image, frame.scene, beside,
+        {.eye = {layout.observer_age}, .gaze = sight, .source_luminance = 0, .average_luminance = average});
 }
 
 double read_point(const std::vector<float>& rgba, const View& view, const roads::FieldPoint& point) {
@@ -143,7 +145,7 @@ std::string worst_line(const roads::RoadLighting& result, const RenderedRoad& re
 
 }  // namespace
 
-RenderedRoad render_road(const roads::RoadLayout& layout, const roads::RoadLighting& result,
+RenderedRoad render_road(const roads::LoadedLayout& layout, const roads::RoadLighting& result,
                          const std::string& select) {
     const Scene scene = layout_scene(layout);
     Device device({.select = select});
@@ -215,8 +217,8 @@ std::string text_of(const roads::RoadLighting& result, const RenderedRoad& rende
     for (size_t o = 0; o < result.observers.size(); ++o) {
         const roads::LaneObserver& a = result.observers[o];
         const GlareReport& b = rendered.observers[o].glare;
-        text += format("  %4d  %7.4f %7.4f   %6.2f %% %6.2f %%\n", a.lane, a.veil, b.road_veil, a.threshold_increment,
-                       b.increment);
+        text += format("  %4d  %7.4f %7.4f   %6.2f %% %6.2f %%\n", a.lane, a.veil, b.road_veil,
+                       a.threshold_increment_percent, b.increment);
     }
     text += "\nLargest difference: " + worst_line(result, rendered, &RenderedObserver::counted);
     return text + "By every luminaire: " + worst_line(result, rendered, &RenderedObserver::every);

@@ -42,12 +42,13 @@ struct RenderedRoad {
 };
 
 /// Renders the scene of the road for every observer on a device and reads the grid off the pictures. Throws Error.
-RenderedRoad render_road(const roads::RoadLayout&, const roads::RoadLighting&, const std::string& device);
+RenderedRoad render_road(const roads::LoadedLayout&, const roads::RoadLighting&, const std::string& device);
 
 /// Calculation and picture side by side.
 std::string text_of(const roads::RoadLighting&, const RenderedRoad&);
 /// Writes false colours (.png) or the luminances of each observer (.exr, with the lane in the name where there are
 /// several).
-void write_picture(const std::string& file, const roads::RoadLayout&, const roads::RoadLighting&, const RenderedRoad&);
+void write_picture(const std::string& file, const roads::LoadedLayout&, const roads::RoadLighting&,
+                   const RenderedRoad&);
 
 }  // namespace vesper

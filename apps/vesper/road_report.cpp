@@ -29,12 +29,13 @@ double q0_of(const ReflectionTable& table) {
     return table.stated_q0 > 0 ? table.stated_q0 : average_luminance_coefficient(table);
 }
 
-std::string head_of(const roads::RoadLayout& layout, const roads::RoadLighting& result) {
+std::string head_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result) {
     std::string text = layout.name + "\n";
     text += format("  carriageway  %g m, %d lanes, surface %s with Q0 %.3g, S1 %.2f\n", layout.width, layout.lanes,
                    layout.surface.name.c_str(), q0_of(layout.surface), specular_factor(layout.surface));
-    text += format("  luminaires   %s, every %g m, %g m high, overhang %g m, tilt %g deg\n",
-                   name_of(layout.arrangement), layout.spacing, mounting_height(layout), layout.overhang, layout.tilt);
+    text +=
+        format("  luminaires   %s, every %g m, %g m high, overhang %g m, tilt %g deg\n", name_of(layout.arrangement),
+               layout.spacing, mounting_height(layout), layout.overhang, layout.tilt_deg);
     text += format("               %s, %.0f lm, maintenance factor %g\n", layout.distribution.name.c_str(),
                    luminous_flux(layout.distribution) * layout.flux_factor, layout.maintenance_factor);
     text += format("  grid         %zu x %zu points, %.3g m apart\n", result.field.x.size(), result.field.y.size(),
@@ -53,20 +54,24 @@ std::vector<Figure> figures_of(const roads::RoadLighting& r) {
     // Of a wet road, classes limit the overall uniformity alone.
     if (r.wet)
         return {{"Lav", "average_luminance_cd_m2", "cd/m2", 3, r.average_luminance, nullptr},
-                {"Uow", "overall_uniformity", "", 3, r.overall_uniformity, &roads::LightingClass::overall_wet},
+                {"Uow", "overall_uniformity", "", 3, r.overall_uniformity, &roads::LightingClass::wet_uniformity},
                 {"Ul", "lengthwise_uniformity", "", 3, r.longitudinal_uniformity, nullptr},
-                {"TI", "threshold_increment_percent", "%", 2, r.threshold_increment, nullptr},
+                {"TI", "threshold_increment_percent", "%", 2, r.threshold_increment_percent, nullptr},
                 {"EIR", "edge_illuminance_ratio", "", 3, r.edge_ratio, nullptr}};
-    return {{"Lav", "average_luminance_cd_m2", "cd/m2", 3, r.average_luminance, &roads::LightingClass::luminance},
-            {"Uo", "overall_uniformity", "", 3, r.overall_uniformity, &roads::LightingClass::overall},
-            {"Ul", "lengthwise_uniformity", "", 3, r.longitudinal_uniformity, &roads::LightingClass::longitudinal},
-            {"TI", "threshold_increment_percent", "%", 2, r.threshold_increment, &roads::LightingClass::increment},
-            {"EIR", "edge_illuminance_ratio", "", 3, r.edge_ratio, &roads::LightingClass::edge}};
+    return {
+        {"Lav", "average_luminance_cd_m2", "cd/m2", 3, r.average_luminance, &roads::LightingClass::average_luminance},
+        {"Uo", "overall_uniformity", "", 3, r.overall_uniformity, &roads::LightingClass::overall_uniformity},
+        {"Ul", "lengthwise_uniformity", "", 3, r.longitudinal_uniformity,
+         &roads::LightingClass::longitudinal_uniformity},
+        {"TI", "threshold_increment_percent", "%", 2, r.threshold_increment_percent,
+         &roads::LightingClass::threshold_increment_percent},
+        {"EIR", "edge_illuminance_ratio", "", 3, r.edge_ratio, &roads::LightingClass::edge_ratio}};
 }
 
 bool holds(const Figure& figure, const roads::LightingClass& wanted) {
     const double limit = wanted.*figure.limit;
-    return figure.limit == &roads::LightingClass::increment ? figure.value <= limit : figure.value >= limit;
+    return figure.limit == &roads::LightingClass::threshold_increment_percent ? figure.value <= limit
+                                                                              : figure.value >= limit;
 }
 
 nlohmann::ordered_json json_of(const RoadReading& reading) {
@@ -80,15 +85,15 @@ nlohmann::ordered_json json_of(const RoadReading& reading) {
 
 }  // namespace
 
-std::string text_of(const roads::RoadLayout& layout, const roads::RoadLighting& result,
+std::string text_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result,
                     const roads::LightingClass* wanted) {
     std::string text = head_of(layout, result) + "\n";
     text += wanted ? format("                  value   %s asks\n", wanted->name) : "                  value\n";
     for (const Figure& f : figures_of(result)) {
         text += format("  %-4s %-6s %10.*f", f.name, f.unit, f.decimals, f.value);
         if (wanted && f.limit)
-            text += format("   %s %-5g %s", f.limit == &roads::LightingClass::increment ? "<=" : ">=", wanted->*f.limit,
-                           holds(f, *wanted) ? "ok" : "missed");
+            text += format("   %s %-5g %s", f.limit == &roads::LightingClass::threshold_increment_percent ? "<=" : ">=",
+                           wanted->*f.limit, holds(f, *wanted) ? "ok" : "missed");
         text += "\n";
     }
     text += format("  Eav  lx     %10.2f\n  Emin lx     %10.2f   Emin / Eav %.3f\n", result.average_illuminance,
@@ -97,9 +102,9 @@ std::string text_of(const roads::RoadLayout& layout, const roads::RoadLighting& 
 
     text += "  lane  eye at y, m   Lav cd/m2      Uo      Ul    TI %   Lv cd/m2   worst from x, m\n";
     for (const roads::LaneObserver& o : result.observers)
-        text +=
-            format("  %4d  %11.2f  %10.3f  %6.3f  %6.3f  %6.2f  %9.4f  %16.1f\n", o.lane, o.eye.y, o.average_luminance,
-                   o.overall_uniformity, o.longitudinal_uniformity, o.threshold_increment, o.veil, o.glare_eye.x);
+        text += format("  %4d  %11.2f  %10.3f  %6.3f  %6.3f  %6.2f  %9.4f  %16.1f\n", o.lane, o.eye.y,
+                       o.average_luminance, o.overall_uniformity, o.longitudinal_uniformity,
+                       o.threshold_increment_percent, o.veil, o.glare_eye.x);
     const roads::LightingClass* reached = reached_class(result);
     if (result.wet)
         text +=
@@ -130,7 +135,7 @@ std::string grid_text_of(const roads::RoadLighting& result) {
     return text;
 }
 
-std::string csv_of(const roads::RoadLayout& layout, const roads::RoadLighting& result, const RenderedRoad* rendered) {
+std::string csv_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result, const RenderedRoad* rendered) {
     std::string text = "# " + layout.name + ": surface " + layout.surface.name + ", x ahead and y to the left, m\n";
     text += "x_m,y_m,E_h_lx";
     for (const roads::LaneObserver& o : result.observers) text += format(",L_lane%d_cd_m2", o.lane);
@@ -146,7 +151,7 @@ std::string csv_of(const roads::RoadLayout& layout, const roads::RoadLighting& r
     return text + "\n";
 }
 
-std::string json_of(const roads::RoadLayout& layout, const roads::RoadLighting& result,
+std::string json_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result,
                     const roads::LightingClass* wanted, const RenderedRoad* rendered) {
     nlohmann::ordered_json json = {
         {"name", layout.name}, {"surface", layout.surface.name}, {"q0", q0_of(layout.surface)}, {"wet", result.wet}};
@@ -164,7 +169,7 @@ std::string json_of(const roads::RoadLayout& layout, const roads::RoadLighting& 
                                      {"average_luminance_cd_m2", o.average_luminance},
                                      {"overall_uniformity", o.overall_uniformity},
                                      {"lengthwise_uniformity", o.longitudinal_uniformity},
-                                     {"threshold_increment_percent", o.threshold_increment},
+                                     {"threshold_increment_percent", o.threshold_increment_percent},
                                      {"veiling_luminance_cd_m2", o.veil},
                                      {"glare_eye_m", {o.glare_eye.x, o.glare_eye.y, o.glare_eye.z}}});
     for (const roads::FieldPoint& p : result.points)

@@ -9,12 +9,12 @@
 namespace vesper {
 
 /// Layout, figures against the limits of a class (may be null) and figures of each lane, for a terminal.
-std::string text_of(const roads::RoadLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted);
+std::string text_of(const roads::LoadedLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted);
 /// Illuminance and the luminances of every observer as tables: x across, y down, the left edge on top.
 std::string grid_text_of(const roads::RoadLighting&);
 /// One line for each point of the grid. Both with what was rendered, if anything was.
-std::string csv_of(const roads::RoadLayout&, const roads::RoadLighting&, const RenderedRoad* rendered);
-std::string json_of(const roads::RoadLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted,
+std::string csv_of(const roads::LoadedLayout&, const roads::RoadLighting&, const RenderedRoad* rendered);
+std::string json_of(const roads::LoadedLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted,
                     const RenderedRoad* rendered);
 
 }  // namespace vesper

@@ -15,25 +15,25 @@ constexpr size_t kMaxStreetLamps = 20'000;
 constexpr double kHead = 0.6, kHeadWidth = 0.3;  // m, of the luminaire; its opening is that
 constexpr double kVerge = 0.7;                   // m from the edge of the road to the pole
 constexpr double kDesignHeight = 8;              // m, for which the standard luminaire gives its 18 lx
-
-StreetLampOptions lamp_options(const RoadBuild& build) { return build.options.lamps.value_or(StreetLampOptions{}); }
+constexpr double kSpacing = 30;                  // m
+constexpr double kColourTemperature = 3000;      // K
 
 /// The light all street lamps of one height share; higher ones are stronger, so that the road stays as bright.
 uint32_t lamp_light(RoadBuild& build, double height) {
-    const StreetLampOptions options = lamp_options(build);
+    const std::optional<Distribution>& luminaire = build.options.luminaire;
     const auto factor =
-        static_cast<float>(options.luminaire ? 1.0 : std::max(1.0, height * height / (kDesignHeight * kDesignHeight)));
+        static_cast<float>(luminaire ? 1.0 : std::max(1.0, height * height / (kDesignHeight * kDesignHeight)));
     for (uint32_t i = 0; i < build.scene.lamps.size(); ++i)
         if (build.scene.lamps[i].name == "street lamp" && build.scene.lamps[i].intensity == factor) return i;
     Lamp lamp{.name = "street lamp", .kind = Lamp::Kind::Measured};
     lamp.intensity = factor;
-    lamp.colour = colour_of_temperature(std::clamp(options.colour_temperature, 1000.0, 25000.0));
+    lamp.colour = colour_of_temperature(kColourTemperature);
     lamp.opening.length = kHead, lamp.opening.width = kHeadWidth;
     lamp.distribution = static_cast<uint32_t>(build.scene.distributions.size());
     for (uint32_t i = 0; i < build.scene.distributions.size(); ++i)
         if (build.scene.distributions[i].name == "street lamp") lamp.distribution = i;
     if (lamp.distribution == build.scene.distributions.size()) {
-        build.scene.distributions.push_back(options.luminaire ? *options.luminaire : standard_lamp("street-lamp"));
+        build.scene.distributions.push_back(luminaire ? *luminaire : standard_lamp("street-lamp"));
         build.scene.distributions.back().name = "street lamp";
     }
     build.scene.lamps.push_back(lamp);
@@ -60,11 +60,10 @@ double edge_of(const Road& road, const LaneSection& section, int side, double s)
 }
 
 std::vector<Row> rows_of(const StreetLampOptions& options, const Road& road, double width) {
-    using Side = StreetLampOptions::Side;
-    const bool both = options.side == Side::Both || (options.side == Side::Auto && width > 12);
+    const bool both = options.side == LampSide::Both || (options.side == LampSide::Auto && width > 12);
     if (both) return {{true, 0.5}, {false, 0.5}};
-    if (options.side == Side::Alternating) return {{true, 0.25}, {false, 0.75}};
-    return {{options.side == Side::Auto ? !road.right_hand : options.side == Side::Left, 0.5}};
+    if (options.side == LampSide::Alternating) return {{true, 0.25}, {false, 0.75}};
+    return {{options.side == LampSide::Auto ? !road.right_hand : options.side == LampSide::Left, 0.5}};
 }
 
 /// World height of the highest point of each lane, m.
@@ -94,15 +93,15 @@ bool is_below_road(const RoadBuild& build, const std::vector<double>& highest, g
     return false;
 }
 
-void light_road(RoadBuild& build, const Road& road, const StreetLampOptions& options,
-                const std::vector<double>& highest, size_t& count) {
+void light_road(RoadBuild& build, const Road& road, double spacing, const std::vector<double>& highest, size_t& count) {
+    const StreetLampOptions& options = build.options.lamps;
     const double middle = road.length / 2;
     const LaneSection& section = road.sections[road.section_at(middle)];
     const double width = edge_of(road, section, 1, middle) - edge_of(road, section, -1, middle);
     const double height = options.height > 0 ? options.height : std::clamp(width / 2 + 4, kDesignHeight, 12.0);
     for (const Row& row : rows_of(options, road, width)) {
-        const bool alternating = options.side == StreetLampOptions::Side::Alternating;
-        const double pitch = options.spacing * (alternating ? 2 : 1);
+        const bool alternating = options.side == LampSide::Alternating;
+        const double pitch = spacing * (alternating ? 2 : 1);
         const int steps = std::max(1, static_cast<int>(std::lround(road.length / pitch)));
         for (int k = 0; k < steps; ++k) {
             const double s = road.length * (k + row.first) / steps;
@@ -132,7 +131,7 @@ Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 positio
 }
 
 void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, int towards) {
-    const double overhang = std::max(lamp_options(build).overhang, 0.1) * towards;
+    const double overhang = build.options.lamps.overhang * towards;
     size_t number = 0;
     for (auto node = build.scene.nodes.rbegin(); node != build.scene.nodes.rend(); ++node)
         if (node->name.starts_with("street_lamp_") && node->name.ends_with("/light")) {
@@ -154,23 +153,33 @@ void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, in
     build.scene.nodes.push_back(node);
 }
 
+void check_street_lamps(const StreetLampOptions& lamps) {
+    const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+    const double spacing = lamps.spacing.value_or(kSpacing);
+    if (spacing > 0 && spacing < 2)
+        throw Error("street lamps every " + std::to_string(spacing) + " m: at least 2 m are expected");
+    if (!within(spacing, 0, 1000)) throw Error("street lamps: the spacing must be from 0 to 1000 m");
+    if (lamps.height != 0 && !within(lamps.height, 2, 60))
+        throw Error("street lamps: the height must be from 2 to 60 m");
+    if (!within(lamps.overhang, 0.1, 20)) throw Error("street lamps: the overhang must be from 0.1 to 20 m");
+}
+
 void build_street_lamps(RoadBuild& build) {
-    const StreetLampOptions options = lamp_options(build);
-    if (options.spacing <= 0) return;
-    if (options.spacing < 2)
-        throw Error("street lamps every " + std::to_string(options.spacing) + " m: at least 2 m are expected");
+    const std::optional<double>& wanted = build.options.lamps.spacing;
+    const double spacing = wanted.value_or(kSpacing);
+    if (spacing == 0) return;
     const bool has_own = std::any_of(build.scene.lamps.begin(), build.scene.lamps.end(),
                                      [](const Lamp& lamp) { return lamp.name == "street lamp"; });
-    if (has_own && !(build.options.lamps && options.beside_own)) return;
+    if (has_own && !wanted) return;
     size_t count = 0;
     const std::vector<double> highest = highest_points(build.lanes);
     for (const Road& road : build.network.roads)
         if (road.junction == kNoRoad && !road.sections.empty() && road.length > 5)
-            light_road(build, road, options, highest, count);
+            light_road(build, road, spacing, highest, count);
     if (count > kMaxStreetLamps)
         build.notes.push_back("street lamps: more than " + std::to_string(kMaxStreetLamps) + ": the rest is left out");
     build.notes.push_back("street lamps: " + std::to_string(std::min(count, kMaxStreetLamps)) + ", every " +
-                          std::to_string(std::lround(options.spacing)) + " m");
+                          std::to_string(std::lround(spacing)) + " m");
 }
 
 }  // namespace vesper::roads

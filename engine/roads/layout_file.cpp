@@ -1,10 +1,10 @@
 #include "roads/layout_file.h"
 
+#include <algorithm>
 #include <array>
 
 #include "base/error.h"
 #include "io/atomic_file.h"
-#include "roads/road_lighting.h"
 #include "scene/json_value.h"
 #include "scene/reflection_json.h"
 
@@ -45,7 +45,7 @@ LuminaireMount read_mount(const JsonValue& source, const RoadLayout& layout) {
     LuminaireMount mount;
     mount.position = {source.number_or("x_m", 0, -1000, 1000), source.at("y_m").number(-200, 200),
                       source.number_or("height_m", layout.height, 2, 40)};
-    mount.facing = source.number_or("facing_deg", mount.position.y > layout.width / 2 ? -90 : 90, -360, 360);
+    mount.facing_deg = source.number_or("facing_deg", mount.position.y > layout.width / 2 ? -90 : 90, -360, 360);
     return mount;
 }
 
@@ -56,8 +56,8 @@ void read_positions(RoadLayout& layout, const JsonValue& source) {
     if (layout.arrangement == Arrangement::List) {
         refuse("overhang_m", "has no meaning beside a list of positions");
         const JsonValue positions = source.at("positions");
-        for (const JsonValue& position : positions.elements()) layout.list.push_back(read_mount(position, layout));
-        if (layout.list.empty() || layout.list.size() > 32) positions.fail("must have 1 to 32 elements");
+        for (const JsonValue& position : positions.elements()) layout.mounts.push_back(read_mount(position, layout));
+        if (layout.mounts.empty() || layout.mounts.size() > 32) positions.fail("must have 1 to 32 elements");
     } else {
         refuse("positions", "has a meaning only in the arrangement list");
         layout.overhang = source.number_or("overhang_m", 0, -50, 50);
@@ -67,7 +67,13 @@ void read_positions(RoadLayout& layout, const JsonValue& source) {
     layout.reservation = source.number_or("reservation_m", 0, 0, 100);
 }
 
-void read_luminaires(RoadLayout& layout, const JsonValue& source, const std::filesystem::path& folder,
+Distribution read_luminaire(const std::filesystem::path& file) {
+    Distribution distribution = read_distribution(file);
+    if (!(largest_intensity(distribution) > 0)) throw Error(one_line(file.string()) + ": the luminaire gives no light");
+    return distribution;
+}
+
+void read_luminaires(LoadedLayout& layout, const JsonValue& source, const std::filesystem::path& folder,
                      const LayoutOverrides& overrides) {
     source.allow_only({"file", "c0", "flux_factor", "maintenance_factor", "colour_temperature_K", "arrangement",
                        "spacing_m", "height_m", "overhang_m", "reservation_m", "orientation_deg", "tilt_deg",
@@ -76,59 +82,78 @@ void read_luminaires(RoadLayout& layout, const JsonValue& source, const std::fil
     layout.spacing = source.at("spacing_m").number(5, 500);
     layout.height = source.at("height_m").number(2, 40);
     read_positions(layout, source);
-    layout.orientation = source.number_or("orientation_deg", 0, -180, 180);
-    layout.tilt = source.number_or("tilt_deg", 0, -180, 180);
-    layout.roll = source.number_or("roll_deg", 0, -180, 180);
+    layout.orientation_deg = source.number_or("orientation_deg", 0, -180, 180);
+    layout.tilt_deg = source.number_or("tilt_deg", 0, -180, 180);
+    layout.roll_deg = source.number_or("roll_deg", 0, -180, 180);
     if (const auto c0 = source.find("c0")) layout.c0_street_side = is_one_of(*c0, "street side", "road");
     layout.flux_factor = source.number_or("flux_factor", 1, 1e-6, 1000);
     layout.maintenance_factor = source.number_or("maintenance_factor", 1, 0.01, 1);
     layout.colour_temperature = source.number_or("colour_temperature_K", 0, 1000, 25000);
 
     const std::string file = source.at("file").text();
-    const auto luminaire = overrides.luminaire.empty() ? folder / file : std::filesystem::path(overrides.luminaire);
-    layout.distribution = read_distribution(luminaire);
-    if (!(largest_intensity(layout.distribution) > 0))
-        throw Error(one_line(luminaire.string()) + ": the luminaire gives no light");
+    layout.luminaire = overrides.luminaire.empty() ? folder / file : std::filesystem::path(overrides.luminaire);
+    layout.distribution = read_luminaire(layout.luminaire);
 }
 
-ReflectionTable read_surface(const JsonValue& source, const std::filesystem::path& folder,
-                             const LayoutOverrides& overrides) {
+/// Name of a table as find_reflection_table() takes it without a folder.
+std::string located(const std::string& name_or_file, const std::filesystem::path& folder) {
+    const std::vector<std::string> standard = standard_reflection_tables();
+    const bool is_standard = std::find(standard.begin(), standard.end(), name_or_file) != standard.end();
+    return is_standard ? name_or_file : (folder / name_or_file).string();
+}
+
+void read_surface(LoadedLayout& layout, const JsonValue& source, const std::filesystem::path& folder,
+                  const LayoutOverrides& overrides) {
     source.allow_only({"reflection_table", "q0"});
-    ReflectionTable table = overrides.reflection_table.empty() ? read_named_table(source, folder)
-                                                               : find_reflection_table(overrides.reflection_table);
-    return overrides.q0 ? rescaled(table, *overrides.q0) : table;
+    if (overrides.reflection_table.empty()) {
+        layout.surface = read_named_table(source, folder);
+        layout.reflection_table = located(source.at("reflection_table").text(), folder);
+        layout.q0 = source.number_or("q0", 0);
+    } else {
+        layout.surface = find_reflection_table(overrides.reflection_table);
+        layout.reflection_table = overrides.reflection_table;
+    }
+    if (!overrides.q0) return;
+    layout.surface = rescaled(layout.surface, *overrides.q0);
+    layout.q0 = *overrides.q0;
 }
 
 }  // namespace
 
-LayoutFile read_layout(const std::filesystem::path& file, const LayoutOverrides& overrides) {
+LoadedLayout read_layout(const std::filesystem::path& file, const LayoutOverrides& overrides) {
     const JsonFile json = parse_json(read_file(file, kMaxLayoutBytes), file.string());
     const JsonValue root(json);
     root.allow_only({"$schema", "version", "name", "carriageway", "surface", "luminaires", "observer_age", "class"});
     const JsonValue version = root.at("version");
     if (version.integer() != 1) version.fail("must be 1: this program knows no other");
-    LayoutFile made;
-    RoadLayout& layout = made.layout;
+    LoadedLayout layout;
     layout.name = one_line(root.text_or("name", file.stem().string()), 100);
-    layout.age = root.number_or("observer_age", 23, 1, 120);
+    layout.observer_age = root.number_or("observer_age", 23, 1, 120);
     if (const auto wanted = root.find("class")) {
         if (!find_lighting_class(wanted->text())) wanted->fail("is none of M1 to M6");
-        made.wanted_class = wanted->text();
+        layout.wanted_class = wanted->text();
     }
     read_carriageway(layout, root.at("carriageway"));
     read_luminaires(layout, root.at("luminaires"), file.parent_path(), overrides);
-    layout.surface = read_surface(root.at("surface"), file.parent_path(), overrides);
+    read_surface(layout, root.at("surface"), file.parent_path(), overrides);
     layout.spacing = overrides.spacing.value_or(layout.spacing);
     layout.height = overrides.height.value_or(layout.height);
     layout.overhang = overrides.overhang.value_or(layout.overhang);
-    layout.tilt = overrides.tilt.value_or(layout.tilt);
+    layout.tilt_deg = overrides.tilt.value_or(layout.tilt_deg);
     layout.maintenance_factor = overrides.maintenance_factor.value_or(layout.maintenance_factor);
     try {
         check_layout(layout);
     } catch (const Error& error) {
         throw Error(one_line(file.string()) + ": " + error.what());
     }
-    return made;
+    return layout;
+}
+
+LoadedLayout load_layout(const RoadLayout& layout) {
+    check_layout(layout);
+    LoadedLayout loaded{layout, read_luminaire(layout.luminaire), find_reflection_table(layout.reflection_table)};
+    if (layout.q0 > 0) loaded.surface = rescaled(loaded.surface, layout.q0);
+    return loaded;
 }
 
 }  // namespace vesper::roads

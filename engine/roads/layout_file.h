@@ -1,4 +1,4 @@
-// Road layouts from JSON (docs/road.md). SPDX-License-Identifier: MIT
+// Road layouts from JSON (docs/road.md), and their files. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <filesystem>
@@ -16,14 +16,11 @@ struct LayoutOverrides {
     std::optional<double> q0, spacing, height, overhang, tilt, maintenance_factor;
 };
 
-/// A layout and the class its file asks for.
-struct LayoutFile {
-    RoadLayout layout;
-    std::string wanted_class;  ///< a name of lighting_classes(); may be empty
-};
-
 /// Reads and checks a layout with its luminaire and reflection table, both relative to the file's folder. Throws Error
 /// naming file, JSON pointer and reason.
-LayoutFile read_layout(const std::filesystem::path& file, const LayoutOverrides& overrides = {});
+LoadedLayout read_layout(const std::filesystem::path& file, const LayoutOverrides& overrides = {});
+
+/// Checks a layout and reads its luminaire and reflection table. Throws Error.
+LoadedLayout load_layout(const RoadLayout&);
 
 }  // namespace vesper::roads

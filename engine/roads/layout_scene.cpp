@@ -15,7 +15,7 @@ const glm::dmat3 kToWorld{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}};
 
 constexpr double kMargin = 80;  // m, of surface behind the observers
 
-Primitive carriageway(const RoadLayout& layout, double first, double last) {
+Primitive carriageway(const LoadedLayout& layout, double first, double last) {
     Primitive plane;
     for (const glm::dvec2 corner :
          {glm::dvec2(first, 0), glm::dvec2(last, 0), glm::dvec2(last, layout.width), glm::dvec2(first, layout.width)}) {
@@ -29,7 +29,7 @@ Primitive carriageway(const RoadLayout& layout, double first, double last) {
     return plane;
 }
 
-void add_luminaires(Scene& scene, const RoadLayout& layout, const std::vector<PlacedLuminaire>& lamps, double factor,
+void add_luminaires(Scene& scene, const LoadedLayout& layout, const std::vector<PlacedLuminaire>& lamps, double factor,
                     const LuminousOpening& opening) {
     scene.distributions.push_back(layout.distribution);
     Lamp lamp{.name = layout.distribution.name, .kind = Lamp::Kind::Measured};
@@ -47,11 +47,11 @@ void add_luminaires(Scene& scene, const RoadLayout& layout, const std::vector<Pl
     }
 }
 
-void add_observers(Scene& scene, const RoadLayout& layout) {
+void add_observers(Scene& scene, const LoadedLayout& layout) {
     for (const LaneObserver& observer : lane_observers(layout)) {
         const std::string name = "observer lane " + std::to_string(observer.lane);
         Node node{.name = name};
-        node.translation = glm::vec3(layout_to_world(observer.eye));
+        node.translation = glm::vec3(layout_to_world(vector_of(observer.eye)));
         node.rotation = glm::angleAxis(static_cast<float>(-std::numbers::pi / 180), glm::vec3(1, 0, 0));
         node.camera = static_cast<uint32_t>(scene.cameras.size());
         scene.cameras.push_back({.name = name, .vertical_fov = 0.35f});
@@ -59,7 +59,7 @@ void add_observers(Scene& scene, const RoadLayout& layout) {
     }
 }
 
-Scene bare_road(const RoadLayout& layout, double last) {
+Scene bare_road(const LoadedLayout& layout, double last) {
     const double eye = lane_observers(layout)[0].eye.x;
     Scene scene{.name = layout.name};
     scene.reflection_tables.push_back(layout.surface);
@@ -82,12 +82,12 @@ Scene bare_road(const RoadLayout& layout, double last) {
 
 glm::dvec3 layout_to_world(glm::dvec3 point) { return kToWorld * point; }
 
-std::vector<PlacedLuminaire> layout_scene_luminaires(const RoadLayout& layout) {
+std::vector<PlacedLuminaire> layout_scene_luminaires(const LoadedLayout& layout) {
     const double height = mounting_height(layout);
     return placed_luminaires(layout, lane_observers(layout)[0].eye.x - 5 * height, layout.spacing + 12 * height);
 }
 
-Scene layout_scene(const RoadLayout& layout) {
+Scene layout_scene(const LoadedLayout& layout) {
     check_layout(layout);
     Scene scene = bare_road(layout, layout.spacing + 12 * mounting_height(layout));
     add_luminaires(scene, layout, layout_scene_luminaires(layout), layout.maintenance_factor, {});
@@ -95,7 +95,7 @@ Scene layout_scene(const RoadLayout& layout) {
     return scene;
 }
 
-Scene layout_glare_scene(const RoadLayout& layout, double from) {
+Scene layout_glare_scene(const LoadedLayout& layout, double from) {
     check_layout(layout);
     Scene scene = bare_road(layout, from + kGlareRange);
     scene.materials[0].base_colour = {0, 0, 0, 1};

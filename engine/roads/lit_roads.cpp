@@ -16,6 +16,7 @@ void check_options(const LitRoadOptions& o) {
     if (!(o.margin >= 10 && o.margin <= 5000)) throw Error("lit roads: margin must be from 10 to 5000 m");
     if (!(o.ambient >= 0 && o.sky >= 0 && std::isfinite(o.ambient) && std::isfinite(o.sky)))
         throw Error("lit roads: ambient and sky must not be negative");
+    check_street_lamps(o.lamps);
 }
 
 void count_triangles(RoadBuild& build) {

@@ -5,25 +5,17 @@
 #include <string>
 #include <vector>
 
+#include <vesper/roads.hpp>
+
+#include "photometry/distribution.h"
 #include "roads/lanes.h"
 #include "scene/scene.h"
 
 namespace vesper::roads {
 
-/// Street lamps along roads, in addition to those of the file.
-struct StreetLampOptions {
-    enum class Side : uint8_t { Auto, Right, Left, Both, Alternating };
-    double spacing = 30;                    ///< m along the road; 0: no lamps
-    double height = 0;                      ///< m of the light point; 0: 8 m, on wide roads up to 12 m
-    Side side = Side::Auto;                 ///< Auto: the outer side of traffic; both where the road is wider than 12 m
-    double overhang = 1.2;                  ///< m, from the pole towards the road
-    double colour_temperature = 3000;       ///< K
-    std::optional<Distribution> luminaire;  ///< default: data/photometry/street-lamp.ies
-    bool beside_own = true;                 ///< add rows even if the file has street lamps
-};
-
 struct LitRoadOptions {
-    std::optional<StreetLampOptions> lamps;  ///< empty: the defaults, unless the file has street lamps
+    StreetLampOptions lamps;                ///< rows of them
+    std::optional<Distribution> luminaire;  ///< of all street lamps; default: data/photometry/street-lamp.ies
     double chord = 0.01;      ///< m, largest distance of surfaces from the file's reference lines and borders
     double margin = 120;      ///< m of ground around the roads; beyond it is flat up to the horizon
     double ambient = 0.1;     ///< lx on every surface
@@ -33,6 +25,9 @@ struct LitRoadOptions {
                               ///< one
     double eye_height = 1.2;  ///< m, of the driver
 };
+
+/// Throws Error if a value is out of range.
+void check_street_lamps(const StreetLampOptions&);
 
 struct LitRoads {
     Scene scene;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "base/error.h"
 
@@ -21,11 +22,15 @@ glm::dmat3 turn(Axis axis, double degrees) {
     return m;
 }
 
+[[noreturn]] void fail(const RoadLayout& layout, const std::string& reason) {
+    throw Error((layout.name.empty() ? "road" : layout.name) + ": " + reason);
+}
+
 }  // namespace
 
 void check_layout(const RoadLayout& layout) {
     const auto require = [&](bool holds, const char* reason) {
-        if (!holds) throw Error((layout.name.empty() ? "road" : layout.name) + ": " + reason);
+        if (!holds) fail(layout, reason);
     };
     const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
     require(within(layout.width, 1, 100), "the width must be from 1 to 100 m");
@@ -34,18 +39,23 @@ void check_layout(const RoadLayout& layout) {
     require(within(layout.height, 2, 40), "the height must be from 2 to 40 m");
     require(within(layout.overhang, -50, 50), "the overhang must be from -50 to 50 m");
     require(within(layout.reservation, 0, 100), "the reservation must be from 0 to 100 m");
-    for (const double angle : {layout.orientation, layout.tilt, layout.roll})
+    for (const double angle : {layout.orientation_deg, layout.tilt_deg, layout.roll_deg})
         require(within(angle, -180, 180), "angles must be from -180 to 180 degrees");
     require(within(layout.maintenance_factor, 0.01, 1), "the maintenance factor must be from 0.01 to 1");
     require(within(layout.flux_factor, 0, 1000), "the flux factor must be from 0 to 1000");
-    require(within(layout.age, 1, 120), "the age must be from 1 to 120 years");
-    require(layout.arrangement != Arrangement::List || (!layout.list.empty() && layout.list.size() <= 32),
+    require(within(layout.observer_age, 1, 120), "the age must be from 1 to 120 years");
+    require(layout.arrangement != Arrangement::List || (!layout.mounts.empty() && layout.mounts.size() <= 32),
             "a list of luminaires must have 1 to 32 of them");
-    for (const LuminaireMount& mount : layout.list)
+    for (const LuminaireMount& mount : layout.mounts)
         require(within(mount.position.x, -1000, 1000) && within(mount.position.y, -200, 200) &&
-                    within(mount.position.z, 2, 40) && within(mount.facing, -360, 360),
+                    within(mount.position.z, 2, 40) && within(mount.facing_deg, -360, 360),
                 "a luminaire of the list is out of reach: |x| to 1000 m, |y| to 200 m, height 2 to 40 m");
-    require(!layout.distribution.candela.empty(), "there is no distribution of intensity");
+    require(layout.q0 == 0 || within(layout.q0, 0.001, 10), "Q0 must be from 0.001 to 10 1/sr");
+}
+
+void check_layout(const LoadedLayout& layout) {
+    check_layout(static_cast<const RoadLayout&>(layout));
+    if (layout.distribution.candela.empty()) fail(layout, "there is no distribution of intensity");
     check_reflection_table(layout.surface, layout.surface.name);
 }
 
@@ -60,14 +70,14 @@ std::vector<LuminaireMount> luminaire_mounts(const RoadLayout& layout) {
         case Arrangement::Opposite:
             return {right, left};
         case Arrangement::Staggered:
-            return {right, {left.position + glm::dvec3(layout.spacing / 2, 0, 0), left.facing}};
+            return {right, {{layout.spacing / 2, left.position.y, h}, left.facing_deg}};
         case Arrangement::Central: {
             const double beyond = layout.reservation + layout.overhang;  // over the other carriageway
             if (layout.left_hand_traffic) return {right, {{0, -beyond, h}, -90}};
             return {left, {{0, layout.width + beyond, h}, 90}};
         }
         case Arrangement::List:
-            return layout.list;
+            return layout.mounts;
     }
     return {};
 }
@@ -75,12 +85,12 @@ std::vector<LuminaireMount> luminaire_mounts(const RoadLayout& layout) {
 std::vector<PlacedLuminaire> placed_luminaires(const RoadLayout& layout, double low, double high) {
     std::vector<PlacedLuminaire> made;
     const glm::dmat3 in_place =
-        turn(kX, layout.tilt) * turn(kY, layout.roll) * turn(kZ, layout.c0_street_side ? 90 : 0);
+        turn(kX, layout.tilt_deg) * turn(kY, layout.roll_deg) * turn(kZ, layout.c0_street_side ? 90 : 0);
     for (const LuminaireMount& mount : luminaire_mounts(layout)) {
-        const glm::dmat3 axes = turn(kZ, mount.facing - 90 + layout.orientation) * in_place;
+        const glm::dmat3 axes = turn(kZ, mount.facing_deg - 90 + layout.orientation_deg) * in_place;
         const double first = std::ceil((low - mount.position.x) / layout.spacing);
         for (double k = first; mount.position.x + k * layout.spacing <= high; ++k)
-            made.push_back({mount.position + glm::dvec3(k * layout.spacing, 0, 0), axes});
+            made.push_back({vector_of(mount.position) + glm::dvec3(k * layout.spacing, 0, 0), axes});
     }
     return made;
 }

@@ -11,12 +11,12 @@ namespace vesper::roads {
 namespace {
 
 /// Intensity of a new luminaire towards a point, cd.
-double intensity_towards(const RoadLayout& layout, const PlacedLuminaire& lamp, glm::dvec3 point) {
+double intensity_towards(const LoadedLayout& layout, const PlacedLuminaire& lamp, glm::dvec3 point) {
     return layout.flux_factor * intensity(layout.distribution, glm::transpose(lamp.axes) * (point - lamp.position));
 }
 
 /// Mean illuminance on a strip that runs along the field from y = low to high.
-double strip_illuminance(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps,
+double strip_illuminance(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps,
                          const CalculationField& field, double low, double high) {
     double sum = 0;
     for (const double x : field.x)
@@ -25,7 +25,7 @@ double strip_illuminance(const RoadLayout& layout, std::span<const PlacedLuminai
     return sum / (3.0 * static_cast<double>(field.x.size()));
 }
 
-void find_worst_glare(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, const CalculationField& field,
+void find_worst_glare(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps, const CalculationField& field,
                       LaneObserver& observer) {
     const double first =
         -2.75 * (mounting_height(layout) - observer.eye.z);  // the luminaire at x = 0 comes out from behind the roof
@@ -35,9 +35,9 @@ void find_worst_glare(const RoadLayout& layout, std::span<const PlacedLuminaire>
         const double veil = veiling_luminance(layout, lamps, eye);
         if (veil <= observer.veil) continue;
         observer.veil = veil;
-        observer.glare_eye = eye;
+        observer.glare_eye = point_of(eye);
     }
-    observer.threshold_increment =
+    observer.threshold_increment_percent =
         threshold_increment(observer.veil, observer.average_luminance / layout.maintenance_factor);
 }
 
@@ -58,7 +58,7 @@ void summarise(const RoadLayout& layout, const RoadLighting& result, size_t inde
     observer.longitudinal_uniformity = lane_least / lane_greatest;
 }
 
-void summarise_illuminance(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, RoadLighting& result) {
+void summarise_illuminance(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps, RoadLighting& result) {
     double sum = 0;
     result.minimum_illuminance = HUGE_VAL;
     for (const FieldPoint& point : result.points) {
@@ -78,7 +78,7 @@ void summarise_illuminance(const RoadLayout& layout, std::span<const PlacedLumin
 
 }  // namespace
 
-double horizontal_illuminance(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec2 point) {
+double horizontal_illuminance(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec2 point) {
     double sum = 0;
     for (const PlacedLuminaire& lamp : lamps) {
         const glm::dvec3 away = lamp.position - glm::dvec3(point, 0);
@@ -89,7 +89,8 @@ double horizontal_illuminance(const RoadLayout& layout, std::span<const PlacedLu
     return sum * layout.maintenance_factor;
 }
 
-double reflected_towards(const RoadLayout& layout, const PlacedLuminaire& lamp, glm::dvec2 point, glm::dvec2 observer) {
+double reflected_towards(const LoadedLayout& layout, const PlacedLuminaire& lamp, glm::dvec2 point,
+                         glm::dvec2 observer) {
     const glm::dvec3 away = lamp.position - glm::dvec3(point, 0);
     const double h = away.z;
     if (away.x < -5 * h || away.x > 12 * h || std::abs(away.y) > 5 * h) return 0;
@@ -98,7 +99,7 @@ double reflected_towards(const RoadLayout& layout, const PlacedLuminaire& lamp, 
     return reduced_luminance_coefficient(layout.surface, std::hypot(away.x, away.y) / h, beta);
 }
 
-double luminance_towards(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec2 point,
+double luminance_towards(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec2 point,
                          glm::dvec2 observer) {
     double sum = 0;
     for (const PlacedLuminaire& lamp : lamps) {
@@ -108,7 +109,7 @@ double luminance_towards(const RoadLayout& layout, std::span<const PlacedLuminai
     return sum * layout.maintenance_factor;
 }
 
-double veiling_luminance(const RoadLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec3 eye) {
+double veiling_luminance(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec3 eye) {
     static const double kRoof = std::tan(20 / kDegreesPerRadian);
     static const glm::dvec3 kSight(std::cos(1 / kDegreesPerRadian), 0, -std::sin(1 / kDegreesPerRadian));
     double sum = 0;
@@ -117,13 +118,13 @@ double veiling_luminance(const RoadLayout& layout, std::span<const PlacedLuminai
         const double distance = glm::length(away);
         if (away.x <= 0 || away.x > kGlareRange || away.z > kRoof * away.x) continue;
         const double cosine = std::min(glm::dot(away, kSight) / distance, 1.0);
-        const double glare = en13201_glare(std::acos(cosine) * kDegreesPerRadian, layout.age);
+        const double glare = en13201_glare(std::acos(cosine) * kDegreesPerRadian, layout.observer_age);
         if (glare > 0) sum += intensity_towards(layout, lamp, eye) * cosine / (distance * distance) * glare;
     }
     return sum;
 }
 
-RoadLighting calculate_lighting(const RoadLayout& layout) {
+RoadLighting calculate_lighting(const LoadedLayout& layout) {
     check_layout(layout);
     RoadLighting result;
     result.wet = layout.surface.wet;
@@ -149,36 +150,10 @@ RoadLighting calculate_lighting(const RoadLayout& layout) {
         result.average_luminance = std::min(result.average_luminance, o.average_luminance);
         result.overall_uniformity = std::min(result.overall_uniformity, o.overall_uniformity);
         result.longitudinal_uniformity = std::min(result.longitudinal_uniformity, o.longitudinal_uniformity);
-        result.threshold_increment = std::max(result.threshold_increment, o.threshold_increment);
+        result.threshold_increment_percent =
+            std::max(result.threshold_increment_percent, o.threshold_increment_percent);
     }
     return result;
-}
-
-std::span<const LightingClass> lighting_classes() {
-    static constexpr LightingClass kClasses[] = {
-        {"M1", 2.00, 0.40, 0.70, 10, 0.35}, {"M2", 1.50, 0.40, 0.70, 10, 0.35}, {"M3", 1.00, 0.40, 0.60, 15, 0.30},
-        {"M4", 0.75, 0.40, 0.60, 15, 0.30}, {"M5", 0.50, 0.35, 0.40, 15, 0.30}, {"M6", 0.30, 0.35, 0.40, 20, 0.30}};
-    return kClasses;
-}
-
-const LightingClass* find_lighting_class(const std::string& name) {
-    for (const LightingClass& c : lighting_classes())
-        if (name == c.name) return &c;
-    return nullptr;
-}
-
-bool fulfils(const RoadLighting& result, const LightingClass& wanted) {
-    if (result.wet) return result.overall_uniformity >= wanted.overall_wet;
-    return result.average_luminance >= wanted.luminance && result.overall_uniformity >= wanted.overall &&
-           result.longitudinal_uniformity >= wanted.longitudinal && result.threshold_increment <= wanted.increment &&
-           result.edge_ratio >= wanted.edge;
-}
-
-const LightingClass* reached_class(const RoadLighting& result) {
-    if (result.wet) return nullptr;
-    for (const LightingClass& c : lighting_classes())
-        if (fulfils(result, c)) return &c;
-    return nullptr;
 }
 
 }  // namespace vesper::roads

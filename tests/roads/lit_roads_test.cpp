@@ -120,7 +120,7 @@ TEST(LitRoads, SurfacesKeepToTheChord) {
 
 TEST(LitRoads, StreetLampsStandEverySoMuchAndLightTheRoad) {
     LitRoadOptions options;
-    options.lamps = StreetLampOptions{.spacing = 30, .height = 9, .side = StreetLampOptions::Side::Both, .overhang = 1};
+    options.lamps = {.spacing = 30, .height = 9, .side = LampSide::Both, .overhang = 1};
     options.headlamps = false;
     const LitRoads lit = lit_roads(straight(), options);
     const auto lamps = lamps_of(lit.scene, "street_lamp_");
@@ -143,9 +143,9 @@ TEST(LitRoads, StreetLampsStandEverySoMuchAndLightTheRoad) {
         EXPECT_EQ(towards({0, 1, 0}), 0);
         EXPECT_GT(lamp.opening.area(), 0);
     }
-    options.lamps->spacing = 0;
+    options.lamps.spacing = 0;
     EXPECT_TRUE(lamps_of(lit_roads(straight(), options).scene, "street_lamp_").empty());
-    options.lamps->spacing = 1;
+    options.lamps.spacing = 1;
     EXPECT_THROW(lit_roads(straight(), options), Error);
 }
 
@@ -243,7 +243,7 @@ TEST(LitRoads, ObjectsStandWhereTheFileSays) {
         "<object id=\"3\" type=\"crosswalk\" name=\"zebra\" s=\"70\" t=\"0\" length=\"4\" width=\"7\" "
         "height=\"3\"/></objects>";
     LitRoadOptions options;
-    options.lamps = StreetLampOptions{.spacing = 0};
+    options.lamps.spacing = 0;
     const LitRoads lit = lit_roads(straight(objects), options);
     expect_sound(lit);
     EXPECT_NEAR(area_of(triangles_of(lit.scene, "wall")), 2 * (10 + 6) * 5 + 60, 1e-3);

@@ -106,9 +106,9 @@ TEST(RoadObjects, RowsOfLampsStandBesideOwnOnesIfAsked) {
     };
     LitRoadOptions options;
     EXPECT_EQ(lamps(options), 1u);
-    options.lamps = StreetLampOptions{.overhang = 2, .beside_own = false};
+    options.lamps.overhang = 2;
     EXPECT_EQ(lamps(options), 1u);
-    options.lamps->beside_own = true;
+    options.lamps.spacing = 30;
     EXPECT_GT(lamps(options), 3u);
 }
 

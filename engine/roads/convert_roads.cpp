@@ -1,0 +1,20 @@
+#include "roads/convert_roads.h"
+
+#include "io/in_file.h"
+#include "roads/lit_roads.h"
+#include "roads/opendrive.h"
+#include "scene/gltf_save.h"
+
+namespace vesper::roads {
+
+RoadConversion convert_roads(const std::filesystem::path& opendrive, const std::filesystem::path& scene,
+                             const ConvertOptions& options) {
+    LitRoadOptions lit{.lamps = options.lamps};
+    if (!options.luminaire.empty()) lit.luminaire = read_distribution(options.luminaire);
+    const RoadNetwork network = read_opendrive(opendrive);
+    LitRoads roads = in_file(opendrive.string(), [&] { return lit_roads(network, lit); });
+    save_gltf(roads.scene, opendrive.filename().string(), scene);
+    return {std::move(roads.notes), network.notes};
+}
+
+}  // namespace vesper::roads

@@ -29,7 +29,7 @@ for compilers in "${CC:-cc} ${CXX:-c++}" "gcc g++" "clang clang++"; do
     $c -std=c99 $warnings init.c
     $cxx -std=c++17 $warnings -x c++ init.c
     $c -std=c99 $warnings examples/whole-engine/main.c
-    $cxx -std=c++17 $warnings examples/tone-mapper/main.cpp
+    $cxx -std=c++17 $warnings examples/tone-mapper/main.cpp examples/roads/main.cpp
     $cxx -std=c++17 $warnings -Wno-missing-field-initializers examples/own-device/*.cpp  # which Vulkan's structures live from
 done
 nm -D --defined-only "$library/libvesper-c.so" | grep -v " vesper_" && { echo "the library shows more than its interface"; exit 1; }
@@ -116,6 +116,27 @@ if [[ -n ${VESPER_BUILD_FOLDER:-} ]]; then  # all of the engine once more: minut
     cmake --build built-folder -j "$(nproc)" >/dev/null
     built-folder/stranger | diff - tone.txt
 fi
+
+echo "== roads: find_package and pkg-config"
+cat >straight.xodr <<'XODR'
+<OpenDRIVE><header revMajor="1" revMinor="7"/><road id="1" length="90" junction="-1"><planView><geometry s="0" x="0" y="0" hdg="0" length="90"><line/></geometry></planView>
+<lanes><laneSection s="0"><left><lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></left><center><lane id="0" type="none"/></center>
+<right><lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></right></laneSection></lanes></road></OpenDRIVE>
+XODR
+luminaire=installed/share/vesper/road/luminaire.ldt
+cmake -S examples/roads -B built-roads -DCMAKE_PREFIX_PATH="$work/installed" >/dev/null
+cmake --build built-roads >/dev/null
+built-roads/roads $luminaire straight.xodr night.gltf | tee roads.txt
+# The independent calculation of docs/road.md; a row of 30 m on 90 m of road.
+[[ $(grep "^every 30 m" roads.txt) == "every 30 m: Lav 1.164 cd/m2, Uo 0.445, Ul 0.544, TI 14.96 %, EIR 0.698: M5" ]]
+[[ $(grep "^street lamps" roads.txt) == "street lamps: 3, every 30 m" ]]
+built/whole_engine night.gltf "night_%02d.ppm"
+if built-roads/roads $luminaire none.xodr x.gltf 2>message >/dev/null; then echo "missing roads are no error"; exit 1; fi
+grep -q "^roads: none.xodr: " message
+"${CXX:-c++}" -std=c++17 -O2 examples/roads/main.cpp -o roads_pkgconfig $(pkg-config --cflags --libs vesper-roads)
+./roads_pkgconfig $luminaire straight.xodr again.gltf | diff - roads.txt
+cmp night.gltf again.gltf
+[[ -z $(find installed -name '*vesper-traffic*') ]] || { echo "a library without a header is installed"; exit 1; }
 
 echo "== python: ctypes"
 for python in python3 /usr/bin/python3; do

@@ -1,7 +1,5 @@
 #include "gpu/kernel.h"
 
-#include <vector>
-
 namespace vesper {
 
 OwnedShaderModule make_shader(const Device& device, std::span<const uint32_t> spirv) {
@@ -40,25 +38,28 @@ OwnedPipelineLayout make_pipeline_layout(const Device& device, VkDescriptorSetLa
     return {device.handle(), layout};
 }
 
+Specialization::Specialization(std::span<const uint32_t> constants) {
+    for (uint32_t i = 0; i < constants.size(); ++i)
+        entries_.push_back({i, i * uint32_t(sizeof(uint32_t)), sizeof(uint32_t)});
+    info_ = {.mapEntryCount = uint32_t(entries_.size()),
+             .pMapEntries = entries_.data(),
+             .dataSize = constants.size_bytes(),
+             .pData = constants.data()};
+}
+
 Kernel::Kernel(const Device& device, const std::string& shader, std::span<const uint32_t> spirv,
                std::initializer_list<uint32_t> constants)
     : KernelInterface(read_interface(shader, spirv)),
       set_(make_set_layout(device, bindings, VK_SHADER_STAGE_COMPUTE_BIT)),
       layout_(make_pipeline_layout(device, set_.get(), push_bytes, VK_SHADER_STAGE_COMPUTE_BIT)) {
-    std::vector<VkSpecializationMapEntry> entries;
-    for (uint32_t i = 0; i < constants.size(); ++i)
-        entries.push_back({i, i * uint32_t(sizeof(uint32_t)), sizeof(uint32_t)});
-    const VkSpecializationInfo specialization{.mapEntryCount = uint32_t(entries.size()),
-                                              .pMapEntries = entries.data(),
-                                              .dataSize = constants.size() * sizeof(uint32_t),
-                                              .pData = constants.begin()};
+    const Specialization specialization({constants.begin(), constants.size()});
     const OwnedShaderModule module = make_shader(device, spirv);
     const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                            .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                                                      .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                                                      .module = module.get(),
                                                      .pName = "main",
-                                                     .pSpecializationInfo = &specialization},
+                                                     .pSpecializationInfo = specialization.info()},
                                            .layout = layout_.get()};
     VkPipeline pipeline = VK_NULL_HANDLE;
     const PipelineTimer timer(device);

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/stopwatch.h"
 #include "gpu/device.h"
@@ -35,6 +36,19 @@ OwnedSetLayout make_set_layout(const Device& device, std::span<const VkDescripto
                                VkShaderStageFlags stages);
 OwnedPipelineLayout make_pipeline_layout(const Device& device, VkDescriptorSetLayout set, uint32_t push_bytes,
                                          VkShaderStageFlags push_stages);
+
+/// What a shader is specialized with: constant i is constants[i]. Refers to them.
+class Specialization {
+public:
+    explicit Specialization(std::span<const uint32_t> constants);
+    Specialization(const Specialization&) = delete;
+    Specialization& operator=(const Specialization&) = delete;
+    const VkSpecializationInfo* info() const { return &info_; }
+
+private:
+    std::vector<VkSpecializationMapEntry> entries_;
+    VkSpecializationInfo info_{};
+};
 
 /// A compute shader, ready to dispatch. Specialization constant i is constants[i].
 class Kernel : public KernelInterface {

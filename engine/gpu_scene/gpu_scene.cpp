@@ -2,25 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
-#include <set>
 
-#include "gpu_scene/formats.h"
 #include "gpu_scene/intensity_tables.h"
 #include "scene/reflectance.h"
-#include "shaders/gbuffer/gbuffer.frag.inc"
-#include "shaders/gbuffer/gbuffer.vert.inc"
-#include "shared/gbuffer.h"
 #include "shared/retro.h"
 #include "shared/shade.h"
 
 namespace vesper {
 namespace {
-
-VkVertexInputAttributeDescription attribute(uint32_t location, uint32_t binding, VkFormat format, size_t offset) {
-    return {location, binding, format, uint32_t(offset)};
-}
 
 template <class T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values) {
@@ -89,16 +79,10 @@ OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const st
 }
 
 GpuScene::GpuScene(const Device& device, const Scene& scene, PictureFormat pictures)
-    : arena_(device), textures_(device, arena_, pictures), push_descriptors_(device.push_descriptors) {
-    const VkDescriptorType sampled[3] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-    set_ = make_set_layout(device, sampled, VK_SHADER_STAGE_FRAGMENT_BIT);
-    layout_ = make_pipeline_layout(device, set_.get(), sizeof(shared::GBufferPush), VK_SHADER_STAGE_VERTEX_BIT);
+    : arena_(device), textures_(device, arena_, pictures) {
     upload_geometry(device, scene);
     place(scene);
-    make_surfaces(device, scene);
-    make_pipelines(device);
+    make_surfaces(scene);
 }
 
 void GpuScene::upload_geometry(const Device& device, const Scene& scene) {
@@ -130,7 +114,7 @@ void GpuScene::place(const Scene& scene) {
     }
 }
 
-void GpuScene::make_surfaces(const Device&, const Scene& scene) {
+void GpuScene::make_surfaces(const Scene& scene) {
     const std::vector<InDiffuse> roads = in_diffuse(scene);
     const std::vector<MaterialUse> uses = roads.empty() ? std::vector<MaterialUse>{} : material_uses(scene);
     for (size_t i = 0; i < scene.materials.size(); ++i) {
@@ -141,111 +125,16 @@ void GpuScene::make_surfaces(const Device&, const Scene& scene) {
                                                       : stated;
         // Opacity passes through half floats, which may be half a step (2^-11 of the value) less than the code said.
         m.alpha_cutoff *= 1 - 0x1p-11f;
-        uint32_t variant = 0;
-        if (m.base_colour_texture.image != kNone) variant |= kBaseTexture;
-        if (m.metallic_roughness_texture.image != kNone) variant |= kMetallicRoughnessTexture;
-        const bool picture = m.emission_picture.image != kNone;
-        if (m.emission != glm::vec3(0))
-            variant |= picture || m.emission_texture.image != kNone ? kEmits | kEmissionTexture : kEmits;
-        if (m.alpha == Material::Alpha::Mask) variant |= kMask;
         const bool masks = m.alpha == Material::Alpha::Mask && m.alpha_cutoff > 0 && m.base_colour.a > 0;
         const float cutoff = masks ? m.alpha_cutoff / m.base_colour.a : 0;  // of the texture
         float unit = 1;
-        const VkDescriptorImageInfo emission = picture ? textures_.get_picture(scene, m.emission_picture, unit)
-                                                       : textures_.get(scene, m.emission_texture, Decode::Srgb);
+        const VkDescriptorImageInfo emission = m.emission_picture.image != kNone
+                                                   ? textures_.get_picture(scene, m.emission_picture, unit)
+                                                   : textures_.get(scene, m.emission_texture, Decode::Srgb);
         m.emission *= unit;
         surfaces_.push_back({m,
-                             variant,
                              {textures_.get(scene, m.base_colour_texture, Decode::Colour, cutoff),
                               textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission}});
-    }
-}
-
-void GpuScene::make_pipelines(const Device& device) {
-    std::set<uint32_t> variants;
-    for (const Surface& surface : surfaces_) variants.insert(surface.variant);
-    const OwnedShaderModule vertex = make_shader(device, gbuffer_vert), fragment = make_shader(device, gbuffer_frag);
-
-    const VkVertexInputBindingDescription bindings[] = {{0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
-                                                        {1, sizeof(shared::Instance), VK_VERTEX_INPUT_RATE_INSTANCE}};
-    const VkVertexInputAttributeDescription attributes[] = {
-        attribute(0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)),
-        attribute(1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)),
-        attribute(2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, uv)),
-        attribute(3, 0, VK_FORMAT_R16G16B16A16_UNORM, offsetof(Vertex, colour)),
-        attribute(4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_x)),
-        attribute(5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_y)),
-        attribute(6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_z))};
-    const VkPipelineVertexInputStateCreateInfo input{.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-                                                     .vertexBindingDescriptionCount = 2,
-                                                     .pVertexBindingDescriptions = bindings,
-                                                     .vertexAttributeDescriptionCount = 7,
-                                                     .pVertexAttributeDescriptions = attributes};
-    const VkPipelineInputAssemblyStateCreateInfo assembly{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo viewport{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-    const VkPipelineRasterizationStateCreateInfo raster{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-        .polygonMode = VK_POLYGON_MODE_FILL,
-        .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineDepthStencilStateCreateInfo depth{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = VK_TRUE,
-        .depthWriteEnable = VK_TRUE,
-        .depthCompareOp = VK_COMPARE_OP_GREATER};
-    VkPipelineColorBlendAttachmentState blend[3];
-    for (auto& b : blend) b = {.colorWriteMask = 0xf};
-    const VkPipelineColorBlendStateCreateInfo blending{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO, .attachmentCount = 3, .pAttachments = blend};
-    const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_CULL_MODE,
-                                     VK_DYNAMIC_STATE_FRONT_FACE};
-    const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                   .dynamicStateCount = 4,
-                                                   .pDynamicStates = states};
-    const VkFormat formats[] = {kReflectanceFormat, kSurfaceFormat, kEmissionFormat};
-    const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-                                                  .colorAttachmentCount = 3,
-                                                  .pColorAttachmentFormats = formats,
-                                                  .depthAttachmentFormat = kDepthFormat};
-    for (const uint32_t variant : variants) {
-        // Emission is cleared to 0; what emits is drawn after everything that could hide it.
-        blend[2].colorWriteMask = (variant & kEmits) ? 0xf : 0;
-        const uint32_t constants[4] = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
-                                       variant & kEmissionTexture, variant & kMask};
-        const VkSpecializationMapEntry entries[4] = {{0, 0, 4}, {1, 4, 4}, {2, 8, 4}, {3, 12, 4}};
-        const VkSpecializationInfo specialization{4, entries, sizeof constants, constants};
-        const VkPipelineShaderStageCreateInfo stages[] = {{.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                           .stage = VK_SHADER_STAGE_VERTEX_BIT,
-                                                           .module = vertex.get(),
-                                                           .pName = "main"},
-                                                          {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                           .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
-                                                           .module = fragment.get(),
-                                                           .pName = "main",
-                                                           .pSpecializationInfo = &specialization}};
-        const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                                .pNext = &rendering,
-                                                .stageCount = 2,
-                                                .pStages = stages,
-                                                .pVertexInputState = &input,
-                                                .pInputAssemblyState = &assembly,
-                                                .pViewportState = &viewport,
-                                                .pRasterizationState = &raster,
-                                                .pMultisampleState = &samples,
-                                                .pDepthStencilState = &depth,
-                                                .pColorBlendState = &blending,
-                                                .pDynamicState = &dynamic,
-                                                .layout = layout_.get()};
-        VkPipeline pipeline = VK_NULL_HANDLE;
-        const PipelineTimer timer(device);
-        check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-              "compiling the G-buffer");
-        pipelines_[variant] = {device.handle(), pipeline};
     }
 }
 

@@ -1,11 +1,9 @@
-// A scene on the device: geometry, textures and the pipelines that draw it. SPDX-License-Identifier: MIT
+// A scene on the device: geometry, surfaces and their textures. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <map>
 #include <optional>
 #include <vector>
 
-#include "gpu/kernel.h"
 #include "gpu/memory.h"
 #include "gpu_scene/textures.h"
 #include "gpu_scene/view.h"
@@ -46,18 +44,8 @@ public:
         uint32_t node;
         uint32_t first_part, part_count;
     };
-    /// Bits of a pipeline variant. Variants that emit have the largest numbers: they are drawn last, and only they
-    /// write emission.
-    enum Variant : uint32_t {
-        kBaseTexture = 1,
-        kMetallicRoughnessTexture = 2,
-        kEmissionTexture = 4,
-        kMask = 8,
-        kEmits = 16
-    };
     struct Surface {
         Material material;
-        uint32_t variant;
         VkDescriptorImageInfo textures[3];  ///< base colour, metallic-roughness, emission
     };
 
@@ -68,9 +56,6 @@ public:
     const std::vector<Surface>& surfaces() const { return surfaces_; }
     VkBuffer vertices() const { return vertices_.get(); }
     VkBuffer indices() const { return indices_.get(); }
-    VkPipelineLayout layout() const { return layout_.get(); }
-    VkPipeline pipeline(uint32_t variant) const { return pipelines_.at(variant).get(); }
-    PFN_vkCmdPushDescriptorSetKHR push_descriptors() const { return push_descriptors_; }
     /// Depth of the farthest point of any instance along the view axis, m; at least 0.
     float farthest_depth(const SceneFrame& frame, const View& view) const;
     uint64_t triangles() const { return triangles_; }  ///< of all placements
@@ -79,8 +64,7 @@ public:
 private:
     void upload_geometry(const Device& device, const Scene& scene);
     void place(const Scene& scene);
-    void make_surfaces(const Device& device, const Scene& scene);
-    void make_pipelines(const Device& device);
+    void make_surfaces(const Scene& scene);
 
     Arena arena_;
     OwnedBuffer vertices_, indices_;
@@ -89,10 +73,6 @@ private:
     std::vector<std::pair<uint32_t, uint32_t>> mesh_parts_;  // first part and number of parts of each mesh
     std::vector<Placement> placements_;
     std::vector<Surface> surfaces_;
-    OwnedSetLayout set_;
-    OwnedPipelineLayout layout_;
-    std::map<uint32_t, OwnedPipeline> pipelines_;
-    PFN_vkCmdPushDescriptorSetKHR push_descriptors_;
     uint64_t triangles_ = 0;
 };
 

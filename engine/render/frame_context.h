@@ -2,10 +2,11 @@
 // Pixels count from the top left. RGB is linear Rec. 709; luminance is 0.212639 R + 0.715169 G + 0.072192 B.
 #pragma once
 
+#include "gpu/graphics_pipeline.h"
 #include "gpu/kernel_cache.h"
-#include "gpu_scene/formats.h"
 #include "gpu_scene/view.h"
 #include "graph/frame_graph.h"
+#include "render/formats.h"
 
 namespace vesper {
 
@@ -13,6 +14,7 @@ namespace vesper {
 struct FrameContext {
     FrameGraph& graph;
     const KernelCache& kernels;
+    const GraphicsPipelineCache& pipelines;
     View view;  ///< its extent is that of every image of full size
 };
 

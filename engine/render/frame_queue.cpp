@@ -4,7 +4,8 @@
 
 namespace vesper {
 
-FrameQueue::FrameQueue(Device& device, size_t views) : kernels_(device), scatter_(device, views), executor_(device) {}
+FrameQueue::FrameQueue(Device& device, size_t views)
+    : kernels_(device), pipelines_(device), scatter_(device, views), executor_(device) {}
 
 void FrameQueue::prepare(const ToneChainSettings& settings) {
     if (needs_finished_frame(settings)) finish();

@@ -5,11 +5,11 @@
 #include <string>
 
 #include "base/stopwatch.h"
-#include "gpu/kernel_cache.h"
 #include "gpu_scene/eye_corona.h"
 #include "gpu_scene/eye_scatter.h"
 #include "graph/executor.h"
 #include "render/eye_state.h"
+#include "render/frame_context.h"
 #include "render/tone_chain.h"
 
 namespace vesper {
@@ -27,7 +27,7 @@ public:
     /// Finishes the last frame, and drops its results, if frames of these settings need that.
     void prepare(const ToneChainSettings& settings);
     /// A frame to be declared.
-    FrameContext context(FrameGraph& graph, const View& view) const { return {graph, kernels_, view}; }
+    FrameContext context(FrameGraph& graph, const View& view) const { return {graph, kernels_, pipelines_, view}; }
     /// The eye as a frame of `view` finds it `seconds` after the last one, with its scatter if the settings have any.
     ChainInputs inputs(const ToneChainSettings& settings, const View& view, float seconds);
 
@@ -63,6 +63,7 @@ private:
     };
 
     KernelCache kernels_;
+    GraphicsPipelineCache pipelines_;
     ScatterCache scatter_;
     CoronaCache corona_;
     EyeState eye_;

@@ -1,6 +1,7 @@
 #include "window/presenter.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "shaders/window/overlay.frag.inc"
@@ -15,69 +16,18 @@ namespace {
 constexpr VkFormat kCoverageFormat = VK_FORMAT_R8_UNORM;
 constexpr VkShaderStageFlags kPushStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-OwnedPipeline make_pipeline(const Device& device, VkPipelineLayout layout, std::span<const uint32_t> vertex_spirv,
-                            std::span<const uint32_t> fragment_spirv, const VkPipelineVertexInputStateCreateInfo& input,
-                            bool blended, VkFormat format) {
-    const OwnedShaderModule vertex = make_shader(device, vertex_spirv), fragment = make_shader(device, fragment_spirv);
-    const VkPipelineShaderStageCreateInfo stages[] = {{.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                       .stage = VK_SHADER_STAGE_VERTEX_BIT,
-                                                       .module = vertex.get(),
-                                                       .pName = "main"},
-                                                      {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                       .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
-                                                       .module = fragment.get(),
-                                                       .pName = "main"}};
-    const VkPipelineInputAssemblyStateCreateInfo assembly{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo viewport{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-    const VkPipelineRasterizationStateCreateInfo raster{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-        .polygonMode = VK_POLYGON_MODE_FILL,
-        .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineColorBlendAttachmentState blend{.blendEnable = blended,
-                                                    .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
-                                                    .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-                                                    .srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO,
-                                                    .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-                                                    .colorWriteMask = 0xf};
-    const VkPipelineColorBlendStateCreateInfo blending{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = 1,
-        .pAttachments = &blend};
-    const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                   .dynamicStateCount = 2,
-                                                   .pDynamicStates = states};
-    const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-                                                  .colorAttachmentCount = 1,
-                                                  .pColorAttachmentFormats = &format};
-    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                            .pNext = &rendering,
-                                            .stageCount = 2,
-                                            .pStages = stages,
-                                            .pVertexInputState = &input,
-                                            .pInputAssemblyState = &assembly,
-                                            .pViewportState = &viewport,
-                                            .pRasterizationState = &raster,
-                                            .pMultisampleState = &samples,
-                                            .pColorBlendState = &blending,
-                                            .pDynamicState = &dynamic,
-                                            .layout = layout};
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    const PipelineTimer timer(device);
-    check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-          "compiling what draws a window");
-    return {device.handle(), pipeline};
-}
+constexpr VkDescriptorType kTexels[]{VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
+    kLetters[]{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+constexpr GraphicsShaders kPicture{
+    "present.frag", present_vert, present_frag, kTexels, sizeof(shared::PresentPush), VK_SHADER_STAGE_FRAGMENT_BIT};
 
-OwnedSetLayout one_binding(const Device& device, VkDescriptorType type) {
-    return make_set_layout(device, std::array{type}, VK_SHADER_STAGE_FRAGMENT_BIT);
-}
+constexpr VkVertexInputBindingDescription kVertices[]{{0, sizeof(Overlay::Vertex), VK_VERTEX_INPUT_RATE_VERTEX}};
+constexpr VkVertexInputAttributeDescription kAttributes[]{
+    {0, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Overlay::Vertex, position)},
+    {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Overlay::Vertex, uv)},
+    {2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(Overlay::Vertex, colour)}};
+constexpr GraphicsShaders kOverlay{"overlay.frag", overlay_vert, overlay_frag, kLetters, sizeof(shared::OverlayPush),
+                                   kPushStages,    kVertices,    kAttributes};
 
 /// Room for so many bytes, kept where there is enough.
 void reserve(const Device& device, HostBuffer& buffer, uint64_t bytes, VkBufferUsageFlags usage) {
@@ -106,13 +56,7 @@ Placement place(VkExtent2D picture, VkExtent2D window, Scaling scaling) {
 }
 
 Presenter::Presenter(Device& device, VkExtent2D coverage_extent, std::span<const uint8_t> coverage)
-    : device_(device),
-      picture_set_(one_binding(device, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER)),
-      overlay_set_(one_binding(device, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)),
-      picture_layout_(
-          make_pipeline_layout(device, picture_set_.get(), sizeof(shared::PresentPush), VK_SHADER_STAGE_FRAGMENT_BIT)),
-      overlay_layout_(make_pipeline_layout(device, overlay_set_.get(), sizeof(shared::OverlayPush), kPushStages)),
-      arena_(device) {
+    : device_(device), pipelines_(device), arena_(device) {
     upload_coverage(coverage_extent, coverage);
     const VkSamplerCreateInfo sampler{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                       .magFilter = VK_FILTER_LINEAR,
@@ -144,29 +88,6 @@ void Presenter::upload_coverage(VkExtent2D extent, std::span<const uint8_t> cove
     });
 }
 
-const Presenter::Pipelines& Presenter::pipelines(VkFormat format) {
-    const auto found = pipelines_.find(format);
-    if (found != pipelines_.end()) return found->second;
-    const VkPipelineVertexInputStateCreateInfo none{.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    const VkVertexInputBindingDescription binding{0, sizeof(Overlay::Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
-    const VkVertexInputAttributeDescription attributes[] = {
-        {0, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Overlay::Vertex, position)},
-        {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Overlay::Vertex, uv)},
-        {2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(Overlay::Vertex, colour)}};
-    const VkPipelineVertexInputStateCreateInfo vertices{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = 1,
-        .pVertexBindingDescriptions = &binding,
-        .vertexAttributeDescriptionCount = 3,
-        .pVertexAttributeDescriptions = attributes};
-    return pipelines_
-        .emplace(format,
-                 Pipelines{
-                     make_pipeline(device_, picture_layout_.get(), present_vert, present_frag, none, false, format),
-                     make_pipeline(device_, overlay_layout_.get(), overlay_vert, overlay_frag, vertices, true, format)})
-        .first->second;
-}
-
 void Presenter::draw(VkCommandBuffer commands, const WindowImage& image, const Picture& picture, Scaling scaling,
                      const Overlay& overlay) {
     const VkRenderingAttachmentInfo target{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
@@ -181,6 +102,8 @@ void Presenter::draw(VkCommandBuffer commands, const WindowImage& image, const P
                                .colorAttachmentCount = 1,
                                .pColorAttachments = &target};
     vkCmdBeginRendering(commands, &info);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+    vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     Slot& slot = slots_[image.slot];
     if (!picture.codes.empty()) draw_picture(commands, image, picture, scaling, slot);
     if (!overlay.batches.empty()) draw_overlay(commands, image, overlay, slot);
@@ -227,11 +150,12 @@ void Presenter::draw_picture(VkCommandBuffer commands, const WindowImage& image,
                                      .descriptorCount = 1,
                                      .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
                                      .pTexelBufferView = &view};
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines(image.format).picture.get());
+    const GraphicsPipeline& pipeline = pipelines_.get(kPicture, {.targets = {{image.format}}});
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &at.area);
-    device_.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, picture_layout_.get(), 0, 1, &write);
-    vkCmdPushConstants(commands, picture_layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
+    device_.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0, 1, &write);
+    vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
     vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
@@ -255,10 +179,11 @@ void Presenter::draw_overlay(VkCommandBuffer commands, const WindowImage& image,
                                      .pImageInfo = &letters};
     const VkBuffer buffer = slot.vertices.buffer();
     const VkDeviceSize offset = 0;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines(image.format).overlay.get());
+    const GraphicsPipeline& pipeline = pipelines_.get(kOverlay, {.targets = {{image.format, true, true}}});
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
     vkCmdSetViewport(commands, 0, 1, &viewport);
-    device_.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, overlay_layout_.get(), 0, 1, &write);
-    vkCmdPushConstants(commands, overlay_layout_.get(), kPushStages, 0, sizeof push, &push);
+    device_.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0, 1, &write);
+    vkCmdPushConstants(commands, pipeline.layout(), kPushStages, 0, sizeof push, &push);
     vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
     vkCmdBindIndexBuffer(commands, slot.indices.buffer(), 0, VK_INDEX_TYPE_UINT32);
     for (const Overlay::Batch& batch : overlay.batches) {

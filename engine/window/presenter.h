@@ -2,13 +2,12 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "gpu/kernel.h"
+#include "gpu/graphics_pipeline.h"
 #include "gpu/memory.h"
 #include "window/swapchain.h"
 
@@ -66,22 +65,16 @@ public:
     void draw(VkCommandBuffer, const WindowImage&, const Picture&, Scaling, const Overlay&);
 
 private:
-    struct Pipelines {
-        OwnedPipeline picture, overlay;
-    };
     struct Slot {
         HostBuffer words, vertices, indices;
         OwnedBufferView texels;
     };
-    const Pipelines& pipelines(VkFormat);
     void upload_coverage(VkExtent2D, std::span<const uint8_t>);
     void draw_picture(VkCommandBuffer, const WindowImage&, const Picture&, Scaling, Slot&);
     void draw_overlay(VkCommandBuffer, const WindowImage&, const Overlay&, Slot&);
 
     Device& device_;
-    OwnedSetLayout picture_set_, overlay_set_;
-    OwnedPipelineLayout picture_layout_, overlay_layout_;
-    std::map<VkFormat, Pipelines> pipelines_;
+    GraphicsPipelineCache pipelines_;
     Arena arena_;
     OwnedImage coverage_;
     OwnedImageView coverage_view_;

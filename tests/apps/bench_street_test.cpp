@@ -169,10 +169,11 @@ TEST(BenchMachine, TheDeviceKeepsAccount) {
     EXPECT_EQ(use.peak_bytes, start + (4 << 20));
     const uint32_t pipelines = use.pipelines;
     const KernelCache kernels(device);
+    const GraphicsPipelineCache none(device);
     for (int time = 0; time < 2; ++time) {
         FrameGraph graph;
         const Resource scene = PassRig::image(graph, "scene", kSceneFormat, {4, 4}, std::vector<glm::vec4>(16));
-        add_pyramid({graph, kernels, {.extent = {4, 4}}}, scene);
+        add_pyramid({graph, kernels, none, {.extent = {4, 4}}}, scene);
         EXPECT_EQ(use.pipelines, pipelines + 2) << "one for the first level, one for the others; none the second time";
     }
     EXPECT_GT(use.pipeline_ms, 0);

@@ -22,13 +22,14 @@ public:
                    .validation = true,
                    .on_message = [this](const std::string& message) { complaints_.push_back(message); }}),
           kernels_(device_),
+          pipelines_(device_),
           executor_(device_) {}
 
     Device& device() { return device_; }
     const KernelCache& kernels() const { return kernels_; }
     /// A frame to add passes to, of a view or of an image of any view.
-    FrameContext frame(FrameGraph& graph, const View& view) const { return {graph, kernels_, view}; }
-    FrameContext frame(FrameGraph& graph, VkExtent2D extent) const { return {graph, kernels_, {.extent = extent}}; }
+    FrameContext frame(FrameGraph& graph, const View& view) const { return {graph, kernels_, pipelines_, view}; }
+    FrameContext frame(FrameGraph& graph, VkExtent2D extent) const { return frame(graph, View{.extent = extent}); }
     Executor& executor() { return executor_; }
     /// Validation messages so far, one per line; empty is what every test wants.
     std::string complaints() const {
@@ -76,6 +77,7 @@ private:
     std::vector<std::string> complaints_;
     Device device_;
     KernelCache kernels_;
+    GraphicsPipelineCache pipelines_;
     Executor executor_;
 };
 

@@ -2,17 +2,85 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <tuple>
 
 #include "gpu_scene/gpu_scene.h"
+#include "shaders/gbuffer/gbuffer.frag.inc"
+#include "shaders/gbuffer/gbuffer.vert.inc"
 #include "shared/gbuffer.h"
 
 namespace vesper {
 namespace {
 
+constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+constexpr VkDescriptorType kTextures[]{kTexture, kTexture, kTexture};
+constexpr VkVertexInputBindingDescription kBuffers[]{{0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
+                                                     {1, sizeof(shared::Instance), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr VkVertexInputAttributeDescription kAttributes[]{
+    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
+    {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
+    {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, uv)},
+    {3, 0, VK_FORMAT_R16G16B16A16_UNORM, offsetof(Vertex, colour)},
+    {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_x)},
+    {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_y)},
+    {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_z)}};
+constexpr GraphicsShaders kShaders{
+    "gbuffer.frag", gbuffer_vert, gbuffer_frag, kTextures, sizeof(shared::GBufferPush), VK_SHADER_STAGE_VERTEX_BIT,
+    kBuffers,       kAttributes};
+
+// Bits of a variant of the pipeline. Variants that emit have the largest numbers: they are drawn last, after everything
+// that could hide them, and only they write emission, which is cleared to 0.
+enum Variant : uint32_t {
+    kBaseTexture = 1,
+    kMetallicRoughnessTexture = 2,
+    kEmissionTexture = 4,
+    kMask = 8,
+    kEmits = 16
+};
+
+uint32_t variant_of(const Material& m) {
+    uint32_t variant = 0;
+    if (m.base_colour_texture.image != kNone) variant |= kBaseTexture;
+    if (m.metallic_roughness_texture.image != kNone) variant |= kMetallicRoughnessTexture;
+    if (m.alpha == Material::Alpha::Mask) variant |= kMask;
+    if (m.emission == glm::vec3(0)) return variant;
+    if (m.emission_picture.image != kNone || m.emission_texture.image != kNone) variant |= kEmissionTexture;
+    return variant | kEmits;
+}
+
+const GraphicsPipeline& pipeline_of(const GraphicsPipelineCache& pipelines, uint32_t variant) {
+    return pipelines.get(
+        kShaders, {.targets = {{kReflectanceFormat}, {kSurfaceFormat}, {kEmissionFormat, (variant & kEmits) != 0}},
+                   .depth = kDepthFormat,
+                   .constants = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
+                                 variant & kEmissionTexture, variant & kMask}});
+}
+
+// How the surfaces of one material are drawn.
+struct SurfacePipeline {
+    uint32_t variant;
+    const GraphicsPipeline* pipeline;
+};
+
+// By material, also of those out of view: none is to be compiled when it comes into view.
+std::vector<SurfacePipeline> pipelines_of(const GraphicsPipelineCache& cache, const GpuScene& scene) {
+    std::map<uint32_t, const GraphicsPipeline*> known;
+    std::vector<SurfacePipeline> pipelines;
+    for (const GpuScene::Surface& surface : scene.surfaces()) {
+        const uint32_t variant = variant_of(surface.material);
+        const GraphicsPipeline*& pipeline = known[variant];
+        if (!pipeline) pipeline = &pipeline_of(cache, variant);
+        pipelines.push_back({variant, pipeline});
+    }
+    return pipelines;
+}
+
 // Instances of one part, drawn at once.
 struct Batch {
     uint32_t part;
+    const GraphicsPipeline* pipeline;
     bool mirrored;
     uint32_t layer;
     uint32_t first_instance, instance_count;
@@ -63,8 +131,8 @@ std::vector<DrawnPart> cull(const GpuScene& scene, const SceneFrame& frame, cons
     return drawn;
 }
 
-void record_batches(const Recording& recording, const GpuScene& scene, const View& view, Resource instances,
-                    const std::vector<Batch>& batches) {
+void record_batches(const Recording& recording, const Device& device, const GpuScene& scene, const View& view,
+                    Resource instances, const std::vector<Batch>& batches) {
     const VkCommandBuffer commands = recording.commands();
     const VkBuffer buffers[] = {scene.vertices(), recording.buffer(instances)};
     const VkDeviceSize offsets[] = {0, recording.offset(instances)};
@@ -72,32 +140,34 @@ void record_batches(const Recording& recording, const GpuScene& scene, const Vie
     vkCmdBindIndexBuffer(commands, scene.indices(), 0, VK_INDEX_TYPE_UINT32);
     const glm::vec2 scale = 2.0f / (view.tangent_high - view.tangent_low);
     const glm::vec2 offset = (view.tangent_high + view.tangent_low) / (view.tangent_high - view.tangent_low);
-    uint32_t last_material = kNone, last_variant = kNone;
+    uint32_t last_material = kNone;
+    const GraphicsPipeline* last_pipeline = nullptr;
     for (const Batch& batch : batches) {
         const GpuScene::Part& part = scene.parts()[batch.part];
         const GpuScene::Surface& surface = scene.surfaces()[part.material];
         const Material& m = surface.material;
-        if (surface.variant != last_variant)
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.pipeline(surface.variant));
+        const VkPipelineLayout layout = batch.pipeline->layout();
+        if (batch.pipeline != last_pipeline)
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, batch.pipeline->pipeline());
         if (part.material != last_material) {
             VkWriteDescriptorSet writes[3];
             for (uint32_t i = 0; i < 3; ++i)
                 writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                              .dstBinding = i,
                              .descriptorCount = 1,
-                             .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                             .descriptorType = kTexture,
                              .pImageInfo = &surface.textures[i]};
-            scene.push_descriptors()(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, scene.layout(), 0, 3, writes);
+            device.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 3, writes);
             // Clip space has y down: view y goes in with its sign turned.
             const shared::GBufferPush push{m.base_colour, m.emission,          m.alpha_cutoff,        m.metallic,
                                            m.roughness,   {scale.x, -scale.y}, {offset.x, -offset.y}, view.near};
-            vkCmdPushConstants(commands, scene.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
+            vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
         }
         vkCmdSetCullMode(commands, m.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         vkCmdSetFrontFace(commands, batch.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
         vkCmdDrawIndexed(commands, part.index_count, batch.instance_count, part.first_index, part.first_vertex,
                          batch.first_instance);
-        last_material = part.material, last_variant = surface.variant;
+        last_material = part.material, last_pipeline = batch.pipeline;
     }
 }
 
@@ -106,12 +176,12 @@ void record_batches(const Recording& recording, const GpuScene& scene, const Vie
 GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const SceneFrame& poses) {
     FrameGraph& graph = frame.graph;
     const View& view = frame.view;
+    const std::vector<SurfacePipeline> pipelines = pipelines_of(frame.pipelines, scene);
     std::vector<DrawnPart> drawn = cull(scene, poses, view);
     std::stable_sort(drawn.begin(), drawn.end(), [&](const DrawnPart& a, const DrawnPart& b) {
         const auto key = [&](const DrawnPart& d) {
-            const uint32_t material = scene.parts()[d.part].material, variant = scene.surfaces()[material].variant;
-            const bool emits = variant & GpuScene::kEmits;  // last: only these write emission
-            return std::tuple(emits, d.layer, variant, material, d.part, d.mirrored);
+            const uint32_t material = scene.parts()[d.part].material, variant = pipelines[material].variant;
+            return std::tuple((variant & kEmits) != 0, d.layer, variant, material, d.part, d.mirrored);
         };
         return key(a) < key(b);
     });
@@ -120,7 +190,8 @@ GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const Scen
     for (const DrawnPart& d : drawn) {
         if (batches.empty() || batches.back().part != d.part || batches.back().mirrored != d.mirrored ||
             batches.back().layer != d.layer)
-            batches.push_back({d.part, d.mirrored, d.layer, uint32_t(instances.size()), 0});
+            batches.push_back({d.part, pipelines[scene.parts()[d.part].material].pipeline, d.mirrored, d.layer,
+                               uint32_t(instances.size()), 0});
         ++batches.back().instance_count;
         instances.push_back(d.instance);
     }
@@ -137,8 +208,9 @@ GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const Scen
                   {g.surface, Access::ColorTarget},
                   {g.emission, Access::ColorTarget},
                   {g.depth, Access::DepthTarget}},
-                 [&scene, view, placed, batches = std::move(batches)](const Recording& recording) {
-                     if (!batches.empty()) record_batches(recording, scene, view, placed, batches);
+                 [&device = frame.kernels.device(), &scene, view, placed,
+                  batches = std::move(batches)](const Recording& recording) {
+                     if (!batches.empty()) record_batches(recording, device, scene, view, placed, batches);
                  });
     return g;
 }

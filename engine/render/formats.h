@@ -1,4 +1,4 @@
-// Formats of the images that pipelines and passes agree on. SPDX-License-Identifier: MIT
+// Formats of the images that passes agree on. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vulkan/vulkan_core.h>

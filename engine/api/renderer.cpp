@@ -30,7 +30,7 @@ View view_of(const VesperView& v, const Scene& scene, const SceneFrame& frame) {
     const glm::dvec3 eye(vector(v.eye)), forward = direction(v.forward, kTwo), up = direction(v.up, kTwo);
     require(glm::length(glm::cross(forward, up)) > 1e-6, kTwo);
     const glm::dmat4 world_to_view(glm::lookAt(eye, eye + forward, up));
-    if (angles) return {extent, world_to_view, angles->low, angles->high, v.near_plane};
+    if (angles) return View::of(*angles, world_to_view, v.near_plane);
     return View::symmetric(extent, v.vertical_fov, world_to_view, v.near_plane);
 }
 

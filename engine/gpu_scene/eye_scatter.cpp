@@ -47,10 +47,6 @@ EyeScatter eye_scatter(const ScatterSettings& settings) {
 
 glm::ivec2 scatter_down_strip(const Device& device) { return device.is_cpu() ? glm::ivec2(4, 32) : glm::ivec2(1, 2); }
 
-ImageAngles angles_of(const View& view) {
-    return {int(view.extent.width), int(view.extent.height), dvec2(view.tangent_low), dvec2(view.tangent_high)};
-}
-
 GpuScatter::GpuScatter(const Device& device, const ScatterSettings& settings, const ImageAngles& image)
     : settings_(settings), image_(image), psf_(eye_scatter(settings)), arena_(device) {
     const ScatterFit fit = fit_scatter(psf_, image, scatter_down_strip(device));

@@ -26,7 +26,6 @@ struct ScatterSettings {
 
 /// What is smooth of the function.
 EyeScatter eye_scatter(const ScatterSettings&);
-ImageAngles angles_of(const View&);
 /// Texels that one invocation of scatter_down.comp does; of rows at most so many.
 glm::ivec2 scatter_down_strip(const Device&);
 

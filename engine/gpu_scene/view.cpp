@@ -9,6 +9,14 @@ View View::symmetric(VkExtent2D extent, float vertical_fov, const glm::dmat4& wo
     return {extent, world_to_view, {-x, -y}, {x, y}, near};
 }
 
+View View::of(const ImageAngles& image, const glm::dmat4& world_to_view, float near) {
+    return {{uint32_t(image.width), uint32_t(image.height)}, world_to_view, image.low, image.high, near};
+}
+
+ImageAngles angles_of(const View& view) {
+    return {int(view.extent.width), int(view.extent.height), view.tangent_low, view.tangent_high};
+}
+
 glm::vec2 View::ray_scale() const {
     const glm::vec2 span = tangent_high - tangent_low;
     return {span.x / float(extent.width), -span.y / float(extent.height)};

@@ -4,6 +4,8 @@
 #include <vulkan/vulkan_core.h>
 #include <glm/glm.hpp>
 
+#include "vision/image_angles.h"
+
 namespace vesper {
 
 /// Where an eye stands and what its image covers. The view frame: x right, y up, looking along -z, m.
@@ -16,6 +18,8 @@ struct View {
 
     /// A symmetric view of square pixels. `vertical_fov` in rad.
     static View symmetric(VkExtent2D extent, float vertical_fov, const glm::dmat4& world_to_view, float near = 0.1f);
+    /// A view that covers the same as a picture.
+    static View of(const ImageAngles& image, const glm::dmat4& world_to_view = glm::dmat4(1), float near = 0.1f);
 
     /// To the view's frame, from one that has this place in the world.
     glm::mat4 from(const glm::dmat4& to_world) const { return glm::mat4(world_to_view * to_world); }
@@ -26,5 +30,8 @@ struct View {
     /// Angle a pixel covers in height at the centre of a symmetric view, degrees.
     double degrees_per_pixel() const;
 };
+
+/// What a view covers.
+ImageAngles angles_of(const View& view);
 
 }  // namespace vesper

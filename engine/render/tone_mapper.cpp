@@ -8,7 +8,7 @@ namespace vesper {
 namespace {
 
 View view_of(VkExtent2D extent, double vertical_fov, const ImageAngles* angles) {
-    if (angles) return {.extent = extent, .tangent_low = angles->low, .tangent_high = angles->high};
+    if (angles) return View::of(*angles);
     if (!(vertical_fov > 0 && vertical_fov < std::numbers::pi))
         throw Error("a picture covers more than 0 and less than 180 degrees in height");
     return View::symmetric(extent, float(vertical_fov), glm::mat4(1));

@@ -266,9 +266,6 @@ std::vector<float> top_matrix(const EyeScatter& psf, const ScatterFit& fit, cons
 
 }  // namespace
 
-dvec2 ImageAngles::at(dvec2 p) const { return {low.x + p.x * pixel().x, high.y - p.y * pixel().y}; }
-dvec2 ImageAngles::pixels_at(dvec2 t) const { return {(t.x - low.x) / pixel().x, (high.y - t.y) / pixel().y}; }
-
 BetweenNodes between_nodes(double part, int nodes) {
     const double at = std::clamp(part, 0.0, 1.0) * (nodes - 1);
     const int first = std::min(int(at), nodes - 2);

@@ -9,24 +9,9 @@
 #include <glm/glm.hpp>
 
 #include "vision/glare.h"
+#include "vision/image_angles.h"
 
 namespace vesper {
-
-/// A picture on the plane one unit before the eye.
-struct ImageAngles {
-    int width = 1, height = 1;    ///< px
-    glm::dvec2 low{-1}, high{1};  ///< tangents of its left and bottom, and of its right and top edge
-
-    /// Tangents at a point, px from the top left corner; x right and y up.
-    glm::dvec2 at(glm::dvec2 pixels) const;
-    /// Where a point of the plane lies, px from the top left corner.
-    glm::dvec2 pixels_at(glm::dvec2 tangents) const;
-    /// Tangents across one pixel.
-    glm::dvec2 pixel() const { return (high - low) / glm::dvec2(width, height); }
-    bool symmetric_x() const { return low.x == -high.x; }
-    bool symmetric_y() const { return low.y == -high.y; }
-    bool operator==(const ImageAngles&) const = default;
-};
 
 /// Solid angle of the plane at a point over its area, sr: cos^3 of the angle to its middle.
 double steradians_per_area(glm::dvec2 tangents);

@@ -14,6 +14,7 @@
 
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
+#include "scene/display_file.h"
 
 struct VesperDevice {
     explicit VesperDevice(const vesper::DeviceOptions& options) : device(options), name(device.name()) {}
@@ -27,6 +28,7 @@ struct VesperToneMapper {
     explicit VesperToneMapper(vesper::Device& of) : device(of), engine(of) {}
     const vesper::Device& device;
     vesper::ToneMapper engine;
+    vesper::DisplayFinder displays;
     std::optional<VesperFrameReport> report;  // of the last submitted frame that was finished, until it is asked for
 };
 
@@ -46,6 +48,7 @@ struct VesperRenderer {
     const VesperScene& scene;
     uint64_t version;  // of the scene on the device
     vesper::Renderer engine;
+    vesper::DisplayFinder displays;
     std::map<uint32_t, glm::mat4> places;     // of nodes that were put somewhere: node frame to world
     std::map<uint32_t, float> dimming;        // of lamps at nodes
     std::optional<VesperFrameReport> report;  // of the last submitted frame that was finished, until it is asked for
@@ -108,7 +111,7 @@ VkExtent2D extent_of(uint32_t width, uint32_t height);
 /// The edges of a picture that has any.
 std::optional<ImageAngles> angles_of(const float (&edges)[4], VkExtent2D extent);
 float seconds_of(float seconds);
-RenderSettings settings_of(const VesperToneSettings* given);  ///< null: the defaults
+RenderSettings settings_of(const VesperToneSettings* given, DisplayFinder& displays);  ///< null: the defaults
 
 /// Where a frame goes, in arrays.
 VesperOutputs outputs_of(const VesperOutputs* given);

@@ -99,7 +99,7 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         const VesperOutputs to = outputs_of(outputs);
-        const RenderSettings how = settings_of(settings);
+        const RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
         const Seen seen = see(*renderer, view);
         finish(*renderer);  // what it left stays should this frame fail
@@ -114,7 +114,7 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
                                  VesperError* error) {
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
-        const RenderSettings how = settings_of(settings);
+        const RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
         const SubmitSemaphores semaphores = semaphores_of(handover);
         const Seen seen = see(*renderer, view);

@@ -2,7 +2,6 @@
 #include <cstring>
 
 #include "api/handles.h"
-#include "scene/display_file.h"
 
 using namespace vesper;
 using namespace vesper::api;
@@ -44,8 +43,8 @@ VesperToneSettings default_settings() {
     return made;
 }
 
-Display display_of(const VesperToneSettings& s) {
-    if (s.display) return find_display(s.display);
+Display display_of(const VesperToneSettings& s, DisplayFinder& displays) {
+    if (s.display) return displays.find(s.display);
     Display display = known_displays().front().display;
     display.peak = s.display_peak, display.black = s.display_black, display.ambient = s.display_ambient;
     display.gamma = s.display_gamma, display.reflection = s.display_reflection;
@@ -54,7 +53,7 @@ Display display_of(const VesperToneSettings& s) {
 
 }  // namespace
 
-RenderSettings vesper::api::settings_of(const VesperToneSettings* given) {
+RenderSettings vesper::api::settings_of(const VesperToneSettings* given, DisplayFinder& displays) {
     const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
     const auto is_operator = [&](const OperatorInfo& info) {
         return info.tone_operator != Operator::Ldr && uint32_t(info.tone_operator) == s.tone_operator;
@@ -97,7 +96,7 @@ RenderSettings vesper::api::settings_of(const VesperToneSettings* given) {
     tone.operators.reinhard.key = s.key, tone.operators.reinhard.white = tone.operators.linear.high = s.white;
     tone.operators.linear.low = s.black;
     if (s.adapt_to != VESPER_ADAPT_AS_OPERATOR) tone.adapt_to = kAdaptTo[s.adapt_to - VESPER_ADAPT_AVERAGE];
-    settings.display = display_of(s);
+    settings.display = display_of(s, displays);
     check_display(settings.display);
     return settings;
 }

@@ -37,7 +37,7 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
                                .scale = p.scale,
                                .vertical_fov = double(p.vertical_fov),
                                .angles = angles ? &*angles : nullptr};
-        const RenderSettings how = settings_of(settings);
+        const RenderSettings how = settings_of(settings, mapper->displays);
         const float passed = seconds_of(seconds);
         finish(*mapper);  // what it left stays should this picture fail
         const ToneMapped shown = mapper->engine.map(how, host, passed, wanted(to));
@@ -57,7 +57,8 @@ VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSet
         const DevicePicture given{from, p.scale, double(p.vertical_fov), angles ? &*angles : nullptr};
         const ExternalImage to = shown_image(shown, given.image.extent);
         require(to.image != given.image.image, "a picture is shown in another image");
-        submit_frame(*mapper, settings_of(settings), given, to, seconds_of(seconds), semaphores_of(handover));
+        submit_frame(*mapper, settings_of(settings, mapper->displays), given, to, seconds_of(seconds),
+                     semaphores_of(handover));
     });
 }
 

@@ -116,6 +116,18 @@ Display find_display(const std::string& name_or_file) {
                 ", nor a .json file");
 }
 
+const Display& DisplayFinder::find(const std::string& name_or_file) {
+    std::error_code no_file;  // as with a name; a file that is gone differs from what it was
+    const auto time = std::filesystem::last_write_time(name_or_file, no_file);
+    const std::uintmax_t bytes = std::filesystem::file_size(name_or_file, no_file);
+    if (!display_ || name_or_file != name_ || time != time_ || bytes != bytes_) {
+        display_.reset();
+        display_ = find_display(name_or_file);
+        name_ = name_or_file, time_ = time, bytes_ = bytes;
+    }
+    return *display_;
+}
+
 std::string display_json(const Display& display, const std::string& name) {
     nlohmann::ordered_json made;
     // A float as the shortest decimal that is the same float.

@@ -19,6 +19,7 @@
 #include "render/tone_mapper.h"
 #include "scene/display_file.h"
 #include "scene/gltf.h"
+#include "scene/scene_files.h"
 
 namespace vesper::test {
 namespace {
@@ -186,6 +187,38 @@ TEST_F(CInterface, EverySettingArrives) {
         EXPECT_TRUE(codes == engine.map(same, shown, 0).display) << c.name;
         EXPECT_TRUE(codes != plain.at(c.fov)) << c.name;
     }
+    vesper_tone_mapper_destroy(mapper);
+}
+
+// Between two pictures of one tone mapper.
+TEST_F(CInterface, EditedDisplayFilesAreReadAgain) {
+    const TempFolder folder;
+    VesperToneMapper* mapper = nullptr;
+    ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK) << error.message;
+    const std::vector<float> rgb = night_values(8, 8);
+    const VesperPicture picture = picture_of(rgb, 8, 8);
+    VesperToneSettings settings;
+    vesper_tone_settings_defaults(&settings, sizeof settings);
+    settings.tone_operator = VESPER_WARD;
+    std::vector<uint8_t> codes(4 * 64);
+    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
+    outputs.codes = codes.data();
+    const auto shown = [&](const char* display) {
+        settings.display = display;
+        EXPECT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_OK) << error.message;
+        return codes;
+    };
+    const auto lcd = shown("lcd"), projector = shown("projector");
+    ASSERT_NE(lcd, projector);
+    const auto edited = [&](const char* as) {
+        return folder.write("d.json", display_json(find_display(as), "")).string();
+    };
+    const std::string file = edited("lcd");
+    EXPECT_EQ(shown(file.c_str()), lcd);
+    edited("projector");
+    EXPECT_EQ(shown(file.c_str()), projector);
+    std::filesystem::remove(file);
+    EXPECT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_FAILED);
     vesper_tone_mapper_destroy(mapper);
 }
 

@@ -1,6 +1,9 @@
 // Display profiles: out and in again, and refused where they are wrong. SPDX-License-Identifier: MIT
 #include "scene/display_file.h"
 
+#include <chrono>
+#include <filesystem>
+
 #include "scene/scene_files.h"
 #include "support/complaints.h"
 
@@ -44,6 +47,31 @@ TEST(DisplayFile, ComesBackAsItWas) {
         expect_same(read_display(file), display);
         expect_same(find_display(file.string()), display);
     }
+}
+
+// Edited, replaced by a file of the same size, gone; and as it was known where neither time nor size tells of a change.
+TEST(DisplayFile, IsReadAgainWhenItHasChanged) {
+    const TempFolder folder;
+    const auto write = [&](float peak) { return folder.write("d.json", display_json({.peak = peak}, "")).string(); };
+    const std::string file = write(90);
+    const auto first = std::filesystem::last_write_time(file);
+    DisplayFinder displays;
+    EXPECT_EQ(displays.find(file).peak, 90);
+    write(50);
+    std::filesystem::last_write_time(file, first);
+    EXPECT_EQ(displays.find(file).peak, 90);
+    std::filesystem::last_write_time(file, first + std::chrono::seconds(1));
+    EXPECT_EQ(displays.find(file).peak, 50);
+    write(120);
+    std::filesystem::last_write_time(file, first + std::chrono::seconds(1));
+    EXPECT_EQ(displays.find(file).peak, 120) << "another size";
+    expect_same(displays.find("projector"), find_display("projector"));
+    EXPECT_EQ(displays.find(file).peak, 120);
+    std::filesystem::remove(file);
+    EXPECT_THROW(displays.find(file), Error);
+    EXPECT_THROW(displays.find(file), Error);
+    write(70);
+    EXPECT_EQ(displays.find(file).peak, 70);
 }
 
 TEST(DisplayFile, IsRefusedWhereItIsWrong) {

@@ -158,8 +158,8 @@ typedef struct VesperToneSettings {
     int32_t colour_loss;      /**< 1: dim light loses its colour */
     int32_t acuity_loss;      /**< 1: dim light is blurred to the resolution of the eye */
     int32_t purkinje;         /**< 1: dim light has the weights of rods */
-    const char* display;      /**< name or file of a profile (docs/display.md), read for every picture; null: the five
-                               * numbers below */
+    const char* display;      /**< name or file of a profile (docs/display.md), read again when its time or size has
+                               * changed; null: the five numbers below */
     float display_peak;       /**< luminance of white in the dark, cd/m^2 */
     float display_black;      /**< luminance of black in the dark, cd/m^2 */
     float display_ambient;    /**< illuminance on the screen, lx */

@@ -179,8 +179,7 @@ Header describe_tone(const ToneChainSettings& settings, const ToneMapped& shown)
         for (size_t i = 0; i < count; ++i) text += (i ? " " : "") + digits(double(values[i]));
         return text;
     };
-    const std::vector<double> curve =
-        curve_samples(shown.curve, operator_info(settings.tone_operator).form, settings.display);
+    const std::vector<double> curve = curve_samples(shown.curve, settings.tone_operator, settings.display);
     header.emplace_back("vesper:eye:nodes",
                         list(shown.eye.node, shown.eye.steps > 0 ? size_t(shown.eye.steps) + 1 : 0));
     header.emplace_back("vesper:toneCurve",

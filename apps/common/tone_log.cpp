@@ -10,7 +10,6 @@
 #include "glare_arguments.h"
 #include "io/atomic_file.h"
 #include "photometry/table.h"
-#include "shown.h"
 
 namespace vesper {
 namespace {
@@ -52,10 +51,10 @@ std::vector<float> floats_of(const shared::EyeState& eye) {
 
 }  // namespace
 
-std::vector<double> curve_samples(const shared::ToneCurve& curve, uint32_t form, const Display& display) {
+std::vector<double> curve_samples(const shared::ToneCurve& curve, Operator tone_operator, const Display& display) {
     std::vector<double> shown;
     for (int i = 0; i < kSamples; ++i)
-        shown.push_back(shown_luminance(curve, form, std::pow(10.0, sample_log10(i)), display));
+        shown.push_back(shown_luminance(tone_operator, curve, std::pow(10.0, sample_log10(i)), display));
     return shown;
 }
 
@@ -75,7 +74,7 @@ std::string log_heading() {
     return line + glare_columns() + "\n";
 }
 
-std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, uint32_t form,
+std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, Operator tone_operator,
                      const Display& display, const GlareReport& glare) {
     std::string line =
         format("%u,%.17g,%.9g,%s", index, frame.seconds, double(frame.step), frame.tone_operator.c_str());
@@ -83,7 +82,7 @@ std::string log_line(unsigned index, const LoggedFrame& frame, const shared::Ton
     for (float value :
          {curve.cone_sigma, curve.rod_sigma, curve.log_average, curve.maximum, curve.under_full, curve.slack})
         line += format(",%.9g", double(value));
-    for (double shown : curve_samples(curve, form, display)) line += format(",%.6g", shown);
+    for (double shown : curve_samples(curve, tone_operator, display)) line += format(",%.6g", shown);
     return line + glare_values(glare) + "\n";
 }
 

@@ -10,7 +10,6 @@
 #include "panel_layout.h"
 #include "plot.h"
 #include "render/passes/operators.h"
-#include "shown.h"
 
 namespace vesper {
 
@@ -40,12 +39,11 @@ void Instruments::draw_light(const FrameState& now) {
                 plot.bar(edge(i), edge(i + 1), double(display.low()) * std::pow(range, double(first[i]) / most),
                          colours::kBars);
 
-        const uint32_t form = operator_info(settings.tone_operator).form;
-        if (form != shared::kToneLdr) {
+        if (settings.tone_operator != Operator::Ldr) {
             std::vector<glm::dvec2> curve;
             for (int i = 0; i <= 200; ++i) {
                 const double scene = low * std::pow(high / low, i / 200.0);
-                curve.emplace_back(scene, shown_luminance(now.frame.curve, form, scene, display));
+                curve.emplace_back(scene, shown_luminance(settings.tone_operator, now.frame.curve, scene, display));
             }
             plot.line(curve, colours::kCurve, 2);
         }
@@ -111,9 +109,8 @@ void Instruments::draw_probe(const FrameState& now) {
             ImGui::Text("pixel %u, %u", now.pixel->x, now.pixel->y);
             ImGui::Text("luminance %.4g cd/m²", here);
             ImGui::Text("red, green, blue %.3g, %.3g, %.3g cd/m²", double(rgb[0]), double(rgb[1]), double(rgb[2]));
-            ImGui::Text(
-                "shown as about %.4g cd/m²",
-                shown_luminance(frame.curve, operator_info(settings.tone_operator).form, here, settings.display));
+            ImGui::Text("shown as about %.4g cd/m²",
+                        shown_luminance(settings.tone_operator, frame.curve, here, settings.display));
             const Scene& scene = now.session.scenery().scene();
             const SceneFrame moment = now.session.moment();
             if (const auto point =

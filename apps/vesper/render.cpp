@@ -257,8 +257,7 @@ void run(RenderArguments& arguments) {
         write_outputs(arguments, device, view, frame, glare, index, seconds);
         if (log)
             log->append(log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye},
-                                 frame.curve, operator_info(arguments.settings.tone_operator).form,
-                                 arguments.settings.display, glare));
+                                 frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare));
         if (sources)
             sources->append(glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));
         if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);

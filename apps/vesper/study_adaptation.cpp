@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "arguments.h"
-#include "shown.h"
 #include "study.h"
 #include "vision/pattanaik.h"
 
@@ -104,7 +103,6 @@ void study_adaptation(Study& study) {
         for (const Operator op : ops) {
             ToneChainSettings settings = study.settings;
             settings.tone_operator = op;
-            const OperatorInfo& info = operator_info(op);
             for (LinePlot* plot : {&ratio, &sigma, &shown})
                 plot->lines.push_back({.name = name_of(op),
                                        .points = {},
@@ -115,10 +113,9 @@ void study_adaptation(Study& study) {
             for (const double t : times) {
                 const ToneMapped got = look(study, settings, step.to, t - before);
                 before = t;
-                const Sensitivity s = info.tone_operator == Operator::Pattanaik
-                                          ? of_lagging(got, step.to)
-                                          : of_eye(got, settings.tone.observer, step.to);
-                const double light = shown_luminance(got.curve, info.form, step.to, settings.display);
+                const Sensitivity s =
+                    op == Operator::Pattanaik ? of_lagging(got, step.to) : of_eye(got, settings.tone.observer, step.to);
+                const double light = shown_luminance(op, got.curve, step.to, settings.display);
                 ratio.lines.back().points.push_back({t, s.ratio});
                 sigma.lines.back().points.push_back({t, s.sigma});
                 shown.lines.back().points.push_back({t, light});

@@ -5,7 +5,6 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "shown.h"
 #include "study.h"
 
 namespace vesper {
@@ -71,8 +70,8 @@ std::vector<double> curve_codes(const ToneMapped& shown, Operator op, const Disp
     const double reflected = double(display.low() - display.black);
     std::vector<double> codes;
     for (const double l : luminances)
-        codes.push_back(code_of(curve, shown_luminance(shown.curve, operator_info(op).form, l, display) - reflected,
-                                display.largest_code()));
+        codes.push_back(
+            code_of(curve, shown_luminance(op, shown.curve, l, display) - reflected, display.largest_code()));
     return codes;
 }
 

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "arguments.h"
-#include "shown.h"
 #include "study.h"
 #include "vision/visibility.h"
 
@@ -82,9 +81,7 @@ void study_operators(Study& study) {
             ToneChainSettings settings = study.settings;
             settings.tone_operator = op;
             const ToneMapped got = study.map(picture, settings);
-            const auto display = [&](double l) {
-                return shown_luminance(got.curve, operator_info(op).form, l, settings.display);
-            };
+            const auto display = [&](double l) { return shown_luminance(op, got.curve, l, settings.display); };
             std::vector<double> contrasts, scene, screen, displayed;
             double visible_scene = 0, visible_shown = 0, lost = 0, gained = 0;
             for (const double l : backgrounds) {

@@ -7,6 +7,8 @@ namespace vesper {
 
 struct LdrSettings : NoOptions {
     static constexpr OperatorTraits traits{.form = shared::kToneLdr};
+
+    static double shown(const shared::ToneCurve&, double luminance) { return luminance; }
 };
 
 }  // namespace vesper

@@ -23,6 +23,9 @@ struct LinearSettings {
         if (high > 0 && high <= low) throw Error("--linear-max must be more than --linear-min");
     }
     OperatorBlock block(const Display&) const { return {glm::vec4(low, high, 0, 0)}; }
+    static double shown(const shared::ToneCurve& curve, double luminance) {
+        return (luminance - double(curve.block[0].x)) * double(curve.block[0].y);
+    }
 };
 
 }  // namespace vesper

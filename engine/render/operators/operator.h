@@ -7,10 +7,15 @@
 //   block(Display)             the settings as glsl/operators/NAME.glsl reads them; may be left out
 //   counts_finely()            whether it uses the histogram as set, beside traits.histogram; may be left out
 //   check()                    throws Error for settings that contradict each other; may be left out
+//   shown(ToneCurve, cd/m^2)   displayed light of a grey pixel, 0 for the darkest and 1 for the brightest; may be left
+//                              out where the nodes of the curve are luminances of the display
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "shared/photometry.h"
 #include "shared/tone.h"
 #include "vision/display.h"
 
@@ -33,6 +38,14 @@ struct OperatorOption {
     double low = 0, high = 0;
     bool shows_default = true;
 };
+
+/// The table of a curve at a luminance, cd/m^2, between its nodes.
+inline glm::dvec4 node_at(const shared::ToneCurve& curve, double luminance) {
+    const double ln = std::log(std::max(luminance, double(shared::kLuminanceFloor)));
+    const double at = std::clamp((ln - curve.ln_low) * double(curve.bins_per_ln), 0.0, double(curve.bins));
+    const size_t below = std::min(size_t(at), size_t(curve.bins) - 1);
+    return glm::mix(glm::dvec4(curve.node[below]), glm::dvec4(curve.node[below + 1]), at - double(below));
+}
 
 /// Numbers for ToneParameters::settings.
 using OperatorBlock = std::array<glm::vec4, shared::kOperatorSettings>;

@@ -17,6 +17,11 @@ struct PattanaikSettings {
               rod_constant);
     }
     OperatorBlock block(const Display&) const { return {glm::vec4(rod_constant, 0, 0, 0)}; }
+    static double shown(const shared::ToneCurve& curve, double luminance) {
+        const glm::dvec4 node = node_at(curve, luminance);
+        const double seen = std::clamp(node.x + node.z + double(curve.block[0].x), 0.0, 0.9999999);
+        return double(curve.block[0].y) * std::pow(seen / (1 - seen), 1 / double(shared::kResponsePower));
+    }
 };
 
 }  // namespace vesper

@@ -1,5 +1,8 @@
 #include "render/passes/operators.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace vesper {
 namespace {
 
@@ -41,6 +44,19 @@ void visit_one(const OperatorSettings& all, Operator wanted, const Visit& visit)
 std::span<const OperatorInfo> operators() { return kOperators; }
 
 const OperatorInfo& operator_info(Operator tone_operator) { return kOperators[size_t(tone_operator)]; }
+
+double shown_luminance(Operator wanted, const shared::ToneCurve& curve, double luminance, const Display& display) {
+    const double low = display.low(), high = display.high();
+    double shown = 0;
+    // A form is the number of the first operator that has it.
+    visit_one(OperatorSettings{}, Operator(operator_info(wanted).form), [&](const auto& settings) {
+        if constexpr (requires { settings.shown(curve, luminance); })
+            shown = low + (high - low) * std::clamp(settings.shown(curve, luminance), 0.0, 1.0);
+        else
+            shown = std::min(high, std::exp(node_at(curve, luminance).x));
+    });
+    return shown;
+}
 
 OperatorBlock OperatorSettings::block(Operator wanted, const Display& display) const {
     OperatorBlock made{};

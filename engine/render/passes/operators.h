@@ -27,6 +27,10 @@ struct OperatorInfo : OperatorTraits {
 std::span<const OperatorInfo> operators();
 const OperatorInfo& operator_info(Operator);
 
+/// Luminance of the display, cd/m^2, for a grey pixel of `luminance`, cd/m^2, with the curve that the operator made of
+/// a frame. Of operators that map contrast in bands: where there is none.
+double shown_luminance(Operator, const shared::ToneCurve&, double luminance, const Display&);
+
 /// The settings of every operator.
 struct OperatorSettings {
 #define VESPER_SETTINGS(NAME, Name, name, value, summary) Name##Settings name;

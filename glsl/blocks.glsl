@@ -11,7 +11,7 @@ uint slice_bit(ClusterGrid grid, float depth) {
     return depth > 0.0 ? 1u << uint(at) : 0u;
 }
 
-uint entry_of(uint light, uint first_slice, uint last_slice) { return light | first_slice << kFirstSliceShift | last_slice << kLastSliceShift; }
-uint light_of(uint entry) { return entry & ((1u << kFirstSliceShift) - 1u); }
+uint entry_of(uint lamp, uint first_slice, uint last_slice) { return lamp | first_slice << kFirstSliceShift | last_slice << kLastSliceShift; }
+uint lamp_of(uint entry) { return entry & ((1u << kFirstSliceShift) - 1u); }
 // A bit for each.
 uint slices_of(uint entry) { return (2u << (entry >> kLastSliceShift)) - (1u << (entry >> kFirstSliceShift & 31u)); }

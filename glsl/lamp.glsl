@@ -1,4 +1,4 @@
-// Lamps of any kind: fetched, and evaluated in a direction. Needs `samplerBuffer lamps`, `samplerBuffer maps` and the constants
+// Lamps of any kind: fetched, and evaluated in a direction. Needs `samplerBuffer lamps`, `samplerBuffer tables` and the constants
 // kPowers and kTables.
 
 #include "tables.glsl"
@@ -11,25 +11,25 @@ struct FetchedLamp {
     float lobe_a;
     vec3 colour;
     float lobe_b;
-    // Of a map.
+    // Of a table.
     bool measured;
     vec3 start, turn, pole;
     float first, last_azimuth;
     vec4 grid;
 };
 
-// `maps_from`: index of the first measured lamp.
-FetchedLamp fetch(uint index, bool cone, uint maps_from) {
+// `tables_from`: index of the first measured lamp.
+FetchedLamp fetch(uint index, bool cone, uint tables_from) {
     const int texel = int(index * kTexelsPerLamp);
     const vec4 a = texelFetch(lamps, texel), c = texelFetch(lamps, texel + 2);
     vec4 b = vec4(0.0), d = vec4(0.0), e = vec4(0.0), f = vec4(0.0);
     if (cone || kPowers != 0u) b = texelFetch(lamps, texel + 1);
     if (!cone && kTables != 0u) d = texelFetch(lamps, texel + 3), e = texelFetch(lamps, texel + 4), f = texelFetch(lamps, texel + 5);
-    return FetchedLamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w, kPowers == 0u || index >= maps_from,
+    return FetchedLamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w, kPowers == 0u || index >= tables_from,
                 d.xyz, turn_of(d.xyz, e.xyz, e.w), e.xyz, d.w, abs(e.w), f);
 }
 
-// Intensity in a direction relative to the largest. `cosine` to the axis; `from` the lamp, of any length; `at`, of a map, see map_intensity.
+// Intensity in a direction relative to the largest. `cosine` to the axis; `from` the lamp, of any length; `at`, of a table, see table_intensity.
 float relative_intensity(FetchedLamp lamp, float cosine, vec3 from, float inverse, bool cone, out vec2 at) {
     at = vec2(0.0);
     if (cone) {
@@ -40,7 +40,7 @@ float relative_intensity(FetchedLamp lamp, float cosine, vec3 from, float invers
     if (kPowers != 0u) relative = cosine > 0.0 ? exp2(lamp.lobe_a * log2(cosine)) : 0.0;
     if (kTables != 0u) {
         const vec3 d = vec3(dot(lamp.start, from), dot(lamp.turn, from), dot(lamp.pole, from));
-        const float mapped = map_intensity(d, inverse, lamp.grid, lamp.first, vec2(lamp.last_azimuth, lamp.lobe_b), at);
+        const float mapped = table_intensity(d, inverse, lamp.grid, lamp.first, vec2(lamp.last_azimuth, lamp.lobe_b), at);
         relative = lamp.measured ? mapped : relative;
     }
     return relative;

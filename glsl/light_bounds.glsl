@@ -1,11 +1,11 @@
-// Whether a light may give the threshold somewhere in a volume: what may be said without looking at single points. Needs
+// Whether a lamp may give the threshold somewhere in a volume: what may be said without looking at single points. Needs
 // `samplerBuffer lamps`, `samplerBuffer tables` and the constants kPowers and kTables.
 
 #include "tables.glsl"
 #include "shared/cluster.h"
 #include "shared/lamp.h"
 
-const float kSlack = 1.001;  // float rounding never costs a light
+const float kSlack = 1.001;  // float rounding never costs a lamp
 
 // The cosines of the smallest and of the largest angle between a lamp's axis and the directions in which it sees a sphere.
 vec2 cosines_to(vec3 position, vec3 axis, vec3 centre, float radius) {
@@ -34,12 +34,12 @@ int window_of(int first, int more, int count) {
     return (level > 0 ? 3 * count - (4 * count >> level) : 0) + (first >> max(level - 1, 0));
 }
 
-// Nothing of a map is brighter towards the sphere around the end of `to`, which it sees at `cosines` to its pole. `start_map` and
-// `pole_last`: texels 3 and 4 of the light.
-float largest_map(vec3 to, vec2 cosines, vec4 start_map, vec4 pole_last, float radius) {
+// Nothing of a table is brighter towards the sphere around the end of `to`, which it sees at `cosines` to its pole. `start_table` and
+// `pole_last`: texels 3 and 4 of the lamp.
+float largest_table(vec3 to, vec2 cosines, vec4 start_table, vec4 pole_last, float radius) {
     const float kBlur = 1e-4;  // rad, of azimuth where it is known that well
     const vec2 rings = min(sqrt(max(0.5 - 0.5 * cosines, 0.0)) * float(kRings), float(kRings) - 0.5);
-    const vec2 d = vec2(dot(start_map.xyz, to), dot(turn_of(start_map.xyz, pole_last.xyz, pole_last.w), to));
+    const vec2 d = vec2(dot(start_table.xyz, to), dot(turn_of(start_table.xyz, pole_last.xyz, pole_last.w), to));
     const float across = length(d), away = length(to);
     // Near the pole it may have any azimuth.
     const bool around = !(across > max(radius, 0.01 * away));
@@ -49,18 +49,18 @@ float largest_map(vec3 to, vec2 cosines, vec4 start_map, vec4 pole_last, float r
     const int first = around ? 0 : int(sector), more = around ? int(kSectors) - 1 : min(int(sector + sectors) - first, int(kSectors) - 1);
     const int ring = window_of(int(rings.x), int(rings.y) - int(rings.x), int(kRings)), column = window_of(first & int(kSectors) - 1, more, int(kSectors));
     const int value = ring * int(3u * kSectors) + column;
-    const vec4 four = texelFetch(tables, int(start_map.w) - int(kWindowTexels) + (value >> 2));
+    const vec4 four = texelFetch(tables, int(start_table.w) - int(kWindowTexels) + (value >> 2));
     const float even = (value & 2) == 0 ? four.x : four.z, odd = (value & 2) == 0 ? four.y : four.w;
     return (value & 1) == 0 ? even : odd;
 }
 
-// Largest intensity towards the sphere, cd, of the light that begins with texel `at`, which is `a`.
-float largest_intensity(int at, vec4 a, bool cone, bool map, vec3 centre, float radius) {
-    const vec4 b = texelFetch(lamps, at + (map ? 3 : 1)), c = texelFetch(lamps, at + (map ? 4 : 2));
-    const vec2 cosines = cosines_to(a.xyz, map ? c.xyz : b.xyz, centre, radius);
+// Largest intensity towards the sphere, cd, of the lamp that begins with texel `at`, which is `a`.
+float largest_intensity(int at, vec4 a, bool cone, bool measured, vec3 centre, float radius) {
+    const vec4 b = texelFetch(lamps, at + (measured ? 3 : 1)), c = texelFetch(lamps, at + (measured ? 4 : 2));
+    const vec2 cosines = cosines_to(a.xyz, measured ? c.xyz : b.xyz, centre, radius);
     float relative = largest_cone(b.w, c.w, cosines.x);
     if (kPowers != 0u) relative = cone ? relative : largest_power(b.w, cosines.x);
-    if (kTables != 0u) relative = map ? largest_map(centre - a.xyz, cosines, b, c, radius) : relative;
+    if (kTables != 0u) relative = measured ? largest_table(centre - a.xyz, cosines, b, c, radius) : relative;
     return a.w * relative;
 }
 

@@ -1,4 +1,4 @@
-// Roads with a table (shared/tables.h). Needs `samplerBuffer maps`.
+// Roads with a table (shared/tables.h). Needs `samplerBuffer tables`.
 
 #include "tables.glsl"
 #include "sheen.glsl"
@@ -23,9 +23,9 @@ Road road_at(float metallic, vec3 normal, vec3 toward_eye, uint roads) {
 }
 
 // What takes the place of a matt surface's cosine: L / E of a lamp on the plane that faces it, q cos(gamma) = r / cos^2(gamma) (CIE 144:2001),
-// over Qd. Beyond the last tan(gamma) it keeps the value it has there. Written for a light's direction times its distance.
-float road_coefficient(Road road, vec3 to, float inverse, float normal_light) {
-    const float cosine = max(normal_light, 1e-6), sine = sqrt(max(1.0 - cosine * cosine, 1e-12));
+// over Qd. Beyond the last tan(gamma) it keeps the value it has there. Written for a lamp's direction times its distance.
+float road_coefficient(Road road, vec3 to, float inverse, float normal_lamp) {
+    const float cosine = max(normal_lamp, 1e-6), sine = sqrt(max(1.0 - cosine * cosine, 1e-12));
     const float t = min(sine / cosine, road.last_tan);
     const float cos_beta = clamp(dot(road.sight, to) * inverse / sine, -1.0, 1.0);
     const vec2 at = vec2(t * road.tan_cells, arccos(cos_beta) * road.beta_cells);

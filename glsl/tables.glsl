@@ -1,7 +1,7 @@
-// Reads measured intensities and road surfaces (shared/tables.h). Needs `samplerBuffer maps`.
+// Reads measured intensities and road surfaces (shared/tables.h). Needs `samplerBuffer tables`.
 
-#ifndef VESPER_MAPS_GLSL
-#define VESPER_MAPS_GLSL
+#ifndef VESPER_TABLES_GLSL
+#define VESPER_TABLES_GLSL
 #include "shared/tables.h"
 #include "shared/photometry.h"
 
@@ -17,7 +17,7 @@ float arccos(float cosine) {
     return cosine < 0.0 ? kPi - angle : angle;
 }
 
-// Value in a cell of a map, between its corners.
+// Value in a cell of a table, between its corners.
 float interpolate(vec4 corners, float u, float v) { return mix(mix(corners.x, corners.y, u), mix(corners.z, corners.w, u), v); }
 
 // From -pi to pi.
@@ -32,7 +32,7 @@ float azimuth_of(vec2 d) {
 vec3 turn_of(vec3 start, vec3 pole, float last_azimuth) { return last_azimuth < 0.0 ? cross(pole, start) : cross(start, pole); }
 
 // Relative intensity in a direction given along azimuth 0, azimuth 90 degrees and the pole, times its `inverse` length; and where that is, `at`, in cells.
-float map_intensity(vec3 d, float inverse, vec4 grid, float first, vec2 last, out vec2 at) {
+float table_intensity(vec3 d, float inverse, vec4 grid, float first, vec2 last, out vec2 at) {
     at = vec2(azimuth_of(d.xy), arccos(d.z * inverse)) * grid.xz + grid.yw;
     const vec2 cell = floor(clamp(at, vec2(0.0), last));
     const vec4 corners = texelFetch(tables, int(first + cell.x * (last.y + 1.0) + cell.y));

@@ -35,7 +35,7 @@ void add_box(Primitive& p, glm::vec3 low, glm::vec3 high) {
 
 glm::vec3 of_luminance_one(glm::vec3 c) { return c / (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b); }
 
-uint32_t light_of(Scene& scene, const Lamp& lamp) {
+uint32_t lamp_of(Scene& scene, const Lamp& lamp) {
     const auto known = std::find_if(scene.lamps.begin(), scene.lamps.end(),
                                     [&](const Lamp& l) { return l.name == lamp.name && l.opening.area() > 0; });
     if (known != scene.lamps.end()) return uint32_t(known - scene.lamps.begin());
@@ -56,18 +56,18 @@ uint32_t beam(Scene& scene, const std::string& name, const std::string& file) {
         scene.distributions.push_back(standard_lamp(file));
         scene.distributions.back().name = name;
     }
-    return light_of(scene, lamp);
+    return lamp_of(scene, lamp);
 }
 
 uint32_t signal(Scene& scene, const std::string& name, float candela, float outer, glm::vec3 colour, double width,
                 double height) {
-    return light_of(scene, {.name = name,
-                            .kind = Lamp::Kind::Spot,
-                            .intensity = candela,
-                            .colour = of_luminance_one(colour),
-                            .inner_cone = 10 * kRadiansPerDegreeF,
-                            .outer_cone = outer * kRadiansPerDegreeF,
-                            .opening = {.length = width, .width = height}});
+    return lamp_of(scene, {.name = name,
+                           .kind = Lamp::Kind::Spot,
+                           .intensity = candela,
+                           .colour = of_luminance_one(colour),
+                           .inner_cone = 10 * kRadiansPerDegreeF,
+                           .outer_cone = outer * kRadiansPerDegreeF,
+                           .opening = {.length = width, .width = height}});
 }
 
 }  // namespace

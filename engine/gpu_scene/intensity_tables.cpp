@@ -194,32 +194,32 @@ void append_windows(const Bins& bins, std::vector<glm::vec4>& texels) {
 }
 
 IntensityTables::Intensities add_intensities(const Distribution& d, std::vector<glm::vec4>& texels) {
-    IntensityTables::Intensities map;
+    IntensityTables::Intensities table;
     const double largest = largest_intensity(d);
-    map.largest = float(largest), map.goniometry = d.goniometry;
-    if (!(largest > 0)) return map;
+    table.largest = float(largest), table.goniometry = d.goniometry;
+    if (!(largest > 0)) return table;
     const Range range = range_of(d);
-    map.exact = range.azimuth.exact && range.polar.exact;
-    map.cells = {range.azimuth.count + 1, range.polar.count + 1};
-    map.low = {glm::radians(range.azimuth.low), glm::radians(range.polar.low)};
-    map.step = {glm::radians(range.azimuth.step), glm::radians(range.polar.step)};
-    if (size_t(map.cells.x) * map.cells.y > kMostTexels)
-        throw Error("the light distribution '" + d.name + "' is too fine: " + std::to_string(map.cells.x) + " x " +
-                    std::to_string(map.cells.y) + " cells");
+    table.exact = range.azimuth.exact && range.polar.exact;
+    table.cells = {range.azimuth.count + 1, range.polar.count + 1};
+    table.low = {glm::radians(range.azimuth.low), glm::radians(range.polar.low)};
+    table.step = {glm::radians(range.azimuth.step), glm::radians(range.polar.step)};
+    if (size_t(table.cells.x) * table.cells.y > kMostTexels)
+        throw Error("the light distribution '" + d.name + "' is too fine: " + std::to_string(table.cells.x) + " x " +
+                    std::to_string(table.cells.y) + " cells");
 
     const Grid grid(d, range, largest);
     Bins bins;
     std::vector<glm::vec4> cells;
-    for (int64_t i = 0; i < map.cells.x; ++i)
-        for (int64_t j = 0; j < map.cells.y; ++j) {
+    for (int64_t i = 0; i < table.cells.x; ++i)
+        for (int64_t j = 0; j < table.cells.y; ++j) {
             cells.push_back(grid.cell(i, j));
             bins.add({range.azimuth.at(i - 1), range.azimuth.at(i)}, {range.polar.at(j - 1), range.polar.at(j)},
                      cells.back());
         }
     append_windows(bins, texels);
-    map.first = uint32_t(texels.size());
+    table.first = uint32_t(texels.size());
     texels.insert(texels.end(), cells.begin(), cells.end());
-    return map;
+    return table;
 }
 
 // Adds the cells of a table, `budget` of them at most, and returns what its head says.

@@ -10,7 +10,7 @@
 
 namespace vesper {
 
-/// Every map of a scene, in one buffer of texels. Maps are shared: a thousand lamps of one make need one.
+/// Every table of a scene, in one buffer of texels. Tables are shared: a thousand lamps of one make need one.
 struct IntensityTables {
     struct Intensities {
         float largest = 0;  ///< cd, what the values are relative to
@@ -32,7 +32,7 @@ IntensityTables intensity_tables(const Scene& scene);
 
 /// A reflection table as it is rendered.
 ReflectionTable rendered_table(const Scene& scene, size_t index);
-/// pi Qd, what a road reflects of light from all sides, as a half float: the G-buffer holds it, and maps are relative
+/// pi Qd, what a road reflects of light from all sides, as a half float: the G-buffer holds it, and tables are relative
 /// to it.
 float reflectance_in_diffuse(const ReflectionTable& rendered);
 

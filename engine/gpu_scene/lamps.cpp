@@ -26,10 +26,10 @@ glm::vec3 unit(glm::vec4 column, glm::vec3 otherwise) {
     return length > 0 ? glm::vec3(column) / length : otherwise;
 }
 
-// The frame of a measurement (shared/lamp.h) and where its angles fall in the map.
-void place_map(shared::Lamp& lamp, const IntensityTables::Intensities& map, glm::vec3 x, glm::vec3 y, glm::vec3 z) {
+// The frame of a measurement (shared/lamp.h) and where its angles fall in the table.
+void place_table(shared::Lamp& lamp, const IntensityTables::Intensities& table, glm::vec3 x, glm::vec3 y, glm::vec3 z) {
     glm::vec3 turn;  // where azimuth goes from `start`
-    switch (map.goniometry) {
+    switch (table.goniometry) {
         case Goniometry::CGamma:
             lamp.start = x, lamp.pole = -z, turn = y;
             break;
@@ -45,11 +45,11 @@ void place_map(shared::Lamp& lamp, const IntensityTables::Intensities& map, glm:
         glm::cross(lamp.pole, std::abs(lamp.pole.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
     lamp.start = unit(glm::vec4(lamp.start, 0), glm::normalize(across));  // of a flat node
     const bool mirrored = glm::dot(glm::cross(lamp.start, lamp.pole), turn) < 0;
-    const glm::dvec2 scale = 1.0 / map.step;
-    lamp.grid = {float(scale.x), float(1 - map.low.x * scale.x), float(scale.y), float(1 - map.low.y * scale.y)};
-    lamp.intensity *= map.largest;
-    lamp.map = float(map.first);
-    lamp.last_azimuth = (mirrored ? -1.0f : 1.0f) * float(map.cells.x - 1), lamp.lobe_b = float(map.cells.y - 1);
+    const glm::dvec2 scale = 1.0 / table.step;
+    lamp.grid = {float(scale.x), float(1 - table.low.x * scale.x), float(scale.y), float(1 - table.low.y * scale.y)};
+    lamp.intensity *= table.largest;
+    lamp.table = float(table.first);
+    lamp.last_azimuth = (mirrored ? -1.0f : 1.0f) * float(table.cells.x - 1), lamp.lobe_b = float(table.cells.y - 1);
 }
 
 }  // namespace
@@ -82,11 +82,11 @@ LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& 
                           .colour = lamp.colour,
                           .lobe_b = lobe.y,
                           .start = x,
-                          .map = -1,
+                          .table = -1,
                           .pole = -z,
                           .last_azimuth = 0,
                           .grid = {}};
-        if (measured) place_map(made, tables.intensities[lamp.distribution], x, y, z);
+        if (measured) place_table(made, tables.intensities[lamp.distribution], x, y, z);
         list.lamps.push_back(made);
         switch (order(lamp.kind)) {
             case 0:

@@ -20,7 +20,7 @@ struct LampList {
     uint32_t placed() const { return counts.cones + counts.powers + counts.tables; }
 };
 
-/// A light of a scene placed at a node.
+/// A lamp of a scene placed at a node.
 struct PlacedLamp {
     Lamp lamp;
     uint32_t node;

@@ -45,9 +45,9 @@ struct GlareReport {
     double pupil = 0, eye_seed = 0;
 };
 
-/// Computes the figures of a picture (RGBA rows from the top, cd/m^2 RGB in linear Rec. 709) and of lights outside of
-/// it. Sources within 0.1 degrees of the line of sight do not count as glare. Pixels that are not finite have no light.
-/// Throws Error for a target without a pixel in it or around it.
+/// Computes the figures of a picture (RGBA rows from the top, cd/m^2 RGB in linear Rec. 709) and of light from outside
+/// of it. Sources within 0.1 degrees of the line of sight do not count as glare. Pixels that are not finite have no
+/// light. Throws Error for a target without a pixel in it or around it.
 GlareReport report_glare(const ImageAngles&, std::span<const float> rgba, std::span<const DazzlingLight> outside,
                          const GlareQuestion&);
 

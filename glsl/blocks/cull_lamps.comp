@@ -6,7 +6,7 @@
 // Tile light culling, one block of pixels per invocation: of the lamps listed for the froxels that the block's pixels lie
 // in, those that can light what is drawn there. A box around the positions is tighter than a froxel, and a box around the
 // normals tells which lamps are behind every surface. What is left out gives nothing to any pixel of the block. A few
-// slices of depth at a time share their boxes, so that a light listed in several of them is taken once.
+// slices of depth at a time share their boxes, so that a lamp listed in several of them is taken once.
 
 #include "blocks.glsl"
 #include "normal.glsl"
@@ -60,14 +60,14 @@ vec3 largest_product(vec3 a_low, vec3 a_high, vec3 b_low, vec3 b_high) {
     return max(max(a_low * b_low, a_low * b_high), max(a_high * b_low, a_high * b_high));
 }
 
-bool lights_block(uint light) {
-    const bool map = kTables != 0u && light >= push.view.lamps.cones + push.view.lamps.powers;
-    const int at = int(light * kTexelsPerLamp);
+bool lights_block(uint lamp) {
+    const bool measured = kTables != 0u && lamp >= push.view.lamps.cones + push.view.lamps.powers;
+    const int at = int(lamp * kTexelsPerLamp);
     const vec4 a = texelFetch(lamps, at);
     const vec3 centre = 0.5 * (position_low + position_high);
     const float radius = kSlack * 0.5 * distance(position_low, position_high);
     const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
-    const float largest = largest_intensity(at, a, light < push.view.lamps.cones, map, centre, radius);
+    const float largest = largest_intensity(at, a, lamp < push.view.lamps.cones, measured, centre, radius);
     // n . (lamp - surface) is at most the sum of the largest products of its parts; behind everything if that is negative.
     const vec3 facing = largest_product(normal_low, normal_high, a.xyz - position_high, a.xyz - position_low);
     const float slack = 1e-5 * (abs(facing.x) + abs(facing.y) + abs(facing.z));
@@ -78,7 +78,7 @@ bool lights_block(uint light) {
 }
 
 // The ascending lists of several froxels, read as one without repetitions.
-uint next_light[kTogether], list_at[kTogether], list_end[kTogether];
+uint next_lamp[kTogether], list_at[kTogether], list_end[kTogether];
 
 uint read_list(uint k) { return list_at[k] < list_end[k] ? texelFetch(indices, int(list_at[k])).r : ~0u; }
 
@@ -97,7 +97,7 @@ uint open_lists(uvec2 tile, inout uint slices) {
         const bool overflowed = cones == kAllLamps;
         list_at[k] = cell * grid.capacity;
         list_end[k] = list_at[k] + (any && !overflowed ? cones + others : 0u);
-        next_light[k] = read_list(k);
+        next_lamp[k] = read_list(k);
         fits = fits && !(any && overflowed);
         opened |= any ? 1u << slice : 0u;
         slices &= ~(any ? 1u << slice : 0u);
@@ -105,14 +105,14 @@ uint open_lists(uvec2 tile, inout uint slices) {
     return fits ? opened : 0u;
 }
 
-uint take_light() {
-    uint light = next_light[0];
-    [[unroll]] for (uint k = 1u; k < kTogether; ++k) light = min(light, next_light[k]);
+uint take_lamp() {
+    uint lamp = next_lamp[0];
+    [[unroll]] for (uint k = 1u; k < kTogether; ++k) lamp = min(lamp, next_lamp[k]);
     [[unroll]] for (uint k = 0u; k < kTogether; ++k) {
-        list_at[k] += next_light[k] == light ? 1u : 0u;
-        next_light[k] = next_light[k] == light ? read_list(k) : next_light[k];
+        list_at[k] += next_lamp[k] == lamp ? 1u : 0u;
+        next_lamp[k] = next_lamp[k] == lamp ? read_list(k) : next_lamp[k];
     }
-    return light;
+    return lamp;
 }
 
 void main() {
@@ -128,14 +128,14 @@ void main() {
         fits = slices != 0u;
         bound_slices(corner, slices);
         const uint first = uint(findLSB(slices)), last = uint(findMSB(slices));
-        // Where a froxel overflowed, or the lists are very long together, the block looks at every light, too: lavapipe
+        // Where a froxel overflowed, or the lists are very long together, the block looks at every lamp, too: lavapipe
         // silently ends the loops of an invocation after 65,535 turns in all.
-        for (uint light = fits ? take_light() : ~0u; light != ~0u && turns < kMaxTurns; light = take_light()) {
+        for (uint lamp = fits ? take_lamp() : ~0u; lamp != ~0u && turns < kMaxTurns; lamp = take_lamp()) {
             ++turns;
-            const bool cone = light < push.view.lamps.cones;
-            if (!lights_block(light)) continue;
+            const bool cone = lamp < push.view.lamps.cones;
+            if (!lights_block(lamp)) continue;
             const uint at = cone ? cones : push.capacity - 1u - others;
-            if (cones + others < push.capacity) imageStore(entries, int(base + at), uvec4(entry_of(light, first, last)));
+            if (cones + others < push.capacity) imageStore(entries, int(base + at), uvec4(entry_of(lamp, first, last)));
             others += cone ? 0u : 1u;
             cones += cone ? 1u : 0u;
         }

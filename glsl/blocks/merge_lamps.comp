@@ -111,7 +111,7 @@ float widest_cone(FetchedLamp lamp, bool cone) {
     return min(0.5 * beam, kWidestCone);
 }
 
-// Nor may points that follow one another along the diagonals be farther apart than a good part of a cell of the map, so that none of its
+// Nor may points that follow one another along the diagonals be farther apart than a good part of a cell of the table, so that none of its
 // nodes hides between.
 bool shows_nodes(vec2 at[kPoints]) {
     float apart2 = 0.0;  // in cells
@@ -132,17 +132,17 @@ bool remains(FetchedLamp lamp, bool cone) {
     [[unroll]] for (uint k = 0u; k < kPoints; ++k) {
         const vec3 to = lamp.position - points[k];
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
-        const float normal_light = dot(normal, to) * inverse;
+        const float normal_lamp = dot(normal, to) * inverse;
         const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone, at[k]);
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
-        float weight = normal_light;
-        if (kRoads != 0u) weight = paved ? road_coefficient(roads[k], to, inverse, normal_light) : weight;
+        float weight = normal_lamp;
+        if (kRoads != 0u) weight = paved ? road_coefficient(roads[k], to, inverse, normal_lamp) : weight;
         value[k] = facing * weight;
-        lit = lit && relative > 0.0 && normal_light > 0.0;
+        lit = lit && relative > 0.0 && normal_lamp > 0.0;
         // Where it is dark a beam may still reach in between the points.
-        none_counts = none_counts && (normal_light <= 0.0 || (relative > 0.0 && 2.0 * facing * (paved ? 1.0 : normal_light) < push.view.threshold));
+        none_counts = none_counts && (normal_lamp <= 0.0 || (relative > 0.0 && 2.0 * facing * (paved ? 1.0 : normal_lamp) < push.view.threshold));
         // Light that grazes sees the least unevenness.
-        even = even && 2.0 * (tilt + lift * inverse) <= push.tolerance * normal_light;
+        even = even && 2.0 * (tilt + lift * inverse) <= push.tolerance * normal_lamp;
         least = min(least, value[k]);
         nearest = max(nearest, inverse);
     }
@@ -162,20 +162,20 @@ bool covers(uint entry) { return (slices & ~slices_of(entry)) == 0u; }
 bool merge_block(uint block) {
     const int counts = int(2u * block), first = int(block * push.capacity), last = first + int(push.capacity) - 1;
     const uint cones = imageLoad(block_counts, counts).r, others = imageLoad(block_counts, counts + 1).r;
-    const uint maps_from = push.view.lamps.cones + push.view.lamps.powers;
+    const uint tables_from = push.view.lamps.cones + push.view.lamps.powers;
     if (!plane || cones == kAllLamps || push.tolerance < 0.0) return cones + others != 0u || push.tolerance < 0.0;
     int kept_cones = 0, kept_others = 0;
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {
             const uint entry = imageLoad(entries, first + i).r;
-            if (covers(entry) && !remains(fetch(light_of(entry), true, maps_from), true)) continue;
+            if (covers(entry) && !remains(fetch(lamp_of(entry), true, tables_from), true)) continue;
             imageStore(entries, first + kept_cones, uvec4(entry));
             ++kept_cones;
         }
     if (kPowers != 0u || kTables != 0u)
         for (int i = 0; i < int(others); ++i) {
             const uint entry = imageLoad(entries, last - i).r;
-            if (covers(entry) && !remains(fetch(light_of(entry), false, maps_from), false)) continue;
+            if (covers(entry) && !remains(fetch(lamp_of(entry), false, tables_from), false)) continue;
             imageStore(entries, last - kept_others, uvec4(entry));
             ++kept_others;
         }

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-// Light clustering, one cell per invocation. Where nothing is drawn no light is listed. Elsewhere, a light is listed
+// Clusters and their lists of lamps, one cell per invocation. Where nothing is drawn no lamp is listed. Elsewhere, a lamp is listed
 // unless its illuminance stays under the threshold all over the sphere around the cell: the largest intensity in the cone
-// of directions that the sphere subtends, over the square of the nearest distance. Lights are tried in ascending order, so lists are ascending and the same on every run.
+// of directions that the sphere subtends, over the square of the nearest distance. Lamps are tried in ascending order, so lists are ascending and the same on every run.
 
 #include "shared/cluster.h"
 
@@ -46,7 +46,7 @@ void bound_cell(uvec3 cell) {
 }
 
 // Whether anything is drawn in some of its froxels.
-bool is_occupied(uvec3 cell) {
+bool is_active(uvec3 cell) {
     const ClusterGrid grid = push.view.grid;
     const uvec2 first = cell.xy * push.tiles_per_cell, end = min(first + push.tiles_per_cell, uvec2(grid.tiles_x, grid.tiles_y));
     uint slices = 0u;
@@ -55,11 +55,11 @@ bool is_occupied(uvec3 cell) {
     return (slices >> cell.z * push.slices_per_cell & (1u << push.slices_per_cell) - 1u) != 0u;
 }
 
-bool light_counts(uint light, bool cone) {
-    const int at = int(light * kTexelsPerLamp);
+bool counts_here(uint lamp, bool cone) {
+    const int at = int(lamp * kTexelsPerLamp);
     const vec4 a = texelFetch(lamps, at);
-    const bool map = !cone && kTables != 0u && (kPowers == 0u || light >= push.view.lamps.cones + push.view.lamps.powers);
-    return gives_threshold(largest_intensity(at, a, cone, map, centre, radius), distance(centre, a.xyz) - radius, push.view.threshold);
+    const bool measured = !cone && kTables != 0u && (kPowers == 0u || lamp >= push.view.lamps.cones + push.view.lamps.powers);
+    return gives_threshold(largest_intensity(at, a, cone, measured, centre, radius), distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
 void main() {
@@ -75,24 +75,24 @@ void main() {
     const uint listed_cones = texelFetch(parent_counts, int(2u * parent_index)).r;
     const uint listed_others = texelFetch(parent_counts, int(2u * parent_index + 1u)).r;
     const bool all_of_them = listed_cones == kAllLamps;
-    const bool occupied = is_occupied(cell);
-    const uint cones = !occupied ? 0u : all_of_them ? push.view.lamps.cones : listed_cones;
-    const uint others = !occupied ? 0u : all_of_them ? push.view.lamps.powers + push.view.lamps.tables : listed_others;
+    const bool drawn = is_active(cell);
+    const uint cones = !drawn ? 0u : all_of_them ? push.view.lamps.cones : listed_cones;
+    const uint others = !drawn ? 0u : all_of_them ? push.view.lamps.powers + push.view.lamps.tables : listed_others;
     const uint list = all_of_them ? 0u : parent_index * push.parent_capacity;
 
     const uint base = index * push.capacity;
     uint count = 0u;
     for (uint i = 0u; i < cones; ++i) {
-        const uint light = all_of_them ? i : texelFetch(parent_indices, int(list + i)).r;
-        if (!light_counts(light, true)) continue;
-        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
+        const uint lamp = all_of_them ? i : texelFetch(parent_indices, int(list + i)).r;
+        if (!counts_here(lamp, true)) continue;
+        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(lamp));
         ++count;
     }
     const uint kept_cones = count;
     for (uint i = 0u; i < others; ++i) {
-        const uint light = all_of_them ? cones + i : texelFetch(parent_indices, int(list + cones + i)).r;
-        if (!light_counts(light, false)) continue;
-        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(light));
+        const uint lamp = all_of_them ? cones + i : texelFetch(parent_indices, int(list + cones + i)).r;
+        if (!counts_here(lamp, false)) continue;
+        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(lamp));
         ++count;
     }
 

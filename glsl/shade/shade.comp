@@ -5,7 +5,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 
 // Photometric shading: L = sum_k E_k (rho lambert + specular) + ambient + emission in cd/m^2, without any windowing of
-// the inverse square. Every invocation shades kRows pixels of one column, so that a light is fetched once for all of them.
+// the inverse square. Every invocation shades kRows pixels of one column, so that a lamp is fetched once for all of them.
 // Every block of pixels has a list of lamps, of which its pixels take those for their own slice, and the sum of others
 // (shared/blocks.h). A dispatch does the blocks of one class, side by side in workgroups, whatever their places in the image.
 
@@ -63,27 +63,27 @@ Road roads[kRows];
 
 // Luminance coefficient, sr^-1: Lambert, and GGX (Walter et al. 2007) with height-correlated Smith masking (Heitz 2014) and
 // Schlick's Fresnel. With s = l + v, n.h = n.s / |s| and v.h = |s| / 2, so that one division does for everything.
-vec3 coefficient(uint r, vec3 toward_light, float normal_light) {
-    const vec3 s = toward_light + toward_eye[r];
+vec3 coefficient(uint r, vec3 toward_lamp, float normal_lamp) {
+    const vec3 s = toward_lamp + toward_eye[r];
     const float s2 = max(dot(s, s), 1e-8);
-    const float normal_s = normal_light + dot(normal[r], toward_eye[r]);
+    const float normal_s = normal_lamp + dot(normal[r], toward_eye[r]);
     // Times s2 what GGX squares: s2 - (1 - a2) (n.s)^2, as a sum, since for smooth surfaces that is a difference of equals.
     const vec3 aside = cross(normal[r], s);
     const float bump = normal_s > 0.0 ? dot(aside, aside) + a2[r] * normal_s * normal_s : s2;
-    const float smith = normal_light * smith_eye[r] + normal_eye[r] * sqrt(normal_light * normal_light * (1.0 - a2[r]) + a2[r]);
+    const float smith = normal_lamp * smith_eye[r] + normal_eye[r] * sqrt(normal_lamp * normal_lamp * (1.0 - a2[r]) + a2[r]);
     const float lobe = a2[r] * s2 * s2 / (2.0 * kPi * bump * bump * smith);
     const float off = max(1.0 - 0.5 * sqrt(s2), 0.0), off2 = off * off, schlick = off2 * off2 * off;
     return diffuse[r] + lobe * (f0[r] + (f90[r] - f0[r]) * schlick);
 }
 
 // What a retroreflective pixel adds to that, per illuminance facing the lamp.
-vec3 sheet_coefficient(uint r, vec3 toward_light, float normal_light) {
-    return diffuse[r] * (retroreflection(sheet[r], toward_light, toward_eye[r], normal_light, normal_eye[r]) / push.lambert);
+vec3 sheet_coefficient(uint r, vec3 toward_lamp, float normal_lamp) {
+    return diffuse[r] * (retroreflection(sheet[r], toward_lamp, toward_eye[r], normal_lamp, normal_eye[r]) / push.lambert);
 }
 
-bool returns_light(uint r, vec3 toward_light, float normal_light) {
-    const vec3 chord = toward_light - toward_eye[r];
-    return dot(chord, chord) <= chord2[r] && normal_light > 0.0;
+bool returns_light(uint r, vec3 toward_lamp, float normal_lamp) {
+    const vec3 chord = toward_lamp - toward_eye[r];
+    return dot(chord, chord) <= chord2[r] && normal_lamp > 0.0;
 }
 
 // Adds a lamp to the pixels of some slices, a bit for each.
@@ -93,17 +93,17 @@ void add_lamp(FetchedLamp lamp, uint slices, bool cone) {
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const vec3 to = lamp.position - position[r];
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
-        const float normal_light = dot(normal[r], to) * inverse;
+        const float normal_lamp = dot(normal[r], to) * inverse;
         const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone);
         const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
-        const bool counts_here = facing * max(normal_light, least_cosine[r]) >= push.threshold && (in_slice[r] & slices) != 0u;
+        const bool counts_here = facing * max(normal_lamp, least_cosine[r]) >= push.threshold && (in_slice[r] & slices) != 0u;
         const bool road = kRoads != 0u && roads[r].tan_cells > 0.0;
-        float weight = max(normal_light, 0.0);
-        if (kRoads != 0u) weight = road && normal_light > 0.0 ? road_coefficient(roads[r], to, inverse, normal_light) : weight;
+        float weight = max(normal_lamp, 0.0);
+        if (kRoads != 0u) weight = road && normal_lamp > 0.0 ? road_coefficient(roads[r], to, inverse, normal_lamp) : weight;
         const vec3 e = lamp.colour * (counts_here ? facing * weight : 0.0);
-        sum[r] += kShiny ? e * (road ? diffuse[r] : coefficient(r, to * inverse, max(normal_light, 0.0))) : e;
+        sum[r] += kShiny ? e * (road ? diffuse[r] : coefficient(r, to * inverse, max(normal_lamp, 0.0))) : e;
         if (kRetro != 0u) {
-            returned[r] = counts_here && returns_light(r, to * inverse, normal_light) ? facing : 0.0;
+            returned[r] = counts_here && returns_light(r, to * inverse, normal_lamp) ? facing : 0.0;
             any_returned = any_returned || returned[r] > 0.0;
         }
     }
@@ -117,7 +117,7 @@ void add_lamp(FetchedLamp lamp, uint slices, bool cone) {
         }
 }
 
-// The list of a block: entries of cones from the front, of others from the back. Or, all of them, every light there is.
+// The list of a block: entries of cones from the front, of others from the back. Or, all of them, every lamp there is.
 struct List {
     uint cones, others, first, last;
     bool all_of_them;
@@ -135,8 +135,8 @@ List list_of(uint block) {
 
 void add_entry(List list, uint at, uint number, bool cone) {
     const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
-    const uint light = list.all_of_them ? number : light_of(entry);
-    add_lamp(fetch(light, cone, push.lamps.cones + push.lamps.powers), list.all_of_them ? ~0u : slices_of(entry), cone);
+    const uint lamp = list.all_of_them ? number : lamp_of(entry);
+    add_lamp(fetch(lamp, cone, push.lamps.cones + push.lamps.powers), list.all_of_them ? ~0u : slices_of(entry), cone);
 }
 
 void add_lamps(List list) {
@@ -151,13 +151,13 @@ void add_directional() {
     for (uint i = 0u; i < push.lamps.directional; ++i) {
         const FetchedLamp lamp = fetch(first + i, true, 0u);
         [[unroll]] for (uint r = 0u; r < kRows; ++r) {
-            const float normal_light = max(dot(normal[r], -lamp.axis), 0.0);
+            const float normal_lamp = max(dot(normal[r], -lamp.axis), 0.0);
             const bool road = kRoads != 0u && roads[r].tan_cells > 0.0;
-            float weight = normal_light;
-            if (kRoads != 0u) weight = road && normal_light > 0.0 ? road_coefficient(roads[r], -lamp.axis, 1.0, normal_light) : weight;
+            float weight = normal_lamp;
+            if (kRoads != 0u) weight = road && normal_lamp > 0.0 ? road_coefficient(roads[r], -lamp.axis, 1.0, normal_lamp) : weight;
             const vec3 e = lamp.colour * (lamp.intensity * weight);
-            sum[r] += kShiny ? e * (road ? diffuse[r] : coefficient(r, -lamp.axis, normal_light)) : e;
-            if (kRetro != 0u && returns_light(r, -lamp.axis, normal_light)) sum[r] += lamp.colour * lamp.intensity * sheet_coefficient(r, -lamp.axis, normal_light);
+            sum[r] += kShiny ? e * (road ? diffuse[r] : coefficient(r, -lamp.axis, normal_lamp)) : e;
+            if (kRetro != 0u && returns_light(r, -lamp.axis, normal_lamp)) sum[r] += lamp.colour * lamp.intensity * sheet_coefficient(r, -lamp.axis, normal_lamp);
         }
     }
 }

@@ -5,14 +5,14 @@
 SHARED_BEGIN
 
 const uint kTileSize = 64u;       // px, side of a tile
-const uint kAllLamps = ~0u;      // list length of a froxel that overflowed: every light is looked at
+const uint kAllLamps = ~0u;      // list length of a froxel that overflowed: every lamp is looked at
 
 // Maps pixels to view-frame rays and depths to slices. Depth z is the distance along the view axis, m.
 struct ClusterGrid {
     uint tiles_x;
     uint tiles_y;
     uint slices;
-    uint capacity;        // light indices a froxel's list can hold
+    uint capacity;        // indices of lamps a froxel's list can hold
     float slice_scale;    // slice = clamp(floor(log2(z) * slice_scale + slice_bias), 0, slices - 1)
     float slice_bias;
     vec2 ray_scale;       // a pixel (x, y), y down, sees along (ray_scale * (pixel + 0.5) + ray_offset, -1)
@@ -33,7 +33,7 @@ struct ClusterLevelPush {
     ClusterPush view;
     uint cells_x, cells_y, cells_z;        // of this level
     uint tiles_per_cell, slices_per_cell;  // side of a cell
-    uint capacity;                         // light indices a cell's list can hold
+    uint capacity;                         // indices of lamps a cell's list can hold
     uint parents_x, parents_y;             // of the level before
     uint tiles_per_parent, slices_per_parent;
     uint parent_capacity;

@@ -13,7 +13,7 @@ const float kRoadKind = -1.0;
 const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of blocks
 
 // A block of pixels has a list of its own: the lamps of its froxels that can light what is drawn
-// in it. An entry is a light's index and, above it, the first and the last slice whose pixels it is for.
+// in it. An entry is a lamp's index and, above it, the first and the last slice whose pixels it is for.
 const uint kFirstSliceShift = 22u;
 const uint kLastSliceShift = 27u;
 
@@ -28,7 +28,7 @@ struct CullPush {
     ClusterPush view;
     uvec2 size;      // px
     uint blocks_x;   // blocks in a row
-    uint capacity;   // entries of a block: cones from the front, cosine powers and maps from the back
+    uint capacity;   // entries of a block: cones from the front, cosine powers and tables from the back
 };
 SHARED_SIZE(CullPush, 80)
 

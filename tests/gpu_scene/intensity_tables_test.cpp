@@ -1,4 +1,4 @@
-// Maps of measured intensities and of roads against the tables they were made from. SPDX-License-Identifier: MIT
+// Tables of measured intensities and of roads against the tables they were made from. SPDX-License-Identifier: MIT
 #include "gpu_scene/intensity_tables.h"
 
 #include <algorithm>
@@ -23,30 +23,30 @@ Scene with(Distribution d) {
     return scene;
 }
 
-glm::vec4 cell(const IntensityTables& maps, const IntensityTables::Intensities& map, uint32_t i, uint32_t j) {
-    return maps.texels.at(map.first + size_t(i) * map.cells.y + j);
+glm::vec4 cell(const IntensityTables& tables, const IntensityTables::Intensities& table, uint32_t i, uint32_t j) {
+    return tables.texels.at(table.first + size_t(i) * table.cells.y + j);
 }
 
 /// Every tabulated value is a corner of a cell, within what floats round: 2^-22, or 2^-24 of the largest.
 void expect_every_value(const std::string& file) {
     const Distribution d = read_distribution(kData / file);
-    const IntensityTables maps = intensity_tables(with(d));
-    const auto& map = maps.intensities.at(0);
-    EXPECT_TRUE(map.exact);
+    const IntensityTables tables = intensity_tables(with(d));
+    const auto& table = tables.intensities.at(0);
+    EXPECT_TRUE(table.exact);
     for (size_t h = 0; h < d.horizontal.size(); ++h)
         for (size_t v = 0; v < d.vertical.size(); ++v) {
             double azimuth = d.horizontal[h], polar = d.vertical[v];
             if (d.goniometry == Goniometry::CGamma && azimuth > 180) azimuth -= 360;
             if (d.goniometry == Goniometry::TypeA) polar = 90 - polar;
-            const glm::dvec2 at = (glm::radians(glm::dvec2(azimuth, polar)) - map.low) / map.step;
+            const glm::dvec2 at = (glm::radians(glm::dvec2(azimuth, polar)) - table.low) / table.step;
             ASSERT_LT(glm::length(at - glm::round(at)), 1e-6);
             const glm::uvec2 node(glm::round(at));
             const bool first = node.x == 0;  // the cell before the first nodes may be dark
-            const glm::vec4 corners = cell(maps, map, std::max(node.x, 1u), std::max(node.y, 1u));
+            const glm::vec4 corners = cell(tables, table, std::max(node.x, 1u), std::max(node.y, 1u));
             const double value =
                 double(node.y == 0 ? (first ? corners.x : corners.y) : (first ? corners.z : corners.w)) *
-                double(map.largest);
-            ASSERT_NEAR(value, d.at(h, v), d.at(h, v) * std::exp2(-22) + double(map.largest) * std::exp2(-24))
+                double(table.largest);
+            ASSERT_NEAR(value, d.at(h, v), d.at(h, v) * std::exp2(-22) + double(table.largest) * std::exp2(-24))
                 << azimuth << " " << polar;
         }
 }
@@ -59,15 +59,15 @@ TEST(IntensityTables, GoOnAroundStayAtThePolesAndEndWhereTheTableEnds) {
     Distribution d;
     d.horizontal = {0, 90, 180, 270, 360}, d.vertical = {0, 45, 90};
     for (double plane : {1.0, 2.0, 3.0, 4.0, 1.0}) d.candela.insert(d.candela.end(), {10, 10 * plane, 10});
-    const IntensityTables maps = intensity_tables(with(d));
-    const auto& map = maps.intensities.at(0);
-    ASSERT_EQ(map.cells, glm::uvec2(6, 4));  // four azimuths and two angles, and one cell before and behind each
+    const IntensityTables tables = intensity_tables(with(d));
+    const auto& table = tables.intensities.at(0);
+    ASSERT_EQ(table.cells, glm::uvec2(6, 4));  // four azimuths and two angles, and one cell before and behind each
     for (uint32_t j = 0; j < 4; ++j) {
-        EXPECT_EQ(cell(maps, map, 0, j), cell(maps, map, 4, j));
-        EXPECT_EQ(cell(maps, map, 5, j), cell(maps, map, 1, j));
+        EXPECT_EQ(cell(tables, table, 0, j), cell(tables, table, 4, j));
+        EXPECT_EQ(cell(tables, table, 5, j), cell(tables, table, 1, j));
     }
-    EXPECT_EQ(cell(maps, map, 2, 0), glm::vec4(0.25f));  // before gamma 0: the value there
-    EXPECT_EQ(cell(maps, map, 2, 3), glm::vec4(0));      // beyond gamma 90: nothing
+    EXPECT_EQ(cell(tables, table, 2, 0), glm::vec4(0.25f));  // before gamma 0: the value there
+    EXPECT_EQ(cell(tables, table, 2, 3), glm::vec4(0));      // beyond gamma 90: nothing
 }
 
 /// The frame of a measurement (shared/lamp.h): azimuth 0, azimuth 90 degrees, and the pole.
@@ -96,10 +96,10 @@ std::vector<Window> windows_of(uint32_t count) {
 }
 
 /// The bound of a ring window and a sector window, cd.
-double bound_of(const IntensityTables& maps, size_t ring, size_t sector) {
-    const auto& map = maps.intensities.at(0);
+double bound_of(const IntensityTables& tables, size_t ring, size_t sector) {
+    const auto& table = tables.intensities.at(0);
     const size_t k = ring * 3 * shared::kSectors + sector;
-    return double(maps.texels.at(map.first - shared::kWindowTexels + k / 4)[int(k % 4)]) * double(map.largest);
+    return double(tables.texels.at(table.first - shared::kWindowTexels + k / 4)[int(k % 4)]) * double(table.largest);
 }
 
 TEST(IntensityTables, NoWindowIsBelowAnyValueInItOrMuchAbove) {
@@ -107,7 +107,7 @@ TEST(IntensityTables, NoWindowIsBelowAnyValueInItOrMuchAbove) {
     ASSERT_EQ(rings.size() * sectors.size(), 4 * shared::kWindowTexels);
     for (const char* file : {"street-lamp.ies", "low-beam.csv", "high-beam.csv"}) {
         const Distribution d = read_distribution(kData / file);
-        const IntensityTables maps = intensity_tables(with(d));
+        const IntensityTables tables = intensity_tables(with(d));
         const glm::dmat3 frame = frame_of(d.goniometry);
         double seen[shared::kRings][shared::kSectors]{};  // the largest in a bin
         constexpr uint32_t kFine = 6;
@@ -126,7 +126,7 @@ TEST(IntensityTables, NoWindowIsBelowAnyValueInItOrMuchAbove) {
                 for (uint32_t r = rings[i].first; r < std::min(rings[i].first + rings[i].length, shared::kRings); ++r)
                     for (uint32_t s = 0; s < sectors[j].length; ++s)
                         largest = std::max(largest, seen[r][(sectors[j].first + s) % shared::kSectors]);
-                const double bound = bound_of(maps, i, j);
+                const double bound = bound_of(tables, i, j);
                 ASSERT_LE(largest, bound) << file << ", windows " << i << " and " << j;
                 if (rings[i].first + rings[i].length > shared::kRings) continue;  // never asked for
                 EXPECT_GE(1.5 * largest + 0.03 * largest_intensity(d), bound)
@@ -171,9 +171,9 @@ TEST(IntensityTables, WindowsHoldCellsOfEverySize) {
             d.candela.push_back(any(0, 1) < 0.8 ? 0 : any(1, 100));
         if (d.horizontal.size() == 5 && c)
             std::copy_n(d.candela.begin(), d.vertical.size(), d.candela.end() - std::ptrdiff_t(d.vertical.size()));
-        const IntensityTables maps = intensity_tables(with(d));
-        const auto& map = maps.intensities.at(0);
-        for (int i = 0; i < 3000 && map.largest > 0; ++i) {
+        const IntensityTables tables = intensity_tables(with(d));
+        const auto& table = tables.intensities.at(0);
+        for (int i = 0; i < 3000 && table.largest > 0; ++i) {
             const double h = any(d.horizontal.front(), d.horizontal.back()),
                          v = any(d.vertical.front(), d.vertical.back());
             const glm::dvec3 to = direction(d.goniometry, h, v);
@@ -182,7 +182,7 @@ TEST(IntensityTables, WindowsHoldCellsOfEverySize) {
                 std::min(uint32_t(std::sqrt(std::max((1 - at.z) / 2, 0.0)) * shared::kRings), shared::kRings - 1);
             const auto sector = std::min(
                 uint32_t((std::atan2(at.y, at.x) / std::numbers::pi + 1) / 2 * shared::kSectors), shared::kSectors - 1);
-            ASSERT_LE(intensity(d, to), bound_of(maps, ring, sector)) << turn << ": " << h << ", " << v;
+            ASSERT_LE(intensity(d, to), bound_of(tables, ring, sector)) << turn << ": " << h << ", " << v;
         }
     }
 }
@@ -190,9 +190,9 @@ TEST(IntensityTables, WindowsHoldCellsOfEverySize) {
 TEST(IntensityTables, OddAnglesGetNodesATenthOfADegreeApart) {
     Distribution d;
     d.horizontal = {0}, d.vertical = {0, 10.0037, 90}, d.candela = {100, 80, 20};
-    const IntensityTables maps = intensity_tables(with(d));
-    EXPECT_FALSE(maps.intensities[0].exact);
-    EXPECT_NEAR(glm::degrees(maps.intensities[0].step.y), 0.1, 1e-9);
+    const IntensityTables tables = intensity_tables(with(d));
+    EXPECT_FALSE(tables.intensities[0].exact);
+    EXPECT_NEAR(glm::degrees(tables.intensities[0].step.y), 0.1, 1e-9);
 }
 
 TEST(IntensityTables, ADarkLampAndNoLampAreNothing) {
@@ -207,14 +207,14 @@ struct RoadCells {
     double per_tan, columns;  // cells per unit of tan(gamma); of beta
     size_t first;
 };
-RoadCells road_cells(const IntensityTables& maps, size_t table) {
-    const glm::vec4 head = maps.texels.at(maps.roads + table);
+RoadCells road_cells(const IntensityTables& tables, size_t table) {
+    const glm::vec4 head = tables.texels.at(tables.roads + table);
     return {double(head.x), std::round(double(head.z) * std::numbers::pi), size_t(head.w)};
 }
 
 /// Every tabulated value is a corner of a cell.
-void expect_every_value(const IntensityTables& maps, size_t number, const ReflectionTable& table) {
-    const RoadCells road = road_cells(maps, number);
+void expect_every_value(const IntensityTables& tables, size_t number, const ReflectionTable& table) {
+    const RoadCells road = road_cells(tables, number);
     for (size_t t = 1; t < table.tan_gamma.size(); ++t)
         for (size_t b = 1; b < table.beta.size(); ++b) {
             if (table.at(t, b) == 0) continue;  // extended
@@ -223,7 +223,7 @@ void expect_every_value(const IntensityTables& maps, size_t number, const Reflec
             ASSERT_NEAR(across, std::round(across), 1e-9);
             const size_t cell = (size_t(std::round(along)) - 1) * size_t(road.columns) + size_t(std::round(across)) - 1;
             const double value = reflectance_in_diffuse(extended(table)) / std::numbers::pi *
-                                 double(maps.texels.at(road.first + cell).w);
+                                 double(tables.texels.at(road.first + cell).w);
             ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-22))
                 << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
         }
@@ -233,8 +233,9 @@ TEST(IntensityTables, RoadsKeepEveryTabulatedValue) {
     Scene scene;
     for (const std::string& name : standard_reflection_tables())
         scene.reflection_tables.push_back(find_reflection_table(name));
-    const IntensityTables maps = intensity_tables(scene);
-    for (size_t i = 0; i < scene.reflection_tables.size(); ++i) expect_every_value(maps, i, scene.reflection_tables[i]);
+    const IntensityTables tables = intensity_tables(scene);
+    for (size_t i = 0; i < scene.reflection_tables.size(); ++i)
+        expect_every_value(tables, i, scene.reflection_tables[i]);
 }
 
 TEST(IntensityTables, RoadsHaveTheNodesOfAnyTable) {
@@ -243,11 +244,11 @@ TEST(IntensityTables, RoadsHaveTheNodesOfAnyTable) {
     odd.tan_gamma[1] = 0.1, odd.tan_gamma[2] = 0.45, odd.beta[1] = 1.5;
     Scene scene;
     scene.reflection_tables = {far, odd, find_reflection_table("W4")};
-    const IntensityTables maps = intensity_tables(scene);
-    for (size_t i = 0; i < 3; ++i) expect_every_value(maps, i, scene.reflection_tables[i]);
-    EXPECT_EQ(road_cells(maps, 0).columns, 180);
-    EXPECT_EQ(road_cells(maps, 1).columns, 360);
-    EXPECT_EQ(road_cells(maps, 2).columns, 180);
+    const IntensityTables tables = intensity_tables(scene);
+    for (size_t i = 0; i < 3; ++i) expect_every_value(tables, i, scene.reflection_tables[i]);
+    EXPECT_EQ(road_cells(tables, 0).columns, 180);
+    EXPECT_EQ(road_cells(tables, 1).columns, 360);
+    EXPECT_EQ(road_cells(tables, 2).columns, 180);
 }
 
 // Darker and brighter than half floats can be.
@@ -256,10 +257,10 @@ TEST(IntensityTables, RoadsOfAnyBrightnessAreFinite) {
         Scene scene;
         scene.reflection_tables = {{.name = "even", .tan_gamma = {0, 5}, .beta = {0, 180}, .r = {r, r, r, r}}};
         check_reflection_table(scene.reflection_tables[0], "even");
-        const IntensityTables maps = intensity_tables(scene);
+        const IntensityTables tables = intensity_tables(scene);
         const float reflectance = reflectance_in_diffuse(rendered_table(scene, 0));
         const double stands_for =
-            double(maps.texels.at(road_cells(maps, 0).first).x) * double(reflectance) / std::numbers::pi;
+            double(tables.texels.at(road_cells(tables, 0).first).x) * double(reflectance) / std::numbers::pi;
         EXPECT_NEAR(stands_for / r, 1, 1e-5);
     }
 }
@@ -269,8 +270,8 @@ TEST(IntensityTables, NodesOfRoadsThatDivideNothingAreHalfACellOff) {
     scene.reflection_tables = {find_reflection_table("R3")};
     ReflectionTable& table = scene.reflection_tables[0];
     table.tan_gamma[1] = 0.2501, table.beta[1] = 1.0007;
-    const IntensityTables maps = intensity_tables(scene);
-    const RoadCells road = road_cells(maps, 0);
+    const IntensityTables tables = intensity_tables(scene);
+    const RoadCells road = road_cells(tables, 0);
     EXPECT_EQ(std::round(road.per_tan * table.tan_gamma.back()), shared::kMostRoadCells.x);
     EXPECT_EQ(road.columns, shared::kMostRoadCells.y);
 }

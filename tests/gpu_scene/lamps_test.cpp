@@ -75,7 +75,7 @@ TEST(Lights, KindsFollowOneAnotherAndDarkLampsAreLeftOut) {
     EXPECT_EQ(list.lamps[2].intensity, 3);
 }
 
-// A culling takes cones of directions for cones of a map's angles: also on a node that is sheared, mirrored or flat.
+// A culling takes cones of directions for cones of a table's angles: also on a node that is sheared, mirrored or flat.
 TEST(Lights, TheFrameOfAMapIsOrthonormal) {
     for (const Goniometry goniometry : {Goniometry::CGamma, Goniometry::TypeB, Goniometry::TypeA}) {
         const Distribution d{.name = {},

@@ -100,7 +100,7 @@ inline Extremes extremes_of(const Block& block, const OfPlace& f) {
 /// Whether the nodes and points between tell all of a lamp: they lie in a cone of directions no wider than half its
 /// beam (to where a ramp ends, or a power has fallen to exp(-1/2)) and 0.35 rad from its axis.
 inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, const Block& block,
-                     const shared::Lamp& light, LightKind kind, double slack = 1) {
+                     const shared::Lamp& lamp, LampKind kind, double slack = 1) {
     const auto point = [&](dvec2 place) {
         const dvec3 ray = view_position(grid, place, 1);
         return ray * (plane.away / glm::dot(plane.normal, ray));
@@ -108,24 +108,24 @@ inline bool resolved(const BlockPlane& plane, const shared::ClusterGrid& grid, c
     double radius = 0, nearest = 1e300;
     const auto look_at = [&](dvec2 place) {
         radius = std::max(radius, glm::distance(point(place), point(node(block, 1, 1))));
-        nearest = std::min(nearest, glm::distance(point(place), dvec3(light.position)));
+        nearest = std::min(nearest, glm::distance(point(place), dvec3(lamp.position)));
     };
     for (int n = 0; n < 9; ++n) look_at(node(block, n % 3, n / 3));
     for (const dvec2 place : between_nodes(block)) look_at(place);
     double beam = std::numbers::pi;
-    if (kind == LightKind::Cone && light.lobe_a > 0)
-        beam = std::acos(std::clamp(-double(light.lobe_b) / light.lobe_a, -1.0, 1.0));
-    if (kind == LightKind::Power) beam = 1 / std::sqrt(std::max(double(light.lobe_a), 0.1));
+    if (kind == LampKind::Cone && lamp.lobe_a > 0)
+        beam = std::acos(std::clamp(-double(lamp.lobe_b) / lamp.lobe_a, -1.0, 1.0));
+    if (kind == LampKind::Power) beam = 1 / std::sqrt(std::max(double(lamp.lobe_a), 0.1));
     return radius / nearest <= slack * std::min(0.5 * beam, 0.35);
 }
 
 /// The illuminance, lx, of a lamp on the plane where a pixel sees it.
-inline double light_on_plane(const BlockPlane& plane, const shared::ClusterGrid& grid, const shared::Lamp& light,
-                             LightKind kind, dvec2 place) {
+inline double light_on_plane(const BlockPlane& plane, const shared::ClusterGrid& grid, const shared::Lamp& lamp,
+                             LampKind kind, dvec2 place) {
     const dvec3 ray = view_position(grid, place, 1), point = ray * (plane.away / glm::dot(plane.normal, ray));
-    const dvec3 path = dvec3(light.position) - point;
+    const dvec3 path = dvec3(lamp.position) - point;
     const double d = glm::length(path), cosine = glm::dot(plane.normal, path) / d;
-    const double e = intensity(light, kind, -glm::dot(dvec3(light.axis), path) / d) * cosine / (d * d);
+    const double e = intensity(lamp, kind, -glm::dot(dvec3(lamp.axis), path) / d) * cosine / (d * d);
     return cosine > 0 ? e : 0;
 }
 

@@ -77,10 +77,10 @@ TEST(BlocksReference, LightOnAPlaneIsTheInverseSquareLaw) {
     grid.ray_scale = {1, -1}, grid.ray_offset = {0, 0};
     const shared::Lamp lamp{{0, 4, -1.2f}, 1000, {0, -1, 0}, 0, {1, 1, 1}, 1};
     const BlockPlane road{{0, 1, 0}, -1.0, 0};
-    EXPECT_NEAR(light_on_plane(road, grid, lamp, LightKind::Cone, {0, 1 / 1.2}), 40, 1e-5);
-    EXPECT_NEAR(light_on_plane(road, grid, lamp, LightKind::Cone, {2 / 1.2, 1 / 1.2}),
+    EXPECT_NEAR(light_on_plane(road, grid, lamp, LampKind::Cone, {0, 1 / 1.2}), 40, 1e-5);
+    EXPECT_NEAR(light_on_plane(road, grid, lamp, LampKind::Cone, {2 / 1.2, 1 / 1.2}),
                 40 * std::pow(5 / std::sqrt(29.0), 3), 1e-5);
-    EXPECT_EQ(light_on_plane({{0, -1, 0}, 1.0, 0}, grid, lamp, LightKind::Cone, {0, 1 / 1.2}), 0) << "from behind";
+    EXPECT_EQ(light_on_plane({{0, -1, 0}, 1.0, 0}, grid, lamp, LampKind::Cone, {0, 1 / 1.2}), 0) << "from behind";
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "render/passes/blocks.h"
-#include "support/lights.h"
+#include "support/lamps.h"
 #include "support/noise.h"
 #include "support/shading.h"
 

@@ -17,44 +17,44 @@ namespace vesper::reference {
 
 using glm::dvec2, glm::dvec3, glm::dvec4;
 
-enum class LightKind { Cone, Power, Map, Directional };
+enum class LampKind { Cone, Power, Table, Directional };
 
-/// Lights are sorted by kind (shared/lamp.h).
-inline LightKind kind_of(size_t index, const shared::LampCounts& counts) {
-    if (index < counts.cones) return LightKind::Cone;
-    if (index < size_t(counts.cones) + counts.powers) return LightKind::Power;
-    return index < size_t(counts.cones) + counts.powers + counts.tables ? LightKind::Map : LightKind::Directional;
+/// Lamps are sorted by kind (shared/lamp.h).
+inline LampKind kind_of(size_t index, const shared::LampCounts& counts) {
+    if (index < counts.cones) return LampKind::Cone;
+    if (index < size_t(counts.cones) + counts.powers) return LampKind::Power;
+    return index < size_t(counts.cones) + counts.powers + counts.tables ? LampKind::Table : LampKind::Directional;
 }
 
 /// Luminous intensity towards a direction at `cosine` to the axis, cd. Cone: the squared ramp of KHR_lights_punctual.
-inline double intensity(const shared::Lamp& light, LightKind kind, double cosine) {
+inline double intensity(const shared::Lamp& lamp, LampKind kind, double cosine) {
     switch (kind) {
-        case LightKind::Cone: {
-            const double ramp = std::clamp(light.lobe_a * cosine + light.lobe_b, 0.0, 1.0);
-            return light.intensity * ramp * ramp;
+        case LampKind::Cone: {
+            const double ramp = std::clamp(lamp.lobe_a * cosine + lamp.lobe_b, 0.0, 1.0);
+            return lamp.intensity * ramp * ramp;
         }
-        case LightKind::Power:
+        case LampKind::Power:
             if (cosine <= 0) return 0;  // also for exponent 0: nothing goes backwards
-            return light.intensity * std::pow(cosine, double(light.lobe_a));
-        case LightKind::Map:  // not by the cosine alone
-        case LightKind::Directional:
+            return lamp.intensity * std::pow(cosine, double(lamp.lobe_a));
+        case LampKind::Table:  // not by the cosine alone
+        case LampKind::Directional:
             break;
     }
-    return light.intensity;
+    return lamp.intensity;
 }
 
 /// Illuminance of a lamp on a surface that faces it, lx: I / d^2, the inverse square law.
-inline double facing_illuminance(const shared::Lamp& light, LightKind kind, dvec3 point) {
-    if (kind == LightKind::Directional) return light.intensity;
-    const dvec3 to_lamp = dvec3(light.position) - point;
+inline double facing_illuminance(const shared::Lamp& lamp, LampKind kind, dvec3 point) {
+    if (kind == LampKind::Directional) return lamp.intensity;
+    const dvec3 to_lamp = dvec3(lamp.position) - point;
     const double d2 = glm::dot(to_lamp, to_lamp);
-    const double cosine = d2 > 0 ? glm::dot(dvec3(light.axis), -to_lamp) / std::sqrt(d2) : 1.0;
-    return intensity(light, kind, cosine) / d2;
+    const double cosine = d2 > 0 ? glm::dot(dvec3(lamp.axis), -to_lamp) / std::sqrt(d2) : 1.0;
+    return intensity(lamp, kind, cosine) / d2;
 }
 
 /// Distance beyond which a lamp gives less than `threshold` lx in any direction, m.
-inline double reach(const shared::Lamp& light, LightKind kind, double threshold) {
-    const double brightest = std::max(intensity(light, kind, 1.0), intensity(light, kind, -1.0));
+inline double light_radius(const shared::Lamp& lamp, LampKind kind, double threshold) {
+    const double brightest = std::max(intensity(lamp, kind, 1.0), intensity(lamp, kind, -1.0));
     return std::sqrt(brightest / threshold);
 }
 
@@ -132,9 +132,9 @@ inline Froxel froxel(const shared::ClusterPush& p, shared::uvec2 size, uint32_t 
 
 /// The largest illuminance found in a froxel, lx, by `steps`^3 samples, others where the lamp's axis comes near, and a
 /// pattern search from the best of them. Never more than the true maximum.
-inline double brightest(const shared::ClusterGrid& grid, const Froxel& f, const shared::Lamp& light, LightKind kind,
+inline double brightest(const shared::ClusterGrid& grid, const Froxel& f, const shared::Lamp& lamp, LampKind kind,
                         int steps = 5) {
-    const auto value = [&](dvec3 t) { return facing_illuminance(light, kind, f.at(grid, t)); };
+    const auto value = [&](dvec3 t) { return facing_illuminance(lamp, kind, f.at(grid, t)); };
     double best = -1;
     dvec3 at{0.5};
     for (int k = 0; k < steps; ++k)
@@ -144,7 +144,7 @@ inline double brightest(const shared::ClusterGrid& grid, const Froxel& f, const 
                 if (const double e = value(t); e > best) best = e, at = t;
             }
     for (double along = 0.01; along < 1e4; along *= 1.05) {
-        const dvec3 point = dvec3(light.position) + along * dvec3(light.axis);
+        const dvec3 point = dvec3(lamp.position) + along * dvec3(lamp.axis);
         if (point.z >= 0) continue;
         const dvec3 t = f.nearest(grid, point);
         if (const double e = value(t); e > best) best = e, at = t;
@@ -177,10 +177,10 @@ inline std::vector<std::vector<uint32_t>> lit_froxels(const shared::ClusterPush&
                 for (dvec3 c : corners) low = glm::min(low, c), high = glm::max(high, c);
                 auto& list = lists[froxel_index(p.grid, x, y, slice)];
                 for (uint32_t i = 0; i < p.lamps.cones + p.lamps.powers; ++i) {
-                    const LightKind kind = kind_of(i, p.lamps);
+                    const LampKind kind = kind_of(i, p.lamps);
                     const dvec3 lamp(lamps[i].position), away = lamp - glm::clamp(lamp, low, high);
-                    // Farther than the lamp's reach from a box around the froxel: no need to search.
-                    if (glm::length(away) > reach(lamps[i], kind, threshold)) continue;
+                    // Farther than the lamp's light radius from a box around the froxel: no need to search.
+                    if (glm::length(away) > light_radius(lamps[i], kind, threshold)) continue;
                     if (brightest(p.grid, f, lamps[i], kind, steps) >= threshold) list.push_back(i);
                 }
             }

@@ -84,8 +84,8 @@ TEST(ClusterReference, CornersSpanTheFroxel) {
 
 TEST(ClusterReference, IlluminanceIsIntensityOverDistanceSquared) {
     const auto lamp = point_lamp({0, 0, 0}, 1000);
-    EXPECT_DOUBLE_EQ(facing_illuminance(lamp, LightKind::Cone, {0, 0, -10}), 10);
-    EXPECT_DOUBLE_EQ(facing_illuminance(lamp, LightKind::Cone, {0, 20, 0}), 2.5);
+    EXPECT_DOUBLE_EQ(facing_illuminance(lamp, LampKind::Cone, {0, 0, -10}), 10);
+    EXPECT_DOUBLE_EQ(facing_illuminance(lamp, LampKind::Cone, {0, 20, 0}), 2.5);
 }
 
 // KHR_lights_punctual: a = 1 / (cos inner - cos outer), b = -cos outer a; the ramp is squared.
@@ -93,11 +93,11 @@ TEST(ClusterReference, ConeFallsFromFullToNothing) {
     const double inner = std::cos(0.3), outer = std::cos(0.6);
     shared::Lamp spot = point_lamp({0, 0, 0}, 100);
     spot.lobe_a = float(1 / (inner - outer)), spot.lobe_b = float(-outer / (inner - outer));
-    EXPECT_NEAR(intensity(spot, LightKind::Cone, 1), 100, 1e-9);
-    EXPECT_NEAR(intensity(spot, LightKind::Cone, inner), 100, 1e-3);
-    EXPECT_NEAR(intensity(spot, LightKind::Cone, outer), 0, 1e-6);
-    EXPECT_NEAR(intensity(spot, LightKind::Cone, (inner + outer) / 2), 25, 1e-3);
-    EXPECT_EQ(intensity(spot, LightKind::Cone, -1), 0);
+    EXPECT_NEAR(intensity(spot, LampKind::Cone, 1), 100, 1e-9);
+    EXPECT_NEAR(intensity(spot, LampKind::Cone, inner), 100, 1e-3);
+    EXPECT_NEAR(intensity(spot, LampKind::Cone, outer), 0, 1e-6);
+    EXPECT_NEAR(intensity(spot, LampKind::Cone, (inner + outer) / 2), 25, 1e-3);
+    EXPECT_EQ(intensity(spot, LampKind::Cone, -1), 0);
 }
 
 // A lobe I cos^n emits 2 pi I / (n + 1) lumens: 2 pi I for n = 0, pi I for Lambert's n = 1.
@@ -109,7 +109,7 @@ TEST(ClusterReference, CosinePowerEmitsItsFlux) {
         const int steps = 20000;
         for (int i = 0; i < steps; ++i) {
             const double angle = (i + 0.5) * std::numbers::pi / steps;
-            flux += intensity(lobe, LightKind::Power, std::cos(angle)) * 2 * std::numbers::pi * std::sin(angle) *
+            flux += intensity(lobe, LampKind::Power, std::cos(angle)) * 2 * std::numbers::pi * std::sin(angle) *
                     std::numbers::pi / steps;
         }
         EXPECT_NEAR(flux, 2 * std::numbers::pi * 10 / (exponent + 1), 1e-4 * flux) << "exponent " << exponent;
@@ -119,9 +119,9 @@ TEST(ClusterReference, CosinePowerEmitsItsFlux) {
 // glare-photometry, B1: a headlamp of 30 kcd is above 0.001 lx to 5.5 km.
 TEST(ClusterReference, ReachEndsWhereTheThresholdIs) {
     const auto headlamp = point_lamp({0, 0, 0}, 30000);
-    const double d = reach(headlamp, LightKind::Cone, 0.001);
+    const double d = light_radius(headlamp, LampKind::Cone, 0.001);
     EXPECT_NEAR(d, 5477.2, 0.1);
-    EXPECT_NEAR(facing_illuminance(headlamp, LightKind::Cone, {d, 0, 0}), 0.001, 1e-12);
+    EXPECT_NEAR(facing_illuminance(headlamp, LampKind::Cone, {d, 0, 0}), 0.001, 1e-12);
 }
 
 TEST(ClusterReference, BrightestOfAPointLampIsAtTheNearestPoint) {
@@ -130,7 +130,7 @@ TEST(ClusterReference, BrightestOfAPointLampIsAtTheNearestPoint) {
     // In front of the near face, over its middle: the nearest point is the lamp's foot on that face.
     const dvec3 foot = f.at(p.grid, {0.4, 0.6, 0});
     const auto lamp = point_lamp(glm::vec3(foot + dvec3(0, 0, 2)), 8);
-    EXPECT_NEAR(brightest(p.grid, f, lamp, LightKind::Cone), 2, 1e-5);
+    EXPECT_NEAR(brightest(p.grid, f, lamp, LampKind::Cone), 2, 1e-5);
 }
 
 TEST(ClusterReference, BrightestIsNoLessThanDenseSampling) {
@@ -145,9 +145,9 @@ TEST(ClusterReference, BrightestIsNoLessThanDenseSampling) {
         double dense = 0;
         for (int i = 0; i < 30 * 30 * 30; ++i) {
             const dvec3 t = dvec3(i % 30, i / 30 % 30, i / 900) / 29.0;
-            dense = std::max(dense, facing_illuminance(spot, LightKind::Cone, f.at(p.grid, t)));
+            dense = std::max(dense, facing_illuminance(spot, LampKind::Cone, f.at(p.grid, t)));
         }
-        EXPECT_GE(brightest(p.grid, f, spot, LightKind::Cone, 9), dense * 0.999) << k;
+        EXPECT_GE(brightest(p.grid, f, spot, LampKind::Cone, 9), dense * 0.999) << k;
     }
 }
 
@@ -160,7 +160,7 @@ TEST(ClusterReference, BrightestFindsANarrowBeam) {
     beam.axis = glm::normalize(glm::vec3(target) - beam.position);
     beam.lobe_a = 1e5f;  // half of the intensity 0.2 degrees off the axis
     const double d = glm::length(target - dvec3(beam.position));
-    EXPECT_GT(brightest(p.grid, f, beam, LightKind::Power), 0.9e4 / (d * d));
+    EXPECT_GT(brightest(p.grid, f, beam, LampKind::Power), 0.9e4 / (d * d));
 }
 
 // What clustering is for: wherever a lamp counts, it is listed; and a higher threshold lists no more.

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "support/lights.h"
+#include "support/lamps.h"
 #include "support/noise.h"
 #include "support/texels.h"
 
@@ -81,7 +81,7 @@ void expect_well_formed(const Lists& lists, const LampList& list) {
         }
         const auto powers = l.begin() + lists.cones[i];
         EXPECT_TRUE(std::is_sorted(l.begin(), l.end())) << "froxel " << i;
-        EXPECT_EQ(std::adjacent_find(l.begin(), l.end()), l.end()) << "froxel " << i << " has a light twice";
+        EXPECT_EQ(std::adjacent_find(l.begin(), l.end()), l.end()) << "froxel " << i << " has a lamp twice";
         EXPECT_TRUE(std::all_of(l.begin(), powers, [&](uint32_t k) { return k < list.counts.cones; }));
         EXPECT_TRUE(std::all_of(powers, l.end(), [&](uint32_t k) {
             return k >= list.counts.cones && k < list.counts.cones + list.counts.powers;
@@ -107,9 +107,9 @@ std::pair<uint64_t, uint64_t> expect_superset(const Lists& lists, const LampList
         if (lists.overflowed[i] || lists.drawn[i] != reference::Drawn::Something) continue;
         const auto& got = lists.lamps[i];
         found += want[i].size(), listed += got.size();
-        for (uint32_t light : want[i])
-            if (!std::binary_search(got.begin(), got.end(), light) && missed++ == 0)
-                first = "froxel " + std::to_string(i) + " lacks light " + std::to_string(light);
+        for (uint32_t lamp : want[i])
+            if (!std::binary_search(got.begin(), got.end(), lamp) && missed++ == 0)
+                first = "froxel " + std::to_string(i) + " lacks lamp " + std::to_string(lamp);
     }
     EXPECT_EQ(missed, 0u) << first;
     return {found, listed};
@@ -122,8 +122,8 @@ TEST(Cluster, ListsEveryLampThatLightsTheFroxel) {
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {65, 64}, {300, 190}})
         for (uint32_t count : {1u, 64u}) {
             SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", " +
-                         std::to_string(count) + " lights");
-            const LampList list = street_lamps(half_and_half(count), 0.3f, extent.width + count);  // 17 m of reach
+                         std::to_string(count) + " lamps");
+            const LampList list = street_lamps(half_and_half(count), 0.3f, extent.width + count);  // light radius 17 m
             const Lists lists = cluster(rig, list, view_of(extent), {});
             expect_well_formed(lists, list);
             expect_superset(lists, list, extent, 5);
@@ -187,7 +187,7 @@ TEST(Cluster, NarrowBeamsAreFollowed) {
     expect_well_formed(lists, list);
     const auto [found, listed] = expect_superset(lists, list, extent, 3);
     EXPECT_GT(found, 200u);
-    EXPECT_LT(listed, lists.lamps.size() * 120 / 4) << "most lights are listed in few froxels";
+    EXPECT_LT(listed, lists.lamps.size() * 120 / 4) << "most lamps are listed in few froxels";
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -232,7 +232,7 @@ TEST(Cluster, ALampDarkerThanTheThresholdEverywhereIsNotListed) {
     PassRig rig;
     LampList list = street_lamps({1, 0, 0}, 1);
     list.lamps[0].position = {0, 0, -50};
-    list.lamps[0].intensity = 0.001f;  // 1 m of reach
+    list.lamps[0].intensity = 0.001f;  // light radius 1 m
     const Lists lists = cluster(rig, list, view_of({64, 64}), {.far = 100});
     for (uint32_t slice = 0; slice < lists.push.grid.slices; ++slice) {
         const double begin = reference::slice_depth(lists.push.grid, slice),

@@ -189,28 +189,28 @@ TEST(Composite, EveryKindOfDisplay) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// The operator without a curve passes lamps on as they are: so codes are exactly the nearest ones, for lamps that lie
+// The operator without a curve passes light on as it is: so codes are exactly the nearest ones, for lights that lie
 // densely over [0, 1], evenly and by decades, and one float below and above each light where a code begins.
 TEST(Composite, CodesAreTheNearest) {
     PassRig rig;
     for (Display display : every_kind_of_display()) {
         display.primaries = kRec709;
-        std::vector<float> lamps{0, -0.0f, 1};
+        std::vector<float> lights{0, -0.0f, 1};
         for (int i = 0; i <= 20000; ++i)
-            lamps.push_back(float(i) / 20000), lamps.push_back(std::pow(10.0f, -9 * float(i) / 20000));
+            lights.push_back(float(i) / 20000), lights.push_back(std::pow(10.0f, -9 * float(i) / 20000));
         const DisplayCurve curve(display);
         const double black = double(display.black), range = double(display.peak) - black;
         for (double code = 0.5; code < display.largest_code(); ++code) {
             const float at = float((curve.emitted(code / display.largest_code()) - black) / range);
-            for (float light : {std::nextafter(at, 0.0f), at, std::nextafter(at, 1.0f)}) lamps.push_back(light);
+            for (float light : {std::nextafter(at, 0.0f), at, std::nextafter(at, 1.0f)}) lights.push_back(light);
         }
-        lamps.resize((lamps.size() + 63) / 64 * 64, 0.5f);
-        Inputs in{{64, uint32_t(lamps.size() / 64)}, {}, {}, crooked_curve(display), display};
-        for (float light : lamps) in.scene.emplace_back(light, light, light, 1);
+        lights.resize((lights.size() + 63) / 64 * 64, 0.5f);
+        Inputs in{{64, uint32_t(lights.size() / 64)}, {}, {}, crooked_curve(display), display};
+        for (float light : lights) in.scene.emplace_back(light, light, light, 1);
         const auto got = composite(rig, in, shared::kToneLdr);
         size_t wrong = 0;
-        for (size_t i = 0; i < lamps.size(); ++i) {
-            const double want = reference::code(glm::dvec3(double(lamps[i])), display).x;
+        for (size_t i = 0; i < lights.size(); ++i) {
+            const double want = reference::code(glm::dvec3(double(lights[i])), display).x;
             // At the very edge, half a float of the light decides.
             const double doubt = want - std::floor(want) - 0.5;
             if (got[4 * i] != std::lround(want) && std::abs(doubt) > 1e-4) ++wrong;

@@ -50,11 +50,11 @@ Lamps many_lamps(uint32_t count, uint32_t seed) {
     Lamps lamps;
     for (uint32_t i = 0; i < count; ++i) {
         const float depth = 2 * std::pow(300.0f, unit(random));
-        Lamp light = lamp_with_opening(1000 * unit(random), 0.05 + 0.3 * unit(random), 0.05 + 0.3 * unit(random),
-                                       i % 2 == 0, i % 3 == 0 ? Lamp::Kind::Point : Lamp::Kind::CosinePower);
-        light.colour = glm::vec3(0.5f + unit(random), 0.5f + unit(random), 0.5f + unit(random));
+        Lamp lamp = lamp_with_opening(1000 * unit(random), 0.05 + 0.3 * unit(random), 0.05 + 0.3 * unit(random),
+                                      i % 2 == 0, i % 3 == 0 ? Lamp::Kind::Point : Lamp::Kind::CosinePower);
+        lamp.colour = glm::vec3(0.5f + unit(random), 0.5f + unit(random), 0.5f + unit(random));
         const glm::vec3 position(depth * 0.03f * normal(random), depth * 0.03f * normal(random), -depth);
-        lamps.add(light, aimed(position, {normal(random), normal(random), 0.2f + std::abs(normal(random))}));
+        lamps.add(lamp, aimed(position, {normal(random), normal(random), 0.2f + std::abs(normal(random))}));
     }
     return lamps;
 }

@@ -36,9 +36,9 @@ struct RoadSurface {
     double diffuse;  ///< Qd as maps are relative to it, sr^-1
 };
 
-/// What the light list and the G-buffer only point to.
+/// What the list of lamps and the G-buffer only point to.
 struct Measurements {
-    std::span<const MeasuredLamp> lamps;  ///< the maps of the light list, in its order
+    std::span<const MeasuredLamp> lamps;  ///< measured lamps of the list, in its order
     std::span<const RoadSurface> roads;
     std::span<const Retroreflector> sheets;  ///< classes of retroreflection
 };

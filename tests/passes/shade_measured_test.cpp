@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "places.h"
-#include "support/lights.h"
+#include "support/lamps.h"
 #include "support/noise.h"
 #include "support/shading.h"
 
@@ -54,8 +54,8 @@ struct Street {
         std::uniform_real_distribution<float> unit(0, 1);
         std::normal_distribution<float> normal;
         for (uint32_t i = 0; i < lamps; ++i) {
-            Lamp light{.kind = Lamp::Kind::Measured, .intensity = 0.2f + unit(random), .distribution = i % kinds};
-            scene.lamps.push_back(light);
+            Lamp lamp{.kind = Lamp::Kind::Measured, .intensity = 0.2f + unit(random), .distribution = i % kinds};
+            scene.lamps.push_back(lamp);
             Node node;
             node.lamp = i;
             scene.nodes.push_back(node);
@@ -74,7 +74,7 @@ struct Street {
             for (int c = 0; c < 3; ++c) axes[c] = glm::normalize(axes[c]);
             measured.push_back({&scene.distributions[i % kinds], axes, double(scene.lamps[i].intensity)});
         }
-        // Maps come third in the list.
+        // Tables come third in the list.
         const LampList more = street_lamps(others, 300, seed);
         list.lamps.insert(list.lamps.begin(), more.lamps.begin(), more.lamps.begin() + others.cones + others.powers);
         list.lamps.insert(list.lamps.end(), more.lamps.end() - others.directional, more.lamps.end());
@@ -144,7 +144,7 @@ TEST(ShadeMeasured, MatchesTheReferenceBesideEveryOtherKind) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Blocks so small that selection asks for a few rings and sectors of a map, and larger ones.
+// Blocks so small that light culling asks for a few rings and sectors of a table, and larger ones.
 TEST(ShadeMeasured, NoLampIsLostInTheDarkOfItsAxis) {
     PassRig rig;
     for (const VkExtent2D extent : {VkExtent2D{160, 100}, {64, 40}, {32, 20}})
@@ -160,7 +160,7 @@ TEST(ShadeMeasured, AThousandLampsOnRoadsEqualTheReference) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Maps have kinks at every node, where a polynomial that meets four pixels may be wrong by 3.5 times the tolerance
+// Tables have kinks at every node, where a polynomial that meets four pixels may be wrong by 3.5 times the tolerance
 // between them; hardly a pixel sees that of a lamp that gives most of its light.
 TEST(ShadeMeasured, ShadingWithSumsIsShadingLampByLamp) {
     PassRig rig;

@@ -1,4 +1,4 @@
-// Photometric shading, one pixel and one light after another. SPDX-License-Identifier: MIT
+// Photometric shading, one pixel and one lamp after another. SPDX-License-Identifier: MIT
 // L = sum_k E_k (rho lambert + f_specular) + ambient rho lambert + emission, E_k = I_k cos / d^2 (Petit, Bremond and
 // Vienne; Lambert 1760).
 #pragma once
@@ -80,38 +80,38 @@ struct Sheet {
     dvec3 base{0};
 };
 
-/// Adds one light. A lamp counts where it gives at least `threshold` lx on a surface facing it, or, where the surface
-/// is matt, on the surface itself; a directional light always does. Light that arrives from below the surface does not
+/// Adds one lamp. It counts where it gives at least `threshold` lx on a surface facing it, or, where the surface
+/// is matt, on the surface itself; a directional one always does. Light that arrives from below the surface does not
 /// count.
-inline void add_light(const shared::Lamp& light, LightKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
-                      double roughness, double threshold, Shaded& sum, const MeasuredLamp* measured = nullptr,
-                      const RoadSurface* road = nullptr, const Sheet& sheet = {}) {
+inline void add_lamp(const shared::Lamp& lamp, LampKind kind, dvec3 point, dvec3 n, dvec3 rho_lambert, dvec3 f0,
+                     double roughness, double threshold, Shaded& sum, const MeasuredLamp* measured = nullptr,
+                     const RoadSurface* road = nullptr, const Sheet& sheet = {}) {
     const dvec3 v = glm::normalize(-point);
-    const bool lamp = kind != LightKind::Directional;
-    const dvec3 path = lamp ? dvec3(light.position) - point : -dvec3(light.axis);
+    const bool placed = kind != LampKind::Directional;
+    const dvec3 path = placed ? dvec3(lamp.position) - point : -dvec3(lamp.axis);
     const double d = glm::length(path);
     if (!(d > 0)) return;
     const dvec3 l = path / d;
     // Positions are rounded relative to their distance from the eye, which weighs more the nearer the lamp is.
-    const double epsilon = 3e-7 * (lamp ? 1 + (glm::length(point) + glm::length(dvec3(light.position))) / d : 1);
-    const double cosine = glm::dot(dvec3(light.axis), -l), d2 = lamp ? d * d : 1.0;
-    const double e = (measured ? measured->intensity(-l) : intensity(light, kind, cosine)) / d2;
-    // The device takes angles from polynomials (glsl/maps.glsl): 6e-4 of the value, and 2^-24 of the largest beside an
-    // edge.
-    const double more = measured ? e * 1.0006 + light.intensity / d2 * std::exp2(-24)
-                                 : intensity(light, kind, std::min(cosine + epsilon, 1.0)) / d2 * (1 + 3 * epsilon);
-    const double less = measured ? e * 0.9994 - light.intensity / d2 * std::exp2(-24)
-                                 : intensity(light, kind, cosine - epsilon) / d2 * (1 - 3 * epsilon);
+    const double epsilon = 3e-7 * (placed ? 1 + (glm::length(point) + glm::length(dvec3(lamp.position))) / d : 1);
+    const double cosine = glm::dot(dvec3(lamp.axis), -l), d2 = placed ? d * d : 1.0;
+    const double e = (measured ? measured->intensity(-l) : intensity(lamp, kind, cosine)) / d2;
+    // The device takes angles from polynomials (glsl/tables.glsl): 6e-4 of the value, and 2^-24 of the largest beside
+    // an edge.
+    const double more = measured ? e * 1.0006 + lamp.intensity / d2 * std::exp2(-24)
+                                 : intensity(lamp, kind, std::min(cosine + epsilon, 1.0)) / d2 * (1 + 3 * epsilon);
+    const double less = measured ? e * 0.9994 - lamp.intensity / d2 * std::exp2(-24)
+                                 : intensity(lamp, kind, cosine - epsilon) / d2 * (1 - 3 * epsilon);
     const double nl = glm::dot(n, l);
     const double arriving = roughness < 1 ? 1 : std::max(nl, 0.0), blur = roughness < 1 ? 0 : epsilon;
-    const bool may_count = !lamp || std::max(more, less) * (arriving + blur) >= threshold;
-    const bool uncertain = lamp && std::min(more, less) * (arriving - blur) < threshold;
+    const bool may_count = !placed || std::max(more, less) * (arriving + blur) >= threshold;
+    const bool uncertain = placed && std::min(more, less) * (arriving - blur) < threshold;
     if (nl <= -epsilon || !may_count) return;
 
     if (road) {
-        const dvec3 reflected = dvec3(light.colour) * rho_lambert / road->diffuse;
+        const dvec3 reflected = dvec3(lamp.colour) * rho_lambert / road->diffuse;
         const ReflectionTable& table = road->table;
-        if (nl > 0 && (!lamp || e * arriving >= threshold))
+        if (nl > 0 && (!placed || e * arriving >= threshold))
             sum.luminance += reflected * e * road_coefficient(table, n, l, v);
         const double largest = *std::max_element(table.r.begin(), table.r.end()) * 145;
         const double value = nl > epsilon ? road_coefficient(table, n, l, v) : largest;
@@ -125,23 +125,23 @@ inline void add_light(const shared::Lamp& light, LightKind kind, dvec3 point, dv
         return;
     }
     const Specular s = specular(n, l, v, f0, roughness, epsilon);
-    const dvec3 reflected = dvec3(light.colour) * (rho_lambert + s.value);
-    if (nl > 0 && (!lamp || e * arriving >= threshold)) sum.luminance += reflected * e * nl;
+    const dvec3 reflected = dvec3(lamp.colour) * (rho_lambert + s.value);
+    if (nl > 0 && (!placed || e * arriving >= threshold)) sum.luminance += reflected * e * nl;
     const double brightest = std::max(more, less);
     if (sheet.retroreflector && nl > 0) {
         const Returned back = returned(*sheet.retroreflector, n, l, v, epsilon);
-        const dvec3 colour = sheet.base * dvec3(light.colour);
-        if (!lamp || e * arriving >= threshold) sum.luminance += colour * e * back.value;
+        const dvec3 colour = sheet.base * dvec3(lamp.colour);
+        if (!placed || e * arriving >= threshold) sum.luminance += colour * e * back.value;
         sum.rounding +=
             colour * ((uncertain ? brightest : std::abs(more - less)) * back.value + brightest * back.rounding);
     }
     sum.rounding +=
         uncertain ? reflected * brightest * std::max(nl, 0.0) : reflected * std::abs(more - less) * std::max(nl, 0.0);
     sum.rounding += glm::abs(reflected) * brightest * epsilon +
-                    dvec3(light.colour) * s.value * brightest * std::max(nl, 0.0) * s.relative_rounding;
+                    dvec3(lamp.colour) * s.value * brightest * std::max(nl, 0.0) * s.relative_rounding;
 }
 
-/// One pixel, in the view frame with the eye at the origin. Lights sorted as p.lamps counts them.
+/// One pixel, in the view frame with the eye at the origin. Lamps sorted as p.lamps counts them.
 inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<const shared::Lamp> lamps,
                     const shared::ShadePush& p, const Measurements& measurements = {}) {
     const double depth = texel.surface.z;
@@ -160,8 +160,8 @@ inline Shaded shade(const SurfaceTexel& texel, shared::uvec2 pixel, std::span<co
     Shaded sum;
     const size_t tables = size_t(p.lamps.cones) + p.lamps.powers, count = tables + p.lamps.tables + p.lamps.directional;
     for (size_t i = 0; i < count; ++i)
-        add_light(lamps[i], kind_of(i, p.lamps), point, n, rho_lambert, f0, roughness, p.threshold, sum,
-                  kind_of(i, p.lamps) == LightKind::Map ? &measurements.lamps[i - tables] : nullptr, road, sheet);
+        add_lamp(lamps[i], kind_of(i, p.lamps), point, n, rho_lambert, f0, roughness, p.threshold, sum,
+                 kind_of(i, p.lamps) == LampKind::Table ? &measurements.lamps[i - tables] : nullptr, road, sheet);
     // A metal reflects its base colour too.
     sum.luminance += dvec3(p.ambient) * base * double(p.lambert) *
                      (road ? road_in_diffuse(-roughness, glm::dot(n, glm::normalize(-point))) : 1);

@@ -1,5 +1,5 @@
 // Shading of retroreflective surfaces, against the reference. SPDX-License-Identifier: MIT
-#include "support/lights.h"
+#include "support/lamps.h"
 #include "support/noise.h"
 #include "support/shading.h"
 

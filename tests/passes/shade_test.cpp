@@ -1,6 +1,6 @@
-// Shading on the device: against the reference, and clustered against every light. SPDX-License-Identifier: MIT
+// Shading on the device: against the reference, and clustered against every lamp. SPDX-License-Identifier: MIT
 #include "base/error.h"
-#include "support/lights.h"
+#include "support/lamps.h"
 #include "support/noise.h"
 #include "support/shading.h"
 
@@ -61,7 +61,7 @@ TEST(Shade, ThePapersLambertAndTheLdrBaselinesLimit) {
 }
 
 // Issue: within float rounding at 1, 64, 1,000 and 4,000 lamps. Lists are ascending, so that both add the same numbers
-// in the same order, and a light that is not listed adds exact zeros: the results are the same bits.
+// in the same order, and a lamp that is not listed adds exact zeros: the results are the same bits.
 TEST(Shade, ClusteredIsEveryLight) {
     PassRig rig;
     const Surfaces s = street({200, 130}, 4);
@@ -157,7 +157,7 @@ TEST(Shade, AsManyLampsAsThereMayBe) {
     const Shot single = shade(rig, s, one, {}, {});
     for (bool all_lamps : {false, true}) {
         const Shot got = shade(rig, s, most, {}, {.all_lamps = all_lamps});
-        // 1e-3: the sum of 21,000 equal floats; a lost light in a thousand would show.
+        // 1e-3: the sum of 21,000 equal floats; a lost lamp in a thousand would show.
         for (size_t i = 0; i < s.surface.size(); ++i)
             ASSERT_NEAR(got.pixels[i].y / single.pixels[i].y / kMost, 1, 1e-3) << "pixel " << i;
     }

@@ -1,4 +1,4 @@
-// From scene luminance to displayed light, for bright.comp and composite.comp.
+// From scene luminance to displayed light, for bloom_bright.comp and composite.comp.
 
 #include "shared/composite.h"
 #include "shared/photometry.h"

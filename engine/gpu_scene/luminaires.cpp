@@ -50,8 +50,8 @@ std::optional<Aim> aim_of(const Lamp& lamp, float dimming, const std::vector<Dis
         if (!(glm::length(column) > 0)) return std::nullopt;  // a node squeezed flat has no direction left
     const dvec3 right = glm::normalize(columns[0]), up = glm::normalize(columns[1]), back = glm::normalize(columns[2]);
     const double distance = glm::length(centre);
-    const double reach = std::hypot(lamp.opening.length, lamp.opening.width) / 2;
-    if (!(distance > 1e-6) || -centre.z + reach < view.near) return std::nullopt;
+    const double half_diagonal = std::hypot(lamp.opening.length, lamp.opening.width) / 2;
+    if (!(distance > 1e-6) || -centre.z + half_diagonal < view.near) return std::nullopt;
     const dvec3 to_eye = -centre / distance;
     const dvec3 direction(glm::dot(right, to_eye), glm::dot(up, to_eye), glm::dot(back, to_eye));
     const double candela = double(dimming) * luminous_intensity(lamp, distributions, direction);
@@ -62,7 +62,7 @@ std::optional<Aim> aim_of(const Lamp& lamp, float dimming, const std::vector<Dis
 constexpr double kLantern = 0.4;  // m
 
 struct Seen {
-    Silhouette outline;
+    Silhouette silhouette;
     double luminance;  // cd/m^2
     double hidden;     // m
 };
@@ -75,16 +75,17 @@ Seen look_at(const Lamp& lamp, const Aim& aim, const View& view) {
                 along = glm::cross(normal, across);
     const LuminousOpening& o = lamp.opening;
     const Opening opening{aim.centre, 0.5 * o.length * across, 0.5 * o.width * along, o.round};
-    Silhouette outline = project(opening, view, kSmallest);
-    const double luminance = aim.candela / (o.area() * glm::dot(normal, aim.to_eye) * outline.widening);
-    const double reach = std::hypot(o.length, o.width) / 2;
-    return {std::move(outline), luminance, -aim.centre.z * 0.999 - kHousing - reach - double(shared::kLuminaireEdge)};
+    Silhouette silhouette = project(opening, view, kSmallest);
+    const double luminance = aim.candela / (o.area() * glm::dot(normal, aim.to_eye) * silhouette.widening);
+    const double half_diagonal = std::hypot(o.length, o.width) / 2;
+    return {std::move(silhouette), luminance,
+            -aim.centre.z * 0.999 - kHousing - half_diagonal - double(shared::kLuminaireEdge)};
 }
 
-// Part of a lamp's light that its outline in the picture has.
+// Part of a lamp's light that its silhouette in the picture has.
 double part_inside(const Seen& seen, const Aim& aim, const View& view) {
     double twice_area = 0;
-    const std::vector<dvec2>& v = seen.outline.vertices;
+    const std::vector<dvec2>& v = seen.silhouette.vertices;
     for (size_t i = 0; i < v.size(); ++i) {
         const dvec2 a = v[i], b = v[(i + 1) % v.size()];
         twice_area += a.x * b.y - b.x * a.y;
@@ -93,7 +94,7 @@ double part_inside(const Seen& seen, const Aim& aim, const View& view) {
     const double cosine = aim.to_eye.z;
     const double drawn = seen.luminance * std::abs(twice_area) / 2 * pixel.x * pixel.y * cosine * cosine * cosine;
     const double part = drawn / (aim.candela / (aim.distance * aim.distance));
-    return part > 0.99 ? 1 : part;  // outlines are good to so much
+    return part > 0.99 ? 1 : part;  // silhouettes are good to so much
 }
 
 // Part of a lamp without opening that the picture shows, as if what is modelled of it were kLantern wide: it comes in
@@ -146,7 +147,7 @@ void for_each_tile(const std::vector<dvec2>& polygon, VkExtent2D image, Touch to
     }
 }
 
-// The shader's loops over the outlines of a tile end by themselves well before lavapipe silently ends them, after
+// The shader's loops over the silhouettes of a tile end by themselves well before lavapipe silently ends them, after
 // 65,535 turns of the lanes of two tiles together.
 constexpr uint64_t kMostTurns = 30000;
 
@@ -157,14 +158,14 @@ struct Touched {
 };
 
 void add(LuminaireList& list, std::vector<Touched>& touched, const Seen& seen, glm::vec3 luminance, VkExtent2D image) {
-    const std::vector<dvec2>& polygon = seen.outline.vertices;
+    const std::vector<dvec2>& polygon = seen.silhouette.vertices;
     dvec2 low = polygon.front();
     for (const dvec2& v : polygon) low = glm::min(low, v);
     const dvec2 origin = glm::floor(low);
     const auto source = uint32_t(list.luminaires.size());
     list.luminaires.push_back(
-        {luminance, float(seen.hidden), glm::vec2(origin), float(list.outline.size()), float(polygon.size())});
-    for (const dvec2& v : polygon) list.outline.emplace_back(v - origin);
+        {luminance, float(seen.hidden), glm::vec2(origin), float(list.silhouettes.size()), float(polygon.size())});
+    for (const dvec2& v : polygon) list.silhouettes.emplace_back(v - origin);
     for_each_tile(polygon, image, [&](uint32_t column, uint32_t row, bool whole) {
         touched.push_back({uint64_t(row) << 32 | column, source | (whole ? shared::kCoversTile : 0)});
     });
@@ -202,10 +203,10 @@ LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, c
         }
         const Seen seen = look_at(lamp, *aim, view);
         if (std::isfinite(seen.luminance)) dazzles(part_inside(seen, *aim, view));
-        if (seen.outline.vertices.empty()) continue;
+        if (seen.silhouette.vertices.empty()) continue;
         const glm::vec3 c = lamp.colour;
         const double largest = std::max({c.r, c.g, c.b, 1e-6f});
-        const double scale = white ? *white / (largest * seen.outline.widening) : seen.luminance;
+        const double scale = white ? *white / (largest * seen.silhouette.widening) : seen.luminance;
         const glm::vec3 luminance(scale * dvec3(c));
         if (std::isfinite(luminance.r + luminance.g + luminance.b)) add(list, touched, seen, luminance, view.extent);
     }

@@ -22,7 +22,7 @@ constexpr double kGrazing = 0.0871557427476582;  // sin 5 deg
 /// How far in front of a lamp a surface must lie to hide it, besides half the opening's diagonal and 0.1 % of the
 /// distance: its own glass and housing do not. m
 constexpr double kHousing = 0.25;
-/// Half the width of the smallest outline that is drawn, px. Smaller openings are widened to it, their luminance
+/// Half the width of the smallest silhouette that is drawn, px. Smaller openings are widened to it, their luminance
 /// lowered by as much: so their light moves from pixel to pixel without a step, and its centre is where the lamp is.
 constexpr double kSmallest = 0.5;
 
@@ -38,10 +38,11 @@ struct GlareSource {
     double inside;
 };
 
-/// Outlines in the image, and which squares of kLuminaireTile px they touch.
+/// Silhouettes in the image, and which squares of kLuminaireTile px they touch.
 struct LuminaireList {
     std::vector<shared::Luminaire> luminaires;
-    std::vector<glm::vec2> outline;          ///< px from the source's origin, x right and y down, of positive area
+    std::vector<glm::vec2>
+        silhouettes;  ///< vertices of all, px from the source's origin, x right and y down, of positive area
     std::vector<glm::uvec4> tiles;           ///< column, row, first entry, entries; row by row
     std::vector<uint32_t> entries;           ///< a source, ascending in a tile, and kCoversTile
     std::vector<GlareSource> glare_sources;  ///< all lamps before the eye, in the order of the scene

@@ -71,24 +71,24 @@ Silhouette project(const Opening& opening, const View& view, double smallest) {
     const double radius = std::max(glm::length(extent(opening.across)), glm::length(extent(opening.along)));
     const double pixels = before ? radius : 1e4;
 
-    Silhouette outline;
+    Silhouette silhouette;
     const std::vector<dvec3> seen = cut(corners(opening, pixels), [&](dvec3 v) { return -v.z - view.near; });
-    for (const dvec3& point : seen) outline.vertices.push_back(pixel(point));
+    for (const dvec3& point : seen) silhouette.vertices.push_back(pixel(point));
     if (before) {
         const dmat2 widen = widening_of(extent(opening.across), extent(opening.along), smallest);
         const dvec2 centre = pixel(opening.centre);
-        for (dvec2& v : outline.vertices) v = centre + widen * (v - centre);
-        outline.widening = glm::determinant(widen);
+        for (dvec2& v : silhouette.vertices) v = centre + widen * (v - centre);
+        silhouette.widening = glm::determinant(widen);
     }
     const dvec2 size(view.extent.width, view.extent.height);
     for (const int c : {0, 1}) {
-        outline.vertices = cut(outline.vertices, [c](dvec2 v) { return v[c]; });
-        outline.vertices = cut(outline.vertices, [c, size](dvec2 v) { return size[c] - v[c]; });
+        silhouette.vertices = cut(silhouette.vertices, [c](dvec2 v) { return v[c]; });
+        silhouette.vertices = cut(silhouette.vertices, [c, size](dvec2 v) { return size[c] - v[c]; });
     }
-    const double area = outline.vertices.empty() ? 0 : signed_area(outline.vertices);
-    if (area < 0) std::reverse(outline.vertices.begin(), outline.vertices.end());
-    if (!(std::abs(area) > 1e-9) || !std::isfinite(outline.widening)) outline.vertices.clear();
-    return outline;
+    const double area = silhouette.vertices.empty() ? 0 : signed_area(silhouette.vertices);
+    if (area < 0) std::reverse(silhouette.vertices.begin(), silhouette.vertices.end());
+    if (!(std::abs(area) > 1e-9) || !std::isfinite(silhouette.widening)) silhouette.vertices.clear();
+    return silhouette;
 }
 
 }  // namespace vesper

@@ -1,4 +1,4 @@
-// Flat openings as convex outlines in the image, in double. SPDX-License-Identifier: MIT
+// Flat openings as convex polygons in the image, in double. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>

@@ -10,7 +10,7 @@ constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32B32A32_SFLOAT;      ///< nor
 constexpr VkFormat kEmissionFormat = VK_FORMAT_R32G32B32A32_SFLOAT;     ///< cd/m^2 RGB
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kSceneFormat = VK_FORMAT_R32G32B32A32_SFLOAT;         ///< 1e-4 to 1e8 cd/m^2 in one frame
-constexpr VkFormat kGlareFormat = VK_FORMAT_R16G16B16A16_SFLOAT;         ///< displayed light, relative
+constexpr VkFormat kBloomFormat = VK_FORMAT_R16G16B16A16_SFLOAT;         ///< displayed light, relative
 constexpr VkFormat kDisplayFormat = VK_FORMAT_R32_UINT;                  ///< codes, see add_composite
 constexpr VkFormat kDisplayLightFormat = VK_FORMAT_R32G32B32A32_SFLOAT;  ///< cd/m^2 RGB
 

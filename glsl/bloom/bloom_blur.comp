@@ -4,14 +4,14 @@
 
 // One direction of a separable Gaussian. Outside the image there is no light.
 
-#include "shared/composite.h"
+#include "shared/bloom.h"
 
 layout(local_size_x = 64) in;
 
 layout(binding = 0, rgba16f) readonly uniform image2D from;
 layout(binding = 1) uniform samplerBuffer weights;
 layout(binding = 2, rgba16f) writeonly uniform image2D to;
-layout(push_constant, scalar) uniform Push { BlurPush push; };
+layout(push_constant, scalar) uniform Push { BloomBlurPush push; };
 
 void main() {
     const ivec2 at = ivec2(gl_GlobalInvocationID.xy), size = ivec2(push.size);

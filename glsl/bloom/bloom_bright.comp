@@ -2,8 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-// LDR glare, first step: what of the displayed light reaches the threshold, averaged over blocks of pixels.
+// Bloom, first step: what of the displayed light reaches the threshold, averaged over blocks of pixels.
 
+#include "shared/bloom.h"
 #include "tone.glsl"
 
 layout(local_size_x = 64) in;
@@ -11,7 +12,7 @@ layout(local_size_x = 64) in;
 layout(binding = 0, rgba32f) readonly uniform image2D scene_image;
 layout(binding = 1) uniform samplerBuffer curve;
 layout(binding = 2, rgba16f) writeonly uniform image2D bright_image;
-layout(push_constant, scalar) uniform Push { BrightPush push; };
+layout(push_constant, scalar) uniform Push { BloomBrightPush push; };
 
 void main() {
     const uvec2 at = gl_GlobalInvocationID.xy;
@@ -19,8 +20,8 @@ void main() {
     const Tone tone = read_tone(curve);
     vec3 sum = vec3(0.0);
     float pixels = 0.0;
-    for (uint i = 0u; i < kGlareShrink * kGlareShrink; ++i) {
-        const uvec2 pixel = kGlareShrink * at + uvec2(i % kGlareShrink, i / kGlareShrink);
+    for (uint i = 0u; i < kBloomShrink * kBloomShrink; ++i) {
+        const uvec2 pixel = kBloomShrink * at + uvec2(i % kBloomShrink, i / kBloomShrink);
         if (any(greaterThanEqual(pixel, push.size))) continue;
         const vec3 rgb = perceived(tone, imageLoad(scene_image, ivec2(pixel)).rgb);
         const vec3 light = displayed(curve, tone, rgb, rgb, rec709_gamut(), push.display_low, push.display_high);

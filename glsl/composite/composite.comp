@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 
-// Composite: scene luminance through the tone curve, LDR glare, display codes.
+// Composite: scene luminance through the tone curve, bloom, display codes.
 
 #include "encode.glsl"
 #include "show.glsl"
@@ -20,7 +20,7 @@ void main() {
         const uvec2 at = gl_GlobalInvocationID.xy * uvec2(1u, kRows) + uvec2(0u, row);
         const vec3 rgb = perceived(tone, scene_light(at));
         vec3 light = displayed(curve, tone, rgb, of_the_display(rgb), gamut, push.display_low, push.display_high);
-        if (kLdrGlare != 0u) light = clamp(light + of_the_display(glare_light(at)), 0.0, 1.0);
+        if (kBloom != 0u) light = clamp(light + of_the_display(bloom_light(at)), 0.0, 1.0);
         const uint codes = codes_of(cells, push.encode, kBlueFirst == 0u ? light : light.bgr);
         if (all(lessThan(at, push.size))) imageStore(display_image, ivec2(at), uvec4(codes));
     }

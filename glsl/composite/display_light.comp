@@ -14,7 +14,7 @@ void main() {
     [[unroll]] for (uint row = 0u; row < kRows; ++row) {
         const uvec2 at = gl_GlobalInvocationID.xy * uvec2(1u, kRows) + uvec2(0u, row);
         vec3 light = displayed_unbounded(curve, tone, perceived(tone, scene_light(at)), push.display_low, push.display_high);
-        if (kLdrGlare != 0u) light += glare_light(at);
+        if (kBloom != 0u) light += bloom_light(at);
         light = push.display_low + (push.display_high - push.display_low) * light;
         if (all(lessThan(at, push.size))) imageStore(light_image, ivec2(at), vec4(light, 1.0));
     }

@@ -1,9 +1,10 @@
 // A pixel of the scene as displayed light, for composite.comp and display_light.comp.
 
+#include "shared/bloom.h"
 #include "tone.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 1) const uint kLdrGlare = 0u;
+layout(constant_id = 1) const uint kBloom = 0u;
 layout(constant_id = 2) const uint kRows = 1u;       // pixels of a column that one invocation does
 layout(constant_id = 3) const uint kPrimaries = 0u;  // the display has others than Rec. 709
 
@@ -24,8 +25,8 @@ Gamut gamut_of_the_display() {
 
 vec3 scene_light(uvec2 at) { return imageLoad(scene_image, ivec2(at)).rgb; }
 
-vec3 glare_light(uvec2 at) {
-    // The glare texture covers whole blocks: its last row and column may reach beyond the image.
+vec3 bloom_light(uvec2 at) {
+    // The bloom texture covers whole blocks: its last row and column may reach beyond the image.
     const vec2 blocks = vec2(textureSize(bloom, 0));
-    return push.bloom * textureLod(bloom, (vec2(at) + 0.5) / (float(kGlareShrink) * blocks), 0.0).rgb;
+    return push.bloom * textureLod(bloom, (vec2(at) + 0.5) / (float(kBloomShrink) * blocks), 0.0).rgb;
 }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-// Adds lamps seen directly: luminance times the part of each pixel that the outline of their opening covers, exactly, where
+// Adds lamps seen directly: luminance times the part of each pixel that the silhouette of their opening covers, exactly, where
 // no surface hides it. An invocation owns its pixel and takes the lamps in their order: sums are the same on every run.
 
 #include "shared/luminaire.h"
@@ -12,13 +12,13 @@ layout(local_size_x = kLuminaireTile, local_size_y = kLuminaireTile) in;
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1, rgba32f) uniform image2D scene_image;
 layout(binding = 2) uniform samplerBuffer luminaires;
-layout(binding = 3) uniform samplerBuffer outline;
+layout(binding = 3) uniform samplerBuffer silhouettes;
 layout(binding = 4) uniform usamplerBuffer tiles;
 layout(binding = 5) uniform usamplerBuffer entries;
 layout(push_constant, scalar) uniform Push { LuminairesPush push; };
 
 // The area between an edge and the line x = 0 within the unit square: the integral of clamp(x, 0, 1) over the edge's y,
-// signed by its direction. Over a closed outline that adds up to the area inside, and every term is without cancellation.
+// signed by its direction. Over a closed silhouette that adds up to the area inside, and every term is without cancellation.
 float area_left_of(vec2 a, vec2 b) {
     const float low = clamp(a.y, 0.0, 1.0), high = clamp(b.y, 0.0, 1.0), run = b.y - a.y;
     const float slope = run == 0.0 ? 0.0 : (b.x - a.x) / run;
@@ -30,12 +30,12 @@ float area_left_of(vec2 a, vec2 b) {
     return mean * (high - low);
 }
 
-// Covered part of the pixel whose corner lies at `corner` from the outline's origin.
+// Covered part of the pixel whose corner lies at `corner` from the silhouette's origin.
 float coverage(vec2 corner, int first, int vertices) {
     float area = 0.0;
-    vec2 a = texelFetch(outline, first + max(vertices, 1) - 1).xy - corner;
+    vec2 a = texelFetch(silhouettes, first + max(vertices, 1) - 1).xy - corner;
     for (int i = 0; i < vertices; ++i) {
-        const vec2 b = texelFetch(outline, first + i).xy - corner;
+        const vec2 b = texelFetch(silhouettes, first + i).xy - corner;
         area += area_left_of(a, b);
         a = b;
     }

@@ -8,11 +8,11 @@ const uint kLuminaireTile = 4u;            // px, side of the squares that openi
 const uint kTilesPerRow = 1024u;        // workgroups in a row of the dispatch
 const float kLuminaireEdge = 0.1f;         // m of depth over which a surface in front of an opening begins to hide it
 
-// One opening: a convex outline in the image. Read as a texel buffer of two rgba32f texels per source.
+// One opening: a convex silhouette in the image. Read as a texel buffer of two rgba32f texels per source.
 struct Luminaire {
-    vec3 luminance;  // cd/m^2 RGB, of what the outline covers
+    vec3 luminance;  // cd/m^2 RGB, of what the silhouette covers
     float hidden;    // depth, m: surfaces nearer than this hide it, those farther by kLuminaireEdge do not
-    vec2 origin;     // px, whole: the outline's vertices count from here
+    vec2 origin;     // px, whole: the silhouette's vertices count from here
     float first;     // of its vertices
     float vertices;  // how many
 };

@@ -19,12 +19,12 @@ using glm::dvec2, glm::dvec3;
 
 const View kView = View::symmetric({1680, 1050}, 0.6f, glm::mat4(1));
 
-std::vector<dvec2> outline_of(const LuminaireList& list, size_t source = 0) {
+std::vector<dvec2> silhouette_of(const LuminaireList& list, size_t source = 0) {
     const shared::Luminaire& s = list.luminaires.at(source);
-    std::vector<dvec2> outline;
+    std::vector<dvec2> silhouette;
     for (size_t i = 0; i < size_t(s.vertices); ++i)
-        outline.push_back(dvec2(s.origin) + dvec2(list.outline[size_t(s.first) + i]));
-    return outline;
+        silhouette.push_back(dvec2(s.origin) + dvec2(list.silhouettes[size_t(s.first) + i]));
+    return silhouette;
 }
 
 /// Illuminance at the eye of one lamp: luminance times solid angle, lx.
@@ -35,7 +35,7 @@ double at_eye(const Lamp& lamp, const glm::mat4& world, std::vector<Distribution
     const LuminaireList list = lamps.seen(kView);
     if (list.luminaires.empty()) return 0;
     const double luminance = glm::dot(dvec3(list.luminaires[0].luminance), dvec3(0.212639, 0.715169, 0.072192));
-    return luminance * reference::solid_angle(kView, outline_of(list));
+    return luminance * reference::solid_angle(kView, silhouette_of(list));
 }
 
 TEST(Luminaires, LuminanceIsIntensityOverArea) {
@@ -88,7 +88,7 @@ TEST(Luminaires, HoldsTheIlluminanceOfEveryKind) {
         const double wanted = luminous_intensity(lamp, distributions, glm::transpose(axes) * eye) / glm::dot(eye, eye);
         const double got = at_eye(lamp, world, distributions);
         drawn += got > 0;
-        // Of second order in size over distance; a widened outline lies a little off the centre's solid angle.
+        // Of second order in size over distance; a widened silhouette lies a little off the centre's solid angle.
         EXPECT_NEAR(got, wanted, 5e-4 * wanted) << "kind " << k % 5 << " at " << depth << " m";
     }
     EXPECT_GT(drawn, 150);
@@ -128,7 +128,7 @@ TEST(Luminaires, SmallOnesAreWidenedToAPixel) {
     const LuminaireList list = lamps.seen(kView);
     const auto extent = [&](size_t source) {
         dvec2 low(1e9), high(-1e9);
-        for (const dvec2 v : outline_of(list, source)) low = glm::min(low, v), high = glm::max(high, v);
+        for (const dvec2 v : silhouette_of(list, source)) low = glm::min(low, v), high = glm::max(high, v);
         return high - low;
     };
     EXPECT_NEAR(extent(0).x, 1, 1e-5);
@@ -214,7 +214,7 @@ TEST(Luminaires, TheLdrBaselineDrawsWhite) {
     EXPECT_NEAR(lamps.seen(kView, 1.0f).luminaires.at(0).luminance.g, 0.05, 1e-6);
 }
 
-// Every tile that an outline touches lists it, in order; those it covers say so.
+// Every tile that a silhouette touches lists it, in order; those it covers say so.
 TEST(Luminaires, TilesListWhatTouchesThem) {
     std::mt19937 random(9);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -243,7 +243,7 @@ TEST(Luminaires, TilesListWhatTouchesThem) {
                 double area = 0;
                 for (uint32_t y = 0; y < kTile; ++y)
                     for (uint32_t x = 0; x < kTile; ++x)
-                        area += reference::area_within(outline_of(list, s), column * kTile + x, row * kTile + y);
+                        area += reference::area_within(silhouette_of(list, s), column * kTile + x, row * kTile + y);
                 const bool plain = std::count(entries.begin(), entries.end(), s);
                 const bool whole = std::count(entries.begin(), entries.end(), s | shared::kCoversTile);
                 if (area > 1e-6) {

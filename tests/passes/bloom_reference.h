@@ -20,9 +20,9 @@ inline dvec3 glaring(dvec3 shown, double threshold) {
     return std::max({shown.x, shown.y, shown.z}) >= threshold ? shown : dvec3(0);
 }
 
-/// Means of what glares over blocks of kGlareShrink^2 pixels, those that exist.
+/// Means of what glares over blocks of kBloomShrink^2 pixels, those that exist.
 inline LightImage bright(const LightImage& shown, double threshold) {
-    const uint32_t n = shared::kGlareShrink;
+    const uint32_t n = shared::kBloomShrink;
     LightImage out{(shown.width + n - 1) / n, (shown.height + n - 1) / n, {}};
     for (uint32_t y = 0; y < out.height; ++y)
         for (uint32_t x = 0; x < out.width; ++x) {
@@ -38,7 +38,7 @@ inline LightImage bright(const LightImage& shown, double threshold) {
 
 /// Standard deviation of the Gaussian in texels of the small image.
 inline double small_sigma(double sigma_degrees, double degrees_per_pixel) {
-    return sigma_degrees / degrees_per_pixel / shared::kGlareShrink;
+    return sigma_degrees / degrees_per_pixel / shared::kBloomShrink;
 }
 
 /// Weights 0 .. radius of a Gaussian cut at 3 sigma; the two-sided sum is 1.

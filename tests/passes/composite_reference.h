@@ -3,6 +3,7 @@
 #pragma once
 
 #include "passes/operators/operator_reference.h"
+#include "shared/bloom.h"
 #include "shared/composite.h"
 #include "shared/gamut.h"
 #include "vision/display.h"
@@ -234,9 +235,9 @@ dvec3 composite_light(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uin
     const glm::dmat3 to_own = from_rec709(display.primaries);
     dvec3 shown = displayed(light, tone, curve, double(display.low()), double(display.high()), to_own);
     if (!frame.bloom.empty()) {
-        const double shrink = shared::kGlareShrink;
-        const uint32_t width = (frame.size.x + shared::kGlareShrink - 1) / shared::kGlareShrink;
-        const uint32_t height = (frame.size.y + shared::kGlareShrink - 1) / shared::kGlareShrink;
+        const double shrink = shared::kBloomShrink;
+        const uint32_t width = (frame.size.x + shared::kBloomShrink - 1) / shared::kBloomShrink;
+        const uint32_t height = (frame.size.y + shared::kBloomShrink - 1) / shared::kBloomShrink;
         shown += to_own * (frame.gain * bilinear(frame.bloom, width, height, (dvec2(pixel) + 0.5) / shrink - 0.5));
     }
     return shown;

@@ -33,7 +33,7 @@ CompositeInputs inputs_of(PassRig& rig, FrameGraph& graph, const Inputs& in) {
     CompositeInputs inputs{rig.image(graph, "scene", kSceneFormat, in.extent, in.scene),
                            graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT)};
     if (!in.glare.empty())
-        inputs.bloom = rig.image(graph, "glare", kGlareFormat, quarter(in.extent), to_halves(in.glare));
+        inputs.bloom = rig.image(graph, "glare", kBloomFormat, quarter(in.extent), to_halves(in.glare));
     return inputs;
 }
 

@@ -1,5 +1,5 @@
 // Lamps seen directly, pixel by pixel and lamp by lamp. SPDX-License-Identifier: MIT
-// Coverage by cutting the outline with the pixel's four sides (Sutherland and Hodgman 1974), solid angles in closed
+// Coverage by cutting the silhouette with the pixel's four sides (Sutherland and Hodgman 1974), solid angles in closed
 // form.
 #pragma once
 
@@ -53,10 +53,10 @@ struct Added {
 inline Added added(const LuminaireList& list, uint32_t x, uint32_t y, double depth) {
     Added sum;
     for (const shared::Luminaire& s : list.luminaires) {
-        std::vector<dvec2> outline;
+        std::vector<dvec2> silhouette;
         for (size_t i = 0; i < size_t(s.vertices); ++i)
-            outline.push_back(dvec2(s.origin) + dvec2(list.outline[size_t(s.first) + i]));
-        const double area = area_within(outline, x, y), visible = seen(depth, s.hidden);
+            silhouette.push_back(dvec2(s.origin) + dvec2(list.silhouettes[size_t(s.first) + i]));
+        const double area = area_within(silhouette, x, y), visible = seen(depth, s.hidden);
         sum.luminance += dvec3(s.luminance) * (area * visible);
         // Coordinates of up to some hundred px from the pixel; depths against the edge over which they hide.
         const double hiding = visible > 0 && visible < 1 ? depth * 1.2e-7 / double(shared::kLuminaireEdge) : 0;
@@ -76,13 +76,13 @@ inline double solid_angle(const View& view, uint32_t x, uint32_t y) {
                     corner_solid_angle(a.x, a.y));
 }
 
-/// Solid angle of an outline, sr: the sum of its triangles (Van Oosterom and Strackee 1983).
-inline double solid_angle(const View& view, std::span<const dvec2> outline) {
+/// Solid angle of a silhouette, sr: the sum of its triangles (Van Oosterom and Strackee 1983).
+inline double solid_angle(const View& view, std::span<const dvec2> silhouette) {
     const dvec2 scale(view.ray_scale()), offset(view.ray_offset());
     const auto ray = [&](dvec2 p) { return glm::normalize(dvec3(scale * p + offset, -1)); };
     double sum = 0;
-    for (size_t i = 1; i + 1 < outline.size(); ++i) {
-        const dvec3 a = ray(outline[0]), b = ray(outline[i]), c = ray(outline[i + 1]);
+    for (size_t i = 1; i + 1 < silhouette.size(); ++i) {
+        const dvec3 a = ray(silhouette[0]), b = ray(silhouette[i]), c = ray(silhouette[i + 1]);
         sum += 2 * std::atan2(glm::dot(a, glm::cross(b, c)), 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
     }
     return std::abs(sum);

@@ -36,16 +36,16 @@ Resource add_bloom(const FrameContext& frame, Resource scene, Resource curve, ui
     FrameGraph& graph = frame.graph;
     const View& view = frame.view;
     const Kernel& blur = frame.kernels.get(kBloomBlur);
-    constexpr uint32_t shrink = shared::kGlareShrink;
+    constexpr uint32_t shrink = shared::kBloomShrink;
     const VkExtent2D small{(view.extent.width + shrink - 1) / shrink, (view.extent.height + shrink - 1) / shrink};
     const glm::uvec2 size{small.width, small.height};
-    const Shape shape = image_shape(kGlareFormat, small);
+    const Shape shape = image_shape(kBloomFormat, small);
     const Groups groups = cover(small.width, small.height, blur.group[0], blur.group[1]);
 
     const Resource bright = graph.transient("bright", shape);
     graph.dispatch(
         "bright", frame.kernels.get(kBloomBright, {tone}), {load(scene), sample(curve), store(bright)},
-        shared::BrightPush{
+        shared::BloomBrightPush{
             {view.extent.width, view.extent.height}, size, display.low(), display.high(), settings.threshold},
         groups);
 
@@ -53,12 +53,12 @@ Resource add_bloom(const FrameContext& frame, Resource scene, Resource curve, ui
         gaussian(std::max(1e-3, settings.sigma_degrees / view.degrees_per_pixel() / shrink));
     const uint32_t radius = uint32_t(weights.size()) - 1;
     const Resource taps = graph.upload("glare weights", weights, VK_FORMAT_R32_SFLOAT);
-    const Resource across = graph.transient("glare across", shape), glare = graph.transient("glare", shape);
+    const Resource across = graph.transient("glare across", shape), bloom = graph.transient("glare", shape);
     graph.dispatch("glare across", blur, {load(bright), sample(taps), store(across)},
-                   shared::BlurPush{size, {1, 0}, radius}, groups);
-    graph.dispatch("glare", blur, {load(across), sample(taps), store(glare)}, shared::BlurPush{size, {0, 1}, radius},
-                   groups);
-    return glare;
+                   shared::BloomBlurPush{size, {1, 0}, radius}, groups);
+    graph.dispatch("glare", blur, {load(across), sample(taps), store(bloom)},
+                   shared::BloomBlurPush{size, {0, 1}, radius}, groups);
+    return bloom;
 }
 
 }  // namespace vesper

@@ -1,8 +1,8 @@
-// The glare of the LDR baseline. SPDX-License-Identifier: MIT
+// Bloom, the glare of the LDR baseline. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "render/frame_context.h"
-#include "shared/composite.h"
+#include "shared/bloom.h"
 #include "vision/display.h"
 
 namespace vesper {

@@ -17,12 +17,12 @@ Resource add_luminaires(const FrameContext& frame, Resource scene, Resource surf
     const VkExtent2D image = frame.view.extent;
     const auto tiles = uint32_t(list.tiles.size());
     const Resource luminaires = graph.upload("luminaires", list.luminaires, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource outline = graph.upload("luminaire outlines", list.outline, VK_FORMAT_R32G32_SFLOAT);
+    const Resource silhouettes = graph.upload("luminaire silhouettes", list.silhouettes, VK_FORMAT_R32G32_SFLOAT);
     const Resource touched = graph.upload("luminaire tiles", list.tiles, VK_FORMAT_R32G32B32A32_UINT);
     const Resource entries = graph.upload("luminaire entries", list.entries, VK_FORMAT_R32_UINT);
     graph.dispatch(
         "luminaires", frame.kernels.get(kLuminaires),
-        {load(surface), update(scene), sample(luminaires), sample(outline), sample(touched), sample(entries)},
+        {load(surface), update(scene), sample(luminaires), sample(silhouettes), sample(touched), sample(entries)},
         shared::LuminairesPush{{image.width, image.height}, tiles},
         {std::min(tiles, shared::kTilesPerRow), (tiles + shared::kTilesPerRow - 1) / shared::kTilesPerRow, 1});
     return scene;

@@ -7,8 +7,8 @@
 namespace vesper {
 
 /// Adds to the scene image, in place, the lamps of `list` seen directly: their luminance times the part of each pixel
-/// that their outline covers, exactly, where no `surface` (GBuffer::surface) lies before them. However small a lamp is,
-/// the sum over the image of luminance times solid angle is I / d^2. Without luminaires returns `scene`.
+/// that their silhouette covers, exactly, where no `surface` (GBuffer::surface) lies before them. However small a lamp
+/// is, the sum over the image of luminance times solid angle is I / d^2. Without luminaires returns `scene`.
 Resource add_luminaires(const FrameContext& frame, Resource scene, Resource surface, const LuminaireList& list);
 
 }  // namespace vesper

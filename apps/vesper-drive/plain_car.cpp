@@ -4,13 +4,14 @@
 #include <array>
 #include <numbers>
 
+#include "base/angle.h"
 #include "photometry/standard_lamps.h"
 #include "scene/colour.h"
 
 namespace vesper {
 namespace {
 
-constexpr float kRadiansPerDegreeF = std::numbers::pi_v<float> / 180;
+constexpr float kRadiansPerDegreeF = float(kRadiansPerDegree);
 constexpr float kHalogen = 3800;  // K
 const glm::vec3 kRed(1, 0.02f, 0.01f), kAmber(1, 0.38f, 0);
 

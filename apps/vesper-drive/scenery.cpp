@@ -11,6 +11,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "io/atomic_file.h"
 #include "road_world.h"
@@ -264,7 +265,7 @@ SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seco
 
 View Scenery::view(const SceneFrame& frame, const std::vector<traffic::Actor>& actors, const DriveSettings& settings,
                    VkExtent2D extent) const {
-    constexpr double kFov = 40 * std::numbers::pi / 180;
+    constexpr double kFov = 40 * kRadiansPerDegree;
     const double asked = settings.vertical_fov() * std::numbers::pi / 180, fov = asked > 0 ? asked : kFov;
     const traffic::Actor& me = actors.front();
     const glm::dvec3 ahead(-std::sin(me.yaw), 0, -std::cos(me.yaw)), up(0, 1, 0);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/angle.h"
 #include "roads/layout_scene.h"
 #include "scene/colour.h"
 
@@ -76,10 +76,10 @@ View road_overview(const roads::RoadLayout& layout, const roads::LaneObserver& o
 }
 
 View road_glare_view(glm::dvec3 eye) {
-    const double degree = std::numbers::pi / 180, roof = std::tan(21 * degree);
+    const double roof = std::tan(21 * kRadiansPerDegree);
     View view;
     view.extent = {1600, 400};
-    view.world_to_view = glm::rotate(glm::mat4(1), float(degree), glm::vec3(1, 0, 0)) * along_road(eye);
+    view.world_to_view = glm::rotate(glm::mat4(1), float(kRadiansPerDegree), glm::vec3(1, 0, 0)) * along_road(eye);
     view.tangent_low = {-1.2f, float(roof - 0.6)};
     view.tangent_high = {1.2f, float(roof)};
     view.near = kNear;

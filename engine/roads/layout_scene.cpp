@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "roads/road_lighting.h"
+#include "base/angle.h"
 #include "scene/colour.h"
 
 namespace vesper::roads {
@@ -52,7 +52,7 @@ void add_observers(Scene& scene, const LoadedLayout& layout) {
         const std::string name = "observer lane " + std::to_string(observer.lane);
         Node node{.name = name};
         node.translation = glm::vec3(layout_to_world(vector_of(observer.eye)));
-        node.rotation = glm::angleAxis(static_cast<float>(-std::numbers::pi / 180), glm::vec3(1, 0, 0));
+        node.rotation = glm::angleAxis(static_cast<float>(-kRadiansPerDegree), glm::vec3(1, 0, 0));
         node.camera = static_cast<uint32_t>(scene.cameras.size());
         scene.cameras.push_back({.name = name, .vertical_fov = 0.35f});
         scene.nodes.push_back(node);
@@ -65,7 +65,7 @@ Scene bare_road(const LoadedLayout& layout, double last) {
     scene.reflection_tables.push_back(layout.surface);
     Material material{.name = "road " + layout.surface.name};
     const auto reflectance =
-        static_cast<float>(std::min(std::numbers::pi * diffuse_luminance_coefficient(extended(layout.surface)), 1.0));
+        static_cast<float>(std::min(kPi * diffuse_luminance_coefficient(extended(layout.surface)), 1.0));
     material.base_colour = {reflectance, reflectance, reflectance, 1};
     material.reflection_table = 0;
     scene.materials.push_back(material);

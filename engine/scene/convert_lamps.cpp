@@ -1,10 +1,10 @@
 // Lamps on nodes: photometry rules to KHR_lights_punctual and EXT_lights_ies. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "base/angle.h"
 #include "photometry/ies.h"
 #include "scene/convert_rules.h"
 #include "scene/lamp.h"
@@ -200,10 +200,10 @@ std::string describe(const Conversion& conversion, const LampRule& rule, size_t 
                decimal(lamp.intensity * luminous_flux(measured.distribution)) + " lm each" +
                seen(lamp, measured.distribution);
     }
-    const double degrees = 180 / std::numbers::pi;
     std::string lobe = "point";
     if (lamp.kind == Lamp::Kind::Spot)
-        lobe = "spot " + decimal(lamp.inner_cone * degrees) + "-" + decimal(lamp.outer_cone * degrees) + " deg";
+        lobe = "spot " + decimal(lamp.inner_cone * kDegreesPerRadian) + "-" +
+               decimal(lamp.outer_cone * kDegreesPerRadian) + " deg";
     if (lamp.kind == Lamp::Kind::CosinePower) lobe = "cosine power " + decimal(lamp.exponent);
     return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + lobe + ", " +
            decimal(lamp.intensity) + " cd, " + (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "scene/colour.h"
 #include "scene/gltf_reader.h"
 
@@ -26,7 +26,7 @@ void normalise(Lamp& lamp, double stored_intensity, glm::vec3 stored_colour, con
 }
 
 void read_cones(Lamp& lamp, const JsonValue& source) {
-    constexpr double kRight = std::numbers::pi / 2;
+    constexpr double kRight = kPi / 2;
     // Blender and others write a hair more than a right angle.
     lamp.outer_cone =
         static_cast<float>(std::min(source.number_or("outerConeAngle", kRight / 2, 0, kRight + 0.01), kRight));
@@ -54,7 +54,7 @@ Lamp read_light(GltfReader& reader, const JsonValue& source) {
     normalise(lamp, source.number_or("intensity", 1, 0), colour ? rgb_of(*colour) : glm::vec3(1), source);
     if (const auto spot = source.find("spot"); spot && lamp.kind == Lamp::Kind::Spot) {
         read_cones(lamp, *spot);
-        constexpr double kNarrow = 0.5 * std::numbers::pi / 180;
+        constexpr double kNarrow = 0.5 * kRadiansPerDegree;
         if (lamp.outer_cone < kNarrow)
             reader.notes.add(
                 "a spot light of less than 0.5 degrees to either side gives more light than it says, and wider");

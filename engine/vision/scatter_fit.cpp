@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Cholesky>
 
+#include "base/angle.h"
 #include "vision/scatter_balance.h"
 #include "vision/scatter_cascade.h"
 
@@ -23,7 +23,7 @@ constexpr int kMostNodes =
 constexpr int kPhases = 8;  // places of the eye's axis within a texel of the top
 constexpr int kAzimuths = 12;
 constexpr double kNarrow =
-    36 * std::numbers::pi / 180;  // from the axis to a corner: kernels of 5 x 5 follow pixels of that shape
+    36 * kRadiansPerDegree;  // from the axis to a corner: kernels of 5 x 5 follow pixels of that shape
 constexpr int kNearTaps = kScatterNear;
 constexpr int kFarTaps = 16;  // texels of the top beyond which light is counted, not added up
 // Texels outside the picture that light may be to go wholly into the margin of a level. One level lower it has then no
@@ -128,7 +128,7 @@ std::vector<ivec2> sample_offsets(int levels) {
     const double last = (kNearTaps + 2) * std::exp2(levels);
     for (double r = 4.2, turn = 0; r < last; r *= 1.17, turn += 0.618)
         for (int i = 0; i < kAzimuths; ++i) {
-            const double azimuth = 2 * std::numbers::pi * (i + turn) / kAzimuths;
+            const double azimuth = kTwoPi * (i + turn) / kAzimuths;
             all.push_back(ivec2(glm::round(r * dvec2(std::cos(azimuth), std::sin(azimuth)))));
         }
     return all;
@@ -280,7 +280,7 @@ double steradians_per_area(dvec2 t) {
 double degrees_between(dvec2 a, dvec2 b) {
     const dvec2 d = b - a;
     const double cross = a.x * b.y - a.y * b.x;
-    return std::atan2(std::sqrt(glm::dot(d, d) + cross * cross), 1 + glm::dot(a, b)) * 180 / std::numbers::pi;
+    return std::atan2(std::sqrt(glm::dot(d, d) + cross * cross), 1 + glm::dot(a, b)) * 180 / kPi;
 }
 
 double light_within(const EyeScatter& psf, dvec2 point, dvec2 low, dvec2 high) {
@@ -291,7 +291,7 @@ double light_within(const EyeScatter& psf, dvec2 point, dvec2 low, dvec2 high) {
                 other = glm::cross(middle, side);
     double sum = 0;
     for (int i = 0; i < kCircles; ++i) {
-        const double azimuth = 2 * std::numbers::pi * (i + 0.5) / kCircles;
+        const double azimuth = kTwoPi * (i + 0.5) / kCircles;
         const dvec3 e = std::cos(azimuth) * side + std::sin(azimuth) * other;
         const dvec2 along(e.x * middle.z - middle.x * e.z, e.y * middle.z - middle.y * e.z);
         const dvec2 side_met = glm::max(dvec2(along.x < 0 ? -low.x : high.x, along.y < 0 ? -low.y : high.y), 0.0) /

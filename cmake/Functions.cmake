@@ -96,14 +96,21 @@ function(vesper_warnings target)
 endfunction()
 
 # vesper_precompile(<target> <header>...)
-#   For shorter builds. Compiles <header>..., and the headers of the standard library that most files use, once for all files of <target>. Every
+# vesper_precompile(<target> FROM <other>)
+#   For shorter builds. Compiles the headers that most files use, and <header>..., once for all files of <target>; or
+#   takes those of <other>, whose code must be as position-independent and whose -O0, or not, must be the same. Every
 #   file still includes what it uses: with VESPER_PRECOMPILE=OFF all compile without.
 option(VESPER_PRECOMPILE "Precompile headers" ON)
 function(vesper_precompile target)
-    if(VESPER_PRECOMPILE)
+    cmake_parse_arguments(PARSE_ARGV 1 "" "" FROM "")
+    if(NOT VESPER_PRECOMPILE)
+    elseif(_FROM)
+        target_precompile_headers(${target} REUSE_FROM ${_FROM})
+    else()
         target_precompile_headers(${target} PRIVATE
             <algorithm> <array> <cmath> <cstdint> <cstdio> <cstring> <filesystem> <functional> <limits> <map> <memory> <numbers>
-            <optional> <random> <set> <span> <string> <string_view> <tuple> <utility> <vector> ${ARGN})
+            <optional> <random> <set> <span> <string> <string_view> <tuple> <utility> <vector>
+            <vulkan/vulkan.h> <glm/glm.hpp> <glm/gtc/quaternion.hpp> <nlohmann/json.hpp> ${_UNPARSED_ARGUMENTS})
     endif()
     vesper_unity(${target})
 endfunction()

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::acuity_reference_test {
 namespace {
 
 TEST(AcuityReference, EvenFieldsStayAndLuminanceIsBlurredToGrey) {
@@ -29,4 +29,4 @@ TEST(AcuityReference, LevelsAreLinearBetweenTheMiddlesOfTexels) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::acuity_reference_test

@@ -8,7 +8,7 @@
 #include "support/texels.h"
 #include "support/tones.h"
 
-namespace vesper::test {
+namespace vesper::test::acuity_test {
 namespace {
 
 std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const View& view,
@@ -79,4 +79,4 @@ TEST(Acuity, WithoutLossThereIsNoPass) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::acuity_test

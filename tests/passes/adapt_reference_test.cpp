@@ -7,7 +7,7 @@
 
 #include "support/histograms.h"
 
-namespace vesper::reference {
+namespace vesper::reference::adapt_reference_test {
 namespace {
 
 /// One frame whose foveal level is one texel of `luminance`.
@@ -261,4 +261,4 @@ TEST(AdaptReference, OnlyTheShapeOfTheHistogramMatters) {
     for (size_t i = 0; i <= kBins; ++i) EXPECT_DOUBLE_EQ(a.curve.node[i], b.curve.node[i]);
 }
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::adapt_reference_test

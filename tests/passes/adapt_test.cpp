@@ -8,7 +8,7 @@
 #include "support/compare.h"
 #include "support/texels.h"
 
-namespace vesper::test {
+namespace vesper::test::adapt_test {
 namespace {
 
 // ln of display luminance, absolute: sums over 256 steps in float. An eighth of the smallest step of an 8-bit display
@@ -405,4 +405,4 @@ TEST(Adapt, GoesOnFromAnyStateBitByBit) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::adapt_test

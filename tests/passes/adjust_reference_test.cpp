@@ -5,7 +5,7 @@
 
 #include "support/histograms.h"
 
-namespace vesper::reference {
+namespace vesper::reference::adjust_reference_test {
 namespace {
 
 /// Infinite lambda: Ward's own fixed point.
@@ -159,4 +159,4 @@ TEST(AdjustReference, FewBinsGiveTheCurveOfMany) {
     }
 }
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::adjust_reference_test

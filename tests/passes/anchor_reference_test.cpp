@@ -5,7 +5,7 @@
 
 #include "support/histograms.h"
 
-namespace vesper::reference {
+namespace vesper::reference::anchor_reference_test {
 namespace {
 
 /// A display of 300 cd/m^2 and hardly any black, so that closed forms need not know it; Weber's law holds at 0.3 of its
@@ -248,4 +248,4 @@ TEST(AnchorReference, AnAdaptedEyeIsAdaptedToWhatItLooksAt) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::anchor_reference_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::bands_reference_test {
 namespace {
 
 constexpr ThresholdBreaks kBreaks = ThresholdBreaks::continuous();
@@ -119,4 +119,4 @@ TEST(BandsReference, NoLightIsGrey) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::bands_reference_test

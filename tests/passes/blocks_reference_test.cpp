@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::blocks_reference_test {
 namespace {
 
 SurfaceTexel texel(double metallic, double roughness, dvec3 normal = {0, 1, 0}, double depth = 10) {
@@ -84,4 +84,4 @@ TEST(BlocksReference, LightOnAPlaneIsTheInverseSquareLaw) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::blocks_reference_test

@@ -13,7 +13,7 @@
 #include "support/noise.h"
 #include "support/shading.h"
 
-namespace vesper::test {
+namespace vesper::test::blocks_test {
 namespace {
 
 constexpr float kTolerance = 1e-3f;
@@ -288,4 +288,4 @@ TEST(Blocks, WhatIsNoNumberStaysInItsPixel) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::blocks_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::bloom_reference_test {
 namespace {
 
 LightImage black(uint32_t width, uint32_t height) {
@@ -110,4 +110,4 @@ TEST(BloomReference, TheSmallGlareIsNearTheDefinition) {
 TEST(BloomReference, SigmaIsGivenAsAnAngle) { EXPECT_DOUBLE_EQ(small_sigma(0.35, 0.035), 2.5); }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::bloom_reference_test

@@ -6,7 +6,7 @@
 #include "support/texels.h"
 #include "support/tones.h"
 
-namespace vesper::test {
+namespace vesper::test::bloom_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -190,4 +190,4 @@ TEST(Bloom, WithoutGainThereIsNoPass) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::bloom_test

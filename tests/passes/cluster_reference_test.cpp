@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::cluster_reference_test {
 namespace {
 
 constexpr shared::uvec2 kSize{150, 97};  // 3 x 2 tiles, the last ones cut
@@ -201,4 +201,4 @@ TEST(ClusterReference, ListsHoldEveryLampThatLightsAPointThere) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::cluster_reference_test

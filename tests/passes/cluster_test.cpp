@@ -10,7 +10,7 @@
 #include "support/noise.h"
 #include "support/texels.h"
 
-namespace vesper::test {
+namespace vesper::test::cluster_test {
 namespace {
 
 struct Lists {
@@ -278,4 +278,4 @@ TEST(Cluster, RefusesImpossibleSettings) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::cluster_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::colours_reference_test {
 namespace {
 
 TEST(ColoursReference, MeansAreOfTheFinitePixelsOfATile) {
@@ -25,4 +25,4 @@ TEST(ColoursReference, ATileWithoutFinitePixelsIsBlack) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::colours_reference_test

@@ -7,7 +7,7 @@
 #include "support/compare.h"
 #include "support/texels.h"
 
-namespace vesper::test {
+namespace vesper::test::colours_test {
 namespace {
 
 TEST(Colours, AreMeansOfTheFinitePixelsOfTiles) {
@@ -46,4 +46,4 @@ TEST(Colours, WhereTheyAreNotWantedThereIsNoPass) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::colours_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::composite_reference_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
@@ -382,4 +382,4 @@ TEST(CompositeReference, BloomIsAdded) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::composite_reference_test

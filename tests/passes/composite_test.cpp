@@ -7,7 +7,7 @@
 #include "support/texels.h"
 #include "support/tones.h"
 
-namespace vesper::test {
+namespace vesper::test::composite_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
@@ -269,4 +269,4 @@ TEST(Composite, GreyStaysGreyAndRampsStayMonotone) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::composite_test

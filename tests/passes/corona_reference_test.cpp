@@ -8,7 +8,7 @@
 
 #include "gpu_scene/eye_corona.h"
 
-namespace vesper::test {
+namespace vesper::test::corona_reference_test {
 namespace {
 
 using glm::dvec2, glm::dvec3;
@@ -82,4 +82,4 @@ TEST(CoronaReference, AddsNoLight) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::corona_reference_test

@@ -7,7 +7,7 @@
 #include "support/texels.h"
 #include "support/tones.h"
 
-namespace vesper::test {
+namespace vesper::test::corona_test {
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::vec4;
@@ -148,4 +148,4 @@ TEST(Corona, WithoutAPatternThereIsNoPass) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::corona_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::test {
+namespace vesper::test::daylight_reference_test {
 namespace {
 
 using glm::dvec3;
@@ -68,4 +68,4 @@ TEST(DaylightReference, FadesIntoTheTunnel) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::daylight_reference_test

@@ -7,7 +7,7 @@
 #include "support/noise.h"
 #include "support/shading.h"
 
-namespace vesper::test {
+namespace vesper::test::daylight_test {
 namespace {
 
 using glm::dvec3;
@@ -109,4 +109,4 @@ TEST(Daylight, WithoutTunnelsThereIsNoPass) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::daylight_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::eye_scatter_reference_test {
 namespace {
 
 /// The driver's camera of the street: 36.9 degrees in height.
@@ -247,4 +247,4 @@ TEST(ScatterFit, BlocksStandForPixelsFarAway) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::eye_scatter_reference_test

@@ -8,7 +8,7 @@
 #include "support/texels.h"
 #include "support/tones.h"
 
-namespace vesper::test {
+namespace vesper::test::eye_scatter_test {
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::ivec2;
@@ -182,4 +182,4 @@ TEST(EyeScatter, WithoutAFitThereIsNoPass) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::eye_scatter_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::gbuffer_reference_test {
 namespace {
 
 /// 64 x 64 pixels, 90 degrees each way.
@@ -177,4 +177,4 @@ TEST(GbufferReference, EdgesAreInDoubtAndInsidesAreNot) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::gbuffer_reference_test

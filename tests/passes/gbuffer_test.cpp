@@ -12,7 +12,7 @@
 #include "support/scene_geometry.h"
 #include "support/texels.h"
 
-namespace vesper::test {
+namespace vesper::test::gbuffer_test {
 namespace {
 
 struct Layers {
@@ -415,4 +415,4 @@ TEST(Gbuffer, AnEmptySceneIsSky) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::gbuffer_test

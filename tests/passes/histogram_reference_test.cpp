@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::histogram_reference_test {
 namespace {
 
 /// 100 bins of a tenth of a decade from 1e-4 to 1e6 cd/m^2. One vote per pixel.
@@ -125,4 +125,4 @@ TEST(HistogramReference, AdmitsRoundingAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::histogram_reference_test

@@ -8,7 +8,7 @@
 #include "support/compare.h"
 #include "support/texels.h"
 
-namespace vesper::test {
+namespace vesper::test::histogram_test {
 namespace {
 
 // Part of a bin by which a texel's position may be off: ln and the bin's position, up to 256, in float.
@@ -216,4 +216,4 @@ TEST(Histogram, RefusesImpossibleSettings) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::histogram_test

@@ -8,7 +8,7 @@
 
 #include "support/sources.h"
 
-namespace vesper::test {
+namespace vesper::test::luminaires_reference_test {
 namespace {
 
 using glm::dvec2, glm::dvec3;
@@ -87,4 +87,4 @@ TEST(LuminairesReference, TheImageHoldsTheIlluminance) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::luminaires_reference_test

@@ -8,7 +8,7 @@
 #include "support/sources.h"
 #include "support/texels.h"
 
-namespace vesper::test {
+namespace vesper::test::luminaires_test {
 namespace {
 
 using glm::dvec2, glm::dvec3;
@@ -215,4 +215,4 @@ TEST(Luminaires, WithoutLampsThereIsNoPass) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::luminaires_test

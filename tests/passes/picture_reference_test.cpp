@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::test {
+namespace vesper::test::picture_reference_test {
 namespace {
 
 TEST(PictureReference, IsLinear) {
@@ -16,4 +16,4 @@ TEST(PictureReference, IsLinear) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::picture_reference_test

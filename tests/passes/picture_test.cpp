@@ -10,7 +10,7 @@
 #include "render/passes/picture.h"
 #include "support/texels.h"
 
-namespace vesper::test {
+namespace vesper::test::picture_test {
 namespace {
 
 /// An image that no graph knows of.
@@ -133,4 +133,4 @@ TEST(Picture, ImagesOfOthersAreReadOrWrittenNotBoth) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::picture_test

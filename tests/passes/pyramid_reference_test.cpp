@@ -7,7 +7,7 @@
 
 #include "shared/photometry.h"
 
-namespace vesper::reference {
+namespace vesper::reference::pyramid_reference_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
@@ -115,4 +115,4 @@ TEST(PyramidReference, CoveredPixelsAddUpToTheImage) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::pyramid_reference_test

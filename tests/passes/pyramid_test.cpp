@@ -7,7 +7,7 @@
 #include "support/compare.h"
 #include "support/texels.h"
 
-namespace vesper::test {
+namespace vesper::test::pyramid_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
@@ -113,4 +113,4 @@ TEST(Pyramid, FovealTexelIsNearestToADegree) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::pyramid_test

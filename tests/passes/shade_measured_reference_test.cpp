@@ -5,7 +5,7 @@
 
 #include "passes/shade_reference.h"
 
-namespace vesper::reference {
+namespace vesper::reference::shade_measured_reference_test {
 namespace {
 
 const dvec3 kUp(0, 1, 0);
@@ -91,4 +91,4 @@ TEST(ShadeMeasuredReference, ALampsFrameTurnsWithIt) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::shade_measured_reference_test

@@ -9,7 +9,7 @@
 #include "support/noise.h"
 #include "support/shading.h"
 
-namespace vesper::test {
+namespace vesper::test::shade_measured_test {
 namespace {
 
 const std::filesystem::path kData = std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry";
@@ -186,4 +186,4 @@ TEST(ShadeMeasured, ShadingWithSumsIsShadingLampByLamp) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::shade_measured_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::reference {
+namespace vesper::reference::shade_reference_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -202,4 +202,4 @@ TEST(ShadeReference, TheInverseSquareLawHasNoWindow) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::shade_reference_test

@@ -3,7 +3,7 @@
 #include "support/noise.h"
 #include "support/shading.h"
 
-namespace vesper::test {
+namespace vesper::test::shade_retro_test {
 namespace {
 
 const std::vector<Retroreflector> kClasses{retroreflective_class("RA1"),
@@ -125,4 +125,4 @@ TEST(ShadeRetro, NeighboursAreUntouched) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::shade_retro_test

@@ -4,7 +4,7 @@
 #include "support/noise.h"
 #include "support/shading.h"
 
-namespace vesper::test {
+namespace vesper::test::shade_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
@@ -297,4 +297,4 @@ TEST(Shade, ANormalOfNoLengthCostsItsNeighboursNoLight) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::shade_test

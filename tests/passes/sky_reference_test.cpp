@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper::test {
+namespace vesper::test::sky_reference_test {
 namespace {
 
 using glm::dvec3;
@@ -74,4 +74,4 @@ TEST(SkyReference, CodesOfMaterialsAreNotMetals) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::sky_reference_test

@@ -10,7 +10,7 @@
 #include "support/noise.h"
 #include "support/shading.h"
 
-namespace vesper::test {
+namespace vesper::test::sky_test {
 namespace {
 
 /// A night sky: dim, brighter towards the horizon, with a town's lamps in it.
@@ -151,4 +151,4 @@ TEST(Sky, WithoutASkyThereIsNoPass) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::sky_test

@@ -6,7 +6,7 @@
 
 #include "support/operator_chain.h"
 
-namespace vesper::reference {
+namespace vesper::reference::devlin_test {
 namespace {
 
 /// The settings of the paper, and what a frame makes of them.
@@ -142,9 +142,9 @@ TEST(Devlin, HasTheLimitsOfThePaper) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::devlin_test
 
-namespace vesper::test {
+namespace vesper::test::devlin_test {
 namespace {
 
 TEST(Devlin, TheDeviceEqualsTheReference) {
@@ -157,4 +157,4 @@ TEST(Devlin, TheDeviceEqualsTheReference) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::devlin_test

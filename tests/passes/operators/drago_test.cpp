@@ -6,7 +6,7 @@
 
 #include "support/operator_chain.h"
 
-namespace vesper::reference {
+namespace vesper::reference::drago_test {
 namespace {
 
 /// Eq. 4: displayed luminance over white of luminance `l`; `average` is the log average, `most` the largest luminance.
@@ -58,9 +58,9 @@ TEST(Drago, HasTheLimitsOfThePaper) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::drago_test
 
-namespace vesper::test {
+namespace vesper::test::drago_test {
 namespace {
 
 TEST(Drago, TheDeviceEqualsTheReference) {
@@ -72,4 +72,4 @@ TEST(Drago, TheDeviceEqualsTheReference) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::drago_test

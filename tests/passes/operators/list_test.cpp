@@ -13,7 +13,7 @@
 
 #include "places.h"
 
-namespace vesper::test {
+namespace vesper::test::list_test {
 namespace {
 
 /// "`--key`, `--white`", by the name of an operator.
@@ -87,4 +87,4 @@ TEST(Operators, SettingsThatContradictEachOtherAreRefused) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::list_test

@@ -7,7 +7,7 @@
 
 #include "support/operator_chain.h"
 
-namespace vesper::reference {
+namespace vesper::reference::neutral_test {
 namespace {
 
 /// Light of a colour, both 1 for white.
@@ -57,9 +57,9 @@ TEST(Neutral, CompressesTowardsWhite) {
 }
 
 }  // namespace
-}  // namespace vesper::reference
+}  // namespace vesper::reference::neutral_test
 
-namespace vesper::test {
+namespace vesper::test::neutral_test {
 namespace {
 
 TEST(Neutral, TheDeviceEqualsTheReference) {
@@ -70,4 +70,4 @@ TEST(Neutral, TheDeviceEqualsTheReference) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::neutral_test

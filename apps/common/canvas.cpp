@@ -7,9 +7,9 @@
 
 #include <cairo.h>
 
-#include "arguments.h"
 #include "base/error.h"
 #include "io/image_file.h"
+#include "print.h"
 
 namespace vesper {
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <optional>
 
@@ -16,8 +18,13 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "help.h"
-#include "io/atomic_file.h"
+#include "io/file_gate.h"
+#include "io/named_file.h"
+#include "io/temporary.h"
+#include "own_data.h"
+#include "print.h"
 
 namespace vesper {
 namespace {
@@ -32,10 +39,28 @@ void keep_freed_memory() {
 #endif
 }
 
+extern "C" void end_of_signal(int number) {
+    remove_temporaries();
+    std::raise(number);  // whose action is the system's again
+}
+
+// A signal that ends the program leaves no temporary file. A file that grows beyond a limit is an error of writing.
+void handle_signals() {
+    std::signal(SIGXFSZ, SIG_IGN);
+    for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGILL, SIGABRT, SIGBUS, SIGFPE, SIGSEGV, SIGPIPE, SIGALRM,
+                             SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU}) {
+        struct sigaction action {};
+        if (::sigaction(number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;  // somebody else's
+        action.sa_handler = end_of_signal;
+        action.sa_flags = int(SA_RESETHAND);
+        ::sigaction(number, &action, nullptr);
+    }
+}
+
 /// Returns true if everything printed was written; prints the reason to standard error otherwise.
 bool output_ended(const std::string& program) {
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
-    std::fprintf(stderr, "%s: standard output: %s\n", program.c_str(), std::strerror(errno));
+    print_error(program, std::string("standard output: ") + std::strerror(errno));
     return false;
 }
 
@@ -131,6 +156,23 @@ Option Command::add_option(const std::string& names, const std::string& help) {
 Option Command::add_flag(const std::string& names, bool& value, const std::string& help) {
     return Option(app_->add_flag(names, value, help));
 }
+void Command::add_allow_outside() {
+    const auto folders = std::make_shared<std::vector<std::unique_ptr<const AllowedFolder>>>();
+    const CLI::callback_t allow = [folders](const CLI::results_t& given) {
+        for (const std::string& value : given) {
+            const std::string folder = value.empty() || value == "{}" ? "/" : value;  // CLI11 says "{}" for no value
+            if (!std::filesystem::is_directory(folder))
+                throw Error("--allow-outside " + one_line(folder) + ": there is no such folder");
+            folders->push_back(std::make_unique<const AllowedFolder>(folder));
+        }
+        return true;
+    };
+    app_->add_option("--allow-outside", allow,
+                     "Read files that the scene names outside of its folder: those in FOLDER, or all; may be repeated")
+        ->type_name("FOLDER")
+        ->expected(0, 1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
 Command Command::add_command(const std::string& name, const std::string& help) {
     return Command(app_->add_subcommand(name, help));
 }
@@ -177,6 +219,14 @@ void Program::version(const std::string& text) { app_->set_version_flag("--versi
 
 int Program::run(int argc, char** argv) {
     keep_freed_memory();
+    handle_signals();
+    const FileGate gate;
+    std::optional<AllowedFolder> own;  // scenes of our own share lamps
+    try {
+        own.emplace(own_data());
+    } catch (const Error&) {
+        // There are none.
+    }
     const std::string name = app_->get_name();
     try {
         app_->parse(argc, argv);
@@ -191,13 +241,13 @@ int Program::run(int argc, char** argv) {
         const std::vector<std::string> unknown = app_->remaining(true);
         if (error.get_name() == "RequiredError" && !unknown.empty()) message = "there is no " + unknown.front();
         std::replace(message.begin(), message.end(), '\n', ' ');
-        std::fprintf(stderr, "%s: %s (--help shows what is possible)\n", name.c_str(), one_line(message, 1000).c_str());
+        print_error(name, one_line(message, 1000) + " (--help shows what is possible)");
         return kBadInput;
     } catch (const Error& error) {
-        std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
+        print_error(name, error.what());
         return kBadInput;
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "%s: out of memory\n", name.c_str());
+        print_error(name, "out of memory");
         return kBadInput;
     }
     return 0;

@@ -97,6 +97,8 @@ public:
     /// Without a variable: see Option::results().
     Option add_option(const std::string& names, const std::string& help);
     Option add_flag(const std::string& names, bool& value, const std::string& help);
+    /// --allow-outside, for commands that read scenes: opens folders to the files that they name (AllowedFolder).
+    void add_allow_outside();
     Command add_command(const std::string& name, const std::string& help);
     void requires_command();
     void footer(const std::string& text);

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <set>
 
-#include "arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/luminance.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
+#include "print.h"
 #include "tone_arguments.h"
 
 namespace vesper {

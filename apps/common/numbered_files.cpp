@@ -4,9 +4,9 @@
 #include <charconv>
 #include <filesystem>
 
-#include "arguments.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "print.h"
 
 namespace vesper {
 

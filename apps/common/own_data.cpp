@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 
 namespace vesper {
 namespace {

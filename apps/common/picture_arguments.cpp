@@ -7,9 +7,9 @@
 #include <optional>
 #include <sstream>
 
-#include "arguments.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "print.h"
 #include "vision/relative_picture.h"
 
 namespace vesper {

@@ -4,6 +4,8 @@
 
 #include <cstdio>
 
+#include "base/one_line.h"
+
 namespace vesper {
 
 Progress::Progress(std::string what, unsigned total)
@@ -19,7 +21,7 @@ void Progress::step() {
     constexpr unsigned kWidth = 30;
     const unsigned filled = kWidth * done_ / total_;
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    std::fprintf(stderr, "\r%s [%s%s] %u/%u, %.0f s left ", what_.c_str(), std::string(filled, '#').c_str(),
+    std::fprintf(stderr, "\r%s [%s%s] %u/%u, %.0f s left ", one_line(what_).c_str(), std::string(filled, '#').c_str(),
                  std::string(kWidth - filled, '.').c_str(), done_, total_, elapsed / done_ * (total_ - done_));
     std::fflush(stderr);
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "scene/gltf.h"
 
 namespace vesper {

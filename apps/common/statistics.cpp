@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arguments.h"
+#include "print.h"
 #include "shared/photometry.h"
 
 namespace vesper {

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <map>
 
-#include "arguments.h"
 #include "base/error.h"
+#include "print.h"
 #include "scene/display_file.h"
 #include "tone_log.h"
 

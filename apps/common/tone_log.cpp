@@ -5,11 +5,12 @@
 #include <cmath>
 #include <cstring>
 
-#include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "glare_arguments.h"
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
+#include "print.h"
 
 namespace vesper {
 namespace {

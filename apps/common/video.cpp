@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,22 +10,22 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
+#include <string>
 #include <vector>
 
-#include "arguments.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/descriptor.h"
+#include "print.h"
 
 extern char** environ;
 
 namespace vesper {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr int kFilm = 3;  // the descriptor of the film in ffmpeg
 
-std::vector<std::string> command_line(const std::string& to, uint32_t width, uint32_t height, double fps,
-                                      const Display& display) {
+std::vector<std::string> command_line(uint32_t width, uint32_t height, double fps, const Display& display) {
     const bool wide = display.bits == 10, pq = display.eotf == Eotf::Pq;
     std::vector<std::string> words{"ffmpeg",
                                    "-hide_banner",
@@ -56,56 +57,55 @@ std::vector<std::string> command_line(const std::string& to, uint32_t width, uin
                                                                : "bt709"});
     add({"-color_trc", pq ? "smpte2084" : "iec61966-2-1", "-colorspace", pq ? "bt2020nc" : "bt709", "-color_range",
          "tv"});
-    add({"-movflags", "+faststart", "-f", "mp4", to.c_str()});
+    const std::string film = "file:/proc/self/fd/" + std::to_string(kFilm);  // it is opened twice, for +faststart
+    add({"-movflags", "+faststart", "-f", "mp4", film.c_str()});
     return words;
 }
 
 }  // namespace
 
 Video::Video(std::string file, uint32_t width, uint32_t height, double fps, const Display& display)
-    : file_(std::move(file)), frame_bytes_(size_t{4} * width * height) {
+    : file_(std::move(file)),
+      film_(file_),
+      log_(::memfd_create("ffmpeg", MFD_CLOEXEC)),
+      frame_bytes_(size_t{4} * width * height) {
     if (width > 8192 || height > 8192) throw Error(one_line(file_) + ": a film has at most 8192 x 8192 px");
-    const fs::path folder = fs::path(file_).parent_path();
-    const std::string stem = ".vesper-" + std::to_string(::getpid()) + "-film";
-    temporary_ = (folder / (stem + ".tmp")).string();
-    log_ = (folder / (stem + ".log")).string();
     std::signal(SIGPIPE, SIG_IGN);  // an ffmpeg that gives up is an error to report, not to die of
 
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(one_line(file_) + ": no pipe to ffmpeg: " + std::strerror(errno));
+    if (!log_.is_open() || ::pipe2(ends, O_CLOEXEC) != 0) fail(file_, "no pipe to ffmpeg", errno);
+    const Descriptor frames(ends[0]);
+    pipe_ = Descriptor(ends[1]);
+    // Copies above the numbers that ffmpeg will see, so that none of those is replaced before it is copied.
+    const auto copied = [](int number) { return Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, kFilm + 1)); };
+    const Descriptor in = copied(frames.number()), out = copied(film_.descriptor().number()),
+                     log = copied(log_.number());
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, in.number(), STDIN_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    std::vector<std::string> words = command_line(temporary_, width, height, fps, display);
+    posix_spawn_file_actions_adddup2(&actions, log.number(), STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, out.number(), kFilm);
+    std::vector<std::string> words = command_line(width, height, fps, display);
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     const int code = ::posix_spawnp(&process_, "ffmpeg", &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[0]);
-    pipe_ = ends[1];
     if (code == 0) return;
     process_ = -1;
-    ::close(pipe_);
-    ::unlink(log_.c_str());
     throw Error(one_line(file_) + (code == ENOENT ? ": the program ffmpeg, which encodes films, is not installed"
                                                   : std::string(": ffmpeg cannot be started: ") + std::strerror(code)));
 }
 
 Video::~Video() {
-    if (process_ > 0) {
-        ::kill(process_, SIGTERM);
-        wait();
-    }
-    ::unlink(temporary_.c_str());
-    ::unlink(log_.c_str());
+    if (process_ <= 0) return;
+    ::kill(process_, SIGTERM);
+    wait();
 }
 
 int Video::wait() {
-    if (pipe_ >= 0) ::close(pipe_);
-    pipe_ = -1;
+    pipe_.close();
     int status = -1;
     if (process_ > 0)
         while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
@@ -114,33 +114,24 @@ int Video::wait() {
     return status;
 }
 
-void Video::fail() {
+void Video::give_up() {
     wait();
-    std::string said = "it ended early";
-    try {
-        const auto bytes = read_file(log_, 1u << 20);
-        if (!bytes.empty()) said.assign(bytes.begin(), std::find(bytes.begin(), bytes.end(), '\n'));
-    } catch (const Error&) {
-        // It said nothing.
-    }
-    throw Error(one_line(file_) + ": ffmpeg: " + one_line(said));
+    char said[1024];
+    const ssize_t size = ::pread(log_.number(), said, sizeof said, 0);
+    const std::string text(said, size_t(std::max<ssize_t>(0, size)));
+    throw Error(one_line(file_) +
+                ": ffmpeg: " + (text.empty() ? "it ended early" : one_line(text.substr(0, text.find('\n')))));
 }
 
 void Video::add(std::span<const uint8_t> codes) {
     if (codes.size() != frame_bytes_) throw Error(one_line(file_) + ": all pictures of a film must have one size");
-    while (!codes.empty()) {
-        const ssize_t written = ::write(pipe_, codes.data(), codes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail();
-        codes = codes.subspan(size_t(written));
-    }
+    if (pipe_.write(codes) != 0) give_up();
 }
 
 void Video::finish() {
     const int status = wait();
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail();
-    if (::rename(temporary_.c_str(), file_.c_str()) != 0)
-        throw Error(one_line(file_) + ": cannot be written: " + std::strerror(errno));
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) give_up();
+    film_.commit();
 }
 
 }  // namespace vesper

@@ -7,12 +7,13 @@
 #include <span>
 #include <string>
 
+#include "io/new_file.h"
 #include "vision/display.h"
 
 namespace vesper {
 
-/// Pipes frames to the program `ffmpeg`, which encodes them to a file of its own beside the target. finish() puts that
-/// in place; without it nothing is left behind. No shell is involved.
+/// Pipes frames to the program `ffmpeg`, which encodes them into a NewFile by its descriptor: it is given no name of a
+/// file. finish() puts the film in place; without it nothing is left behind. No shell is involved.
 class Video {
 public:
     /// Throws Error if there is no ffmpeg, or the size cannot be a film's.
@@ -27,12 +28,13 @@ public:
     void finish();
 
 private:
-    [[noreturn]] void fail();
+    [[noreturn]] void give_up();
     int wait();
 
-    std::string file_, temporary_, log_;
+    std::string file_;
+    NewFile film_;
+    Descriptor log_, pipe_;
     size_t frame_bytes_;
-    int pipe_ = -1;
     pid_t process_ = -1;
 };
 

@@ -8,10 +8,12 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/file_gate.h"
 #include "machine.h"
 #include "measure.h"
 #include "picture_arguments.h"
+#include "print.h"
 #include "progress.h"
 #include "scene/scene.h"
 #include "scenes.h"
@@ -89,21 +91,20 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
 }
 
 void check_files(const BenchArguments& a) {
-    Files files;
     for (const std::string& scene : a.scenes)
-        if (scene != "street") files.reads(scene);
+        if (scene != "street") announce_read(scene);
     for (const std::string& luminaire : a.luminaires)
-        if (luminaire != "point" && luminaire != "none") files.reads(luminaire);
+        if (luminaire != "point" && luminaire != "none") announce_read(luminaire);
     if (!a.luminaires.empty() && std::find(a.scenes.begin(), a.scenes.end(), "street") == a.scenes.end())
         throw Error("--luminaire: lamps of --scene street alone can be exchanged");
     if (!a.growth.empty() && !std::filesystem::is_directory(a.growth)) {
-        files.writes("--matrix", a.growth);
+        announce_write("--matrix", a.growth);
         std::error_code failed;
         if (!std::filesystem::create_directory(a.growth, failed))
             throw Error("--matrix " + one_line(a.growth) + ": cannot be made a folder");
     }
-    files.writes("--json", a.json);
-    files.writes("--picture", a.picture);
+    announce_write("--json", a.json);
+    announce_write("--picture", a.picture);
     if (!a.picture.empty() && !a.picture.ends_with(".png"))
         throw Error("--picture " + one_line(a.picture) + ": a .png file is expected");
 }
@@ -165,22 +166,21 @@ void run(BenchArguments& a) {
         measured.starts = starts;
         result.runs.push_back(std::move(measured));
         if (!a.json.empty()) write_text(a.json, json_of(result));  // kept should a later run fail
-        std::printf("%s\n", title(result.runs.back()).c_str());
+        print_text(title(result.runs.back()) + "\n");
         std::fflush(stdout);
     }
     for (const RunResult& measured : result.runs)
-        std::printf("\n%s%s", planned.size() > 1 ? (title(measured) + "\n").c_str() : "",
-                    text_of(result, measured).c_str());
+        print_text("\n" + (planned.size() > 1 ? title(measured) + "\n" : "") + text_of(result, measured));
     if (!a.picture.empty()) write_codes(a.picture, last, planned.back().plan.render.display);
     if (!a.growth.empty())
-        for (const std::string& file : save_growth(a.growth, result)) std::printf("%s\n", file.c_str());
+        for (const std::string& file : save_growth(a.growth, result)) print("%s\n", file.c_str());
 }
 
 void work(BenchArguments& a) {
     if (!a.compared.empty())
-        std::fputs(comparison(read_result(a.compared.at(0)), read_result(a.compared.at(1))).c_str(), stdout);
+        print_text(comparison(read_result(a.compared.at(0)), read_result(a.compared.at(1))));
     else if (!a.tables.empty())
-        std::fputs(markdown_of(read_result(a.tables)).c_str(), stdout);
+        print_text(markdown_of(read_result(a.tables)));
     else
         run(a);
 }

@@ -3,7 +3,8 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "print.h"
 #include "result.h"
 
 namespace vesper {

@@ -2,7 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "arguments.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/read_file.h"
 #include "result.h"
 #include "scene/json_value.h"
 

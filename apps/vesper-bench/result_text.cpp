@@ -1,5 +1,6 @@
 // Results of benchmarks for people: a terminal, a document. SPDX-License-Identifier: MIT
 #include "arguments.h"
+#include "print.h"
 #include "result.h"
 
 namespace vesper {
@@ -66,7 +67,7 @@ std::string text_of(const BenchResult& result, const RunResult& run) {
                    run.p99, run.low_fps);
     text += "host, ms ";
     for (size_t i = 0; i < kHostParts.size(); ++i)
-        text += format(" %s %.2f%s", kHostParts[i], run.host[i].median, i + 1 < kHostParts.size() ? "," : "\n");
+        text += format(" %s %.2f", kHostParts[i], run.host[i].median) + (i + 1 < kHostParts.size() ? "," : "\n");
     text += format("memory    %.0f MiB of the host, %.0f MiB of the device, at most\n", run.host_bytes / kMiB,
                    run.device_bytes / kMiB);
     text += format("compiling %u pipelines made in %.0f ms; first frame %.0f ms\n", run.pipelines, run.pipelines_ms,

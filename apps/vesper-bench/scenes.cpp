@@ -6,8 +6,8 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "gpu_scene/cameras.h"
-#include "io/atomic_file.h"
 #include "own_data.h"
 #include "scene/convert.h"
 #include "street.h"

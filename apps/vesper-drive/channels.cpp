@@ -8,7 +8,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/angle.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/read_file.h"
 #include "scene/json_value.h"
 
 namespace vesper {

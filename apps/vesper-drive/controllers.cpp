@@ -7,7 +7,7 @@
 #include <GLFW/glfw3.h>
 
 #include "base/lower.h"
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "scene/json_value.h"
 
 namespace vesper {

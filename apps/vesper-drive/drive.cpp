@@ -4,7 +4,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "io/file_gate.h"
 #include "own_data.h"
 #include "picture_arguments.h"
 #include "windowed.h"
@@ -46,9 +46,9 @@ void refuse_idle(const Command& program, const DriveArguments& a) {
 void check(const Command& program, DriveArguments& a) {
     refuse_idle(program, a);
     if (a.scene.empty() && a.replay.empty()) a.scene = (own_data() / "rivoli/rivoli.world.json").string();
-    Files files;
-    for (const std::string& file : {a.run, a.scenario, a.scene, a.replay, a.channels, a.controllers}) files.reads(file);
-    for (const auto& [option, file] : growing_outputs(a)) files.writes(option, file);
+    for (const std::string& file : {a.run, a.scenario, a.scene, a.replay, a.channels, a.controllers})
+        announce_read(file);
+    for (const auto& [option, file] : growing_outputs(a)) announce_write(option, file);
 }
 
 }  // namespace
@@ -58,10 +58,6 @@ std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArgu
             {"--record", GrowingFile::part_of(a.record)},
             {"--log", a.log},
             {"--log", GrowingFile::part_of(a.log)}};
-}
-
-void check_outputs(const DriveArguments& a, const FilesRead& read) {
-    for (const auto& [option, file] : growing_outputs(a)) refuse_overwriting(read, option, file);
 }
 
 DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {
@@ -108,6 +104,8 @@ void add_drive(Command program) {
         .add_option("--size,-s", a->size,
                     "WIDTHxHEIGHT of pictures, px\nDefault: in a replay as recorded, in a window its size")
         .shows_default();
+    program.help_group("Files");
+    program.add_allow_outside();
     program.help_group("Window");
     program.add_option("--channels", a->channels,
                        "A file of views of the driver's eye, on screens side by side (docs/simulator.md)");

@@ -8,7 +8,6 @@
 #include "command_line.h"
 
 #include "drive_file.h"
-#include "io/files_read.h"
 #include "settings.h"
 
 namespace vesper {
@@ -39,8 +38,6 @@ DriveStart start_of(const DriveArguments&, const DriveStart& recorded);
 
 /// What is written while a drive goes on, by the option that names it.
 std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArguments&);
-/// Throws Error if one of them is among what the drive reads, whatever named that.
-void check_outputs(const DriveArguments&, const FilesRead&);
 
 /// Drives or replays without a window.
 void run_headless(const DriveArguments&);

@@ -7,10 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "arguments.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/read_file.h"
 #include "own_data.h"
+#include "print.h"
 #include "scene/json_text.h"
 #include "scene/json_value.h"
 

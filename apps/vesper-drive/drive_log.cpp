@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <utility>
 
-#include "arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
+#include "base/one_line.h"
 #include "glare_arguments.h"
-#include "io/atomic_file.h"
+#include "print.h"
 #include "statistics.h"
 #include "tone_arguments.h"
 

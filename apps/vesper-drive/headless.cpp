@@ -1,21 +1,22 @@
 // Drives without a window: to a film, to pictures, to a log. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "drive.h"
 #include "drive_file.h"
 #include "drive_log.h"
-#include "io/atomic_file.h"
+#include "io/file_gate.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
 #include "own_data.h"
 #include "picture_arguments.h"
 #include "playback.h"
+#include "print.h"
 #include "progress.h"
 #include "session.h"
 #include "tone_arguments.h"
@@ -82,7 +83,7 @@ public:
             if (!film_ && !names_)
                 throw Error("--video " + one_line(a.video) +
                             ": one file a frame needs a number in the name, such as %05d");
-            Files().writes("--video", film_ ? a.video : names_->at(0));
+            announce_write("--video", film_ ? a.video : names_->at(0));
         }
     }
     bool wanted() const { return film_ || names_ || !arguments_.log.empty(); }
@@ -99,10 +100,8 @@ public:
                         ": a film has codes of one kind, and those of this display are others");
     }
     /// Once everything is read, and before anything is written: no name of so many frames may be another file's.
-    void open(const FilesRead& read, size_t frames) {
-        check_outputs(arguments_, read);
-        if (film_) check_free(arguments_.video, read);
-        if (names_) check_numbered(read, frames);
+    void open(size_t frames) {
+        if (names_) announce_numbered(frames);
         if (!arguments_.log.empty()) log_.emplace(arguments_.log, probes_);
     }
     void add(const traffic::Contact& contact) {
@@ -132,22 +131,17 @@ public:
 
 private:
     // Names are many, so those are looked at that something has: a file of that folder, or another output.
-    void check_numbered(const FilesRead& read, size_t frames) const {
-        const auto check = [&](std::optional<unsigned> number) {
-            if (number && *number < frames) check_free(names_->at(*number), read);
-        };
+    void announce_numbered(size_t frames) const {
+        std::set<unsigned> numbers;
         if (names_->after.find('/') != names_->after.npos) {  // a folder for each
-            for (size_t i = 0; i < frames; ++i) check(unsigned(i));
-            return;
+            for (size_t i = 1; i < frames; ++i) numbers.insert(unsigned(i));
+        } else {
+            for (const auto& [option, other] : growing_outputs(arguments_))
+                if (const auto number = number_in(*names_, other)) numbers.insert(*number);
+            for (const NumberedFile& there : existing_files(*names_)) numbers.insert(there.number);
         }
-        for (const auto& [option, other] : growing_outputs(arguments_)) check(number_in(*names_, other));
-        for (const NumberedFile& there : existing_files(*names_)) check(there.number);
-    }
-    void check_free(const std::string& file, const FilesRead& read) const {
-        Files others;
-        for (const auto& [option, other] : growing_outputs(arguments_)) others.writes(option, other);
-        others.writes("--video", file);
-        refuse_overwriting(read, "--video", file);
+        for (const unsigned number : numbers)
+            if (number > 0 && number < frames) announce_write("--video", names_->at(number));
     }
     Header header(const Session& session, const ToneMapped& frame, uint32_t lamps) const {
         std::string options;  // settings other than the defaults
@@ -193,7 +187,6 @@ VkExtent2D extent_of(const Channels& channels) {
 }  // namespace
 
 void run_headless(const DriveArguments& a) {
-    const FilesRead read;
     std::optional<Channels> channels;
     if (!a.channels.empty()) channels = read_channels(a.channels);
     Drive drive;
@@ -204,8 +197,7 @@ void run_headless(const DriveArguments& a) {
                                                                   : parse_size(a.size);
     Outlet outlet(a, extent);
     const DriveStart options = start_of(a, drive.start);
-    if (!drive.complete)
-        std::fprintf(stderr, "note: %s breaks off; what there is of it is driven\n", one_line(a.replay).c_str());
+    if (!drive.complete) print_note(one_line(a.replay) + " breaks off; what there is of it is driven");
     const DriveEvent step{
         .kind = DriveEvent::Kind::Step, .input = {.autopilot = a.autopilot}, .pose = {}, .name = {}, .value = {}};
     for (long left = replays ? 0 : std::lround(a.seconds / options.time_step); left > 0; --left)
@@ -220,10 +212,10 @@ void run_headless(const DriveArguments& a) {
     const auto [fps, even] = own_frames ? rate_of(drive.events, options.time_step)
                                         : std::pair(std::min(a.fps > 0 ? a.fps : kUsualRate, most), true);
     if (!even && a.video.ends_with(".mp4"))
-        std::fprintf(stderr,
-                     "note: frames were not recorded at an even rate: the film shows them at %.4g a second, and not in "
-                     "real time (--fps %.4g takes frames at an even rate)\n",
-                     fps, std::min(kUsualRate, most));
+        print_note(
+            format("frames were not recorded at an even rate: the film shows them at %.4g a second, and not in real "
+                   "time (--fps %.4g takes frames at an even rate)",
+                   fps, std::min(kUsualRate, most)));
     Scenery scenery(options.scene, options.run, options.scenario);
     check_settings(
         drive, a.settings, [&](const DriveSettings& settings) { scenery.check(settings); },
@@ -232,9 +224,9 @@ void run_headless(const DriveArguments& a) {
     Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
     Playback playback(std::move(drive.events), a.settings);
-    outlet.open(read, playback.frames());
+    outlet.open(playback.frames());
     session.on_contact = [&](const traffic::Contact& contact) { outlet.add(contact); };
-    for (const std::string& note : session.scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
+    print_notes(session.scenery().notes());
     if (!a.record.empty())
         session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height))
                                                               : std::nullopt);
@@ -254,10 +246,8 @@ void run_headless(const DriveArguments& a) {
     outlet.finish();
     session.stop_recording();
     if (playback.strayed())
-        std::fprintf(
-            stderr,
-            "note: %s: the car goes another way than it did when this was recorded, with another version or compiler\n",
-            one_line(a.replay).c_str());
+        print_note(one_line(a.replay) +
+                   ": the car goes another way than it did when this was recorded, with another version or compiler");
 }
 
 }  // namespace vesper

@@ -5,10 +5,10 @@
 
 #include <imgui.h>
 
-#include "arguments.h"
 #include "base/luminance.h"
 #include "panel_layout.h"
 #include "plot.h"
+#include "print.h"
 #include "render/passes/operators.h"
 #include "tone_arguments.h"
 

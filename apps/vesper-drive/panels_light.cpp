@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "arguments.h"
 #include "base/luminance.h"
 #include "instruments.h"
 #include "light_probe.h"
 #include "panel_layout.h"
 #include "plot.h"
+#include "print.h"
 #include "render/passes/operators.h"
 
 namespace vesper {

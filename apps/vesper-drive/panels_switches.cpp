@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <imgui.h>
-#include "arguments.h"
+#include "print.h"
 
 #include "instruments.h"
 #include "render/passes/operators.h"

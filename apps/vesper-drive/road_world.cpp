@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "io/in_file.h"
 #include "plain_car.h"
 #include "roads/esmini_run.h"
@@ -56,11 +56,15 @@ std::vector<traffic::Course> courses_of(const roads::LaneGraph& graph) {
         for (const uint32_t lane : way) passed[lane] = true;
         if (const auto course = way.empty() ? std::nullopt : course_of(graph, way)) courses.push_back(*course);
     };
-    for (const bool entries : {true, false})
-        for (uint32_t i = 0; i < graph.lanes().size() && courses.size() < kMostCourses; ++i) {
-            const roads::Lane& lane = graph.lanes()[i];
-            if (lane.type == roads::LaneType::Driving && !passed[i] && (!entries || lane.predecessors.empty())) take(i);
-        }
+    const auto take_all = [&](const auto& wanted) {
+        for (const bool entries : {true, false})
+            for (uint32_t i = 0; i < graph.lanes().size() && courses.size() < kMostCourses; ++i) {
+                const roads::Lane& lane = graph.lanes()[i];
+                if (wanted(lane.type) && !passed[i] && (!entries || lane.predecessors.empty())) take(i);
+            }
+    };
+    take_all([](roads::LaneType type) { return type == roads::LaneType::Driving; });
+    if (courses.empty()) take_all(roads::is_driven);  // ramps alone
     std::stable_sort(courses.begin(), courses.end(),
                      [](const traffic::Course& a, const traffic::Course& b) { return a.length() > b.length(); });
     return courses;

@@ -13,7 +13,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "road_world.h"
 #include "scene/colour.h"
 #include "scene/convert.h"

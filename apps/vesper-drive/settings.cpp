@@ -8,7 +8,7 @@
 #include "arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "tone_arguments.h"
 
 namespace vesper {

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 
 namespace vesper {
 namespace {

@@ -10,11 +10,11 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "picture_arguments.h"
+#include "print.h"
 #include "render/passes/operators.h"
 #include "tone_arguments.h"
 
@@ -56,7 +56,6 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
       screen_(std::make_unique<Screen>(window_, *device_)),
       screen_settings_{.vsync = vsync_of(a.vsync), .scaling = a.scaling == "whole" ? Scaling::Whole : Scaling::Fit},
       hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
-    const FilesRead read;
     if (a.size_given) size_ = parse_size(a.size);
     if (!a.channels.empty()) channels_ = read_channels(a.channels);
     Drive drive;
@@ -68,7 +67,6 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
         if (!drive.complete) say(a.replay + " breaks off; what there is of it is shown");
     }
     open_session(drive);
-    check_outputs(a, read);
     if (!a.replay.empty()) replay_.emplace(std::move(drive.events), a.settings);
     if (!a.record.empty()) session_->record(a.record, recorded_size()), recording_ = a.record;
     if (a.autopilot) hands_.press(Action::Autopilot);
@@ -114,7 +112,7 @@ void WindowedDrive::open_session(const Drive& drive) {
         [](const DriveSettings&) {});
     session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
     watch_contacts();
-    for (const std::string& note : session_->scenery().notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
+    print_notes(session_->scenery().notes());
 }
 
 // A scene that cannot be used leaves everything as it is.
@@ -125,17 +123,12 @@ void WindowedDrive::reload(const std::string& scene) {
         std::erase_if(settings, [](const auto& setting) {
             return setting.first.starts_with("lamp:");
         });  // of lamps that only the old scene has
-    // What is written while the drive goes on must not be read: its end would replace it.
-    DriveArguments running;
-    running.record = recording_, running.log = log_ ? arguments_.log : "";
     try {
-        const FilesRead read;
         auto made = std::make_unique<Session>(*device_, DriveStart{.scene = scene,
                                                                    .run = same ? arguments_.run : "",
                                                                    .scenario = same ? arguments_.scenario : "",
                                                                    .seed = arguments_.seed,
                                                                    .settings = settings});
-        check_outputs(running, read);
         if (!recording_.empty()) session_->stop_recording();
         session_ = std::move(made);
         watch_contacts();
@@ -153,7 +146,7 @@ void WindowedDrive::reload(const std::string& scene) {
 void WindowedDrive::say(const std::string& text, bool alarm) {
     message_ = text, alarm_ = alarm;
     message_until_ = Clock::now() + std::chrono::seconds(alarm ? 15 : 5);
-    if (alarm) std::fprintf(stderr, "vesper-drive: %s\n", text.c_str());
+    if (alarm) print_error("vesper-drive", text);
 }
 
 std::string WindowedDrive::title() const {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "arguments.h"
 #include "base/error.h"
+#include "print.h"
 #include "render/passes/operators.h"
 #include "tone_arguments.h"
 #include "windowed.h"

@@ -4,10 +4,14 @@
 #include <map>
 #include <memory>
 
+#include "base/budget.h"
 #include "command_line.h"
 
 #include "base/error.h"
+#include "base/one_line.h"
 #include "commands.h"
+#include "io/file_gate.h"
+#include "print.h"
 #include "roads/convert_roads.h"
 
 namespace vesper {
@@ -27,11 +31,11 @@ struct ConvertArguments {
     std::vector<Option> for_databases, for_lamps;
 };
 
-void print(const std::vector<std::string>& changes, const std::vector<std::string>& warnings,
-           const std::string& output) {
-    for (const std::string& line : changes) std::printf("%s\n", line.c_str());
-    for (const std::string& line : warnings) std::fprintf(stderr, "warning: %s\n", line.c_str());
-    std::printf("wrote %s\n", output.c_str());
+void report(const std::vector<std::string>& changes, const std::vector<std::string>& warnings,
+            const std::string& output) {
+    print_notes(changes, "");
+    print_notes(warnings, "warning: ");
+    print("wrote %s\n", output.c_str());
 }
 
 void refuse(const std::vector<Option>& options, const std::string& why) {
@@ -43,10 +47,12 @@ void run_roads(const ConvertArguments& arguments) {
     refuse(arguments.for_databases, " has no meaning for an OpenDRIVE file: it has no materials and no nodes");
     const std::filesystem::path input = arguments.input;
     const std::string output = arguments.output.empty() ? input.stem().string() + ".gltf" : arguments.output;
+    announce_read(input);
+    announce_write("-o", output);
     roads::ConvertOptions options{.lamps = arguments.lamps, .luminaire = arguments.luminaire};
     options.lamps.side = kSides.at(arguments.side);
     const roads::RoadConversion made = roads::convert_roads(input, output, options);
-    print(made.parts, made.notes, output);
+    report(made.parts, made.notes, output);
 }
 
 void run(const ConvertArguments& arguments) {
@@ -54,10 +60,13 @@ void run(const ConvertArguments& arguments) {
     refuse(arguments.for_lamps, " has a meaning only for an OpenDRIVE file (.xodr)");
     if (arguments.photometry.empty()) throw Error("--photometry is required for a glTF database");
     if (arguments.output.empty()) throw Error("--output is required for a glTF database");
+    announce_read(arguments.input);
+    announce_read(arguments.photometry);
+    announce_write("-o", arguments.output);
     std::optional<Transfer> transfer;
     if (arguments.srgb) transfer = Transfer{Transfer::Kind::Srgb};
-    const ConversionReport report = convert(arguments.input, arguments.photometry, arguments.output, transfer);
-    print(report.changes, report.warnings, arguments.output);
+    const ConversionReport made = convert(arguments.input, arguments.photometry, arguments.output, transfer);
+    report(made.changes, made.warnings, arguments.output);
 }
 
 }  // namespace
@@ -87,6 +96,7 @@ void add_convert(Command program) {
         command.add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
             .check(range(0.1, 20.0)),
         command.add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
+    command.add_allow_outside();
     command.footer(
         "Examples:\n  vesper convert data/rivoli/rivoli.gltf --photometry data/rivoli/rivoli.photometry.json -o "
         "out/night.gltf\n"

@@ -9,9 +9,11 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "commands.h"
-#include "io/atomic_file.h"
+#include "io/file_gate.h"
 #include "picture_arguments.h"
+#include "print.h"
 #include "scene/display_file.h"
 #include "test_patterns.h"
 #include "vision/display_fit.h"
@@ -52,14 +54,13 @@ void run_patterns(PatternArguments& a) {
     a.settings.width = size.width, a.settings.height = size.height;
     if (!std::filesystem::is_directory(a.folder)) throw Error("-o " + one_line(a.folder) + ": there is no such folder");
     const auto names = write_test_patterns(a.folder, a.settings);
-    std::printf("wrote %zu test patterns and %s\n", names.size() - 1, names.back().c_str());
+    print("wrote %zu test patterns and %s\n", names.size() - 1, names.back().c_str());
 }
 
 void run_fit(const FitArguments& a) {
     if (!a.output.ends_with(".json")) throw Error("-o " + one_line(a.output) + ": a .json file is expected");
-    Files files;
-    files.reads(a.measurements);
-    files.writes("-o", a.output);
+    announce_read(a.measurements);
+    announce_write("-o", a.output);
     const auto measured = read_display_measurements(a.measurements, a.bits);
     DisplayFit fit;
     try {
@@ -71,27 +72,25 @@ void run_fit(const FitArguments& a) {
         throw Error(one_line(a.measurements) + ": " + error.what());
     }
     const Display& d = fit.display;
-    std::printf("%s: %s, %.5g to %.5g cd/m^2 (%.4g : 1)", a.measurements.c_str(), name_of(d.eotf), double(d.black),
-                double(d.peak), double(d.peak) / double(d.black));
-    if (d.eotf == Eotf::Gamma) std::printf(", gamma %.4f", double(d.gamma));
-    std::printf(
-        "\nresiduals: root mean square %.2f %%, largest %.2f %%\n  line   code    measured     profile  residual\n",
-        100 * fit.rms, 100 * fit.largest);
+    print("%s: %s, %.5g to %.5g cd/m^2 (%.4g : 1)", a.measurements.c_str(), name_of(d.eotf), double(d.black),
+          double(d.peak), double(d.peak) / double(d.black));
+    if (d.eotf == Eotf::Gamma) print(", gamma %.4f", double(d.gamma));
+    print("\nresiduals: root mean square %.2f %%, largest %.2f %%\n  line   code    measured     profile  residual\n",
+          100 * fit.rms, 100 * fit.largest);
     const DisplayCurve curve(d);
     for (size_t i = 0; i < measured.size(); ++i)
-        std::printf("%6zu %6u %11.5g %11.5g %8.2f%%\n", measured[i].line, measured[i].code, measured[i].luminance,
-                    curve.emitted(double(measured[i].code) / d.largest_code()), 100 * fit.residuals[i]);
+        print("%6zu %6u %11.5g %11.5g %8.2f%%\n", measured[i].line, measured[i].code, measured[i].luminance,
+              curve.emitted(double(measured[i].code) / d.largest_code()), 100 * fit.residuals[i]);
     if (d.eotf == Eotf::Table && fit.largest > 0.03)
-        std::fprintf(stderr,
-                     "note: %s: luminances of one code, or of codes where they do not rise, differ by so much that no "
-                     "display is within 3 %% of all\n",
-                     one_line(a.measurements).c_str());
+        print_note(one_line(a.measurements) +
+                   ": luminances of one code, or of codes where they do not rise, differ by so much that no display is "
+                   "within 3 % of all");
     write_text(a.output, display_json(d, a.name));
-    std::printf("wrote %s\n", a.output.c_str());
+    print("wrote %s\n", a.output.c_str());
 }
 
 void run_list() {
-    for (const NamedDisplay& known : known_displays()) std::printf("%-10s %s\n", known.name, known.description);
+    for (const NamedDisplay& known : known_displays()) print("%-10s %s\n", known.name, known.description);
 }
 
 }  // namespace

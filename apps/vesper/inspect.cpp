@@ -13,10 +13,12 @@
 #include "base/error.h"
 #include "base/lower.h"
 #include "commands.h"
-#include "io/atomic_file.h"
+#include "io/file_gate.h"
+#include "io/read_file.h"
 #include "photometry/grid.h"
 #include "photometry/reflection_table.h"
 #include "picture_arguments.h"
+#include "print.h"
 
 namespace vesper {
 namespace {
@@ -44,13 +46,11 @@ Kind kind_of(const std::string& file) {
 }
 
 void run(const InspectArguments& a) {
-    Files files;
-    files.reads(a.file);
-    files.writes("--json", a.json);
+    announce_read(a.file);
+    announce_write("--json", a.json);
     if (!a.picture.empty() && !a.picture.ends_with(".png"))
         throw Error("-o " + a.picture + ": a .png file is expected");
-    files.writes("-o", a.picture);
-    const FilesRead read;
+    announce_write("-o", a.picture);
     const Kind kind = kind_of(a.file);
     const auto only = [&](bool given, Kind wanted, const char* what) {
         if (given && kind != wanted) throw Error(what);
@@ -75,8 +75,7 @@ void run(const InspectArguments& a) {
             found = inspect_picture(a);
             break;
     }
-    files.refuse_overwriting(read);
-    std::fputs(found.text.c_str(), stdout);
+    print_text(found.text);
     if (!a.json.empty())
         write_text(a.json, found.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
@@ -99,6 +98,7 @@ void add_inspect(Command program) {
         .check(between(1e-30, 1e30));
     command.add_flag("--contours", a->contours,
                      "Pictures: lines at the luminances of the classes M6 to M1 of EN 13201-2");
+    command.add_allow_outside();
     command.footer(
         "Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
         "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");

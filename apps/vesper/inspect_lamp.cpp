@@ -5,6 +5,7 @@
 #include "inspect.h"
 #include "photometry/reflection_table.h"
 #include "plot.h"
+#include "print.h"
 
 namespace vesper {
 namespace {

@@ -4,13 +4,12 @@
 #include <cstdio>
 
 #include <vesper/road_lighting.hpp>
-
-#include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "false_colour.h"
 #include "inspect.h"
-#include "io/atomic_file.h"
 #include "io/hdr_image.h"
+#include "print.h"
 #include "scene/colour.h"
 #include "statistics.h"
 

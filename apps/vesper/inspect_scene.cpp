@@ -1,8 +1,9 @@
 #include <algorithm>
 
 #include "arguments.h"
+#include "base/one_line.h"
 #include "inspect.h"
-#include "io/atomic_file.h"
+#include "print.h"
 #include "scene/colour.h"
 #include "scene/gltf.h"
 #include "scene/scene_report.h"

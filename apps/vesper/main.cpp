@@ -1,10 +1,10 @@
 // The `vesper` program: convert a daytime database to photometry, render it at night. SPDX-License-Identifier: MIT
-#include <cstdio>
 #include <string>
 
 #include "command_line.h"
 #include "commands.h"
 #include "gpu/device.h"
+#include "print.h"
 
 int main(int argc, char** argv) {
     vesper::Program program{"What a driver sees at night, on the screen you have.", "vesper"};
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     vesper::add_study(program);
     vesper::Command devices = program.add_command("devices", "List the Vulkan devices of this machine");
     devices.callback([] {
-        for (const std::string& line : vesper::list_devices()) std::puts(line.c_str());
+        for (const std::string& line : vesper::list_devices()) vesper::print("%s\n", line.c_str());
     });
     return program.run(argc, argv);
 }

@@ -9,10 +9,12 @@
 
 #include "command_line.h"
 
-#include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "commands.h"
-#include "io/atomic_file.h"
+#include "io/file_gate.h"
+#include "io/read_file.h"
+#include "print.h"
 #include "progress.h"
 
 namespace vesper {
@@ -106,24 +108,23 @@ std::vector<Exposure> read_exposures(const MergeArguments& arguments) {
 void report_exposures(const MergeArguments& arguments, const std::vector<Exposure>& exposures) {
     std::vector<double> sorted;
     bool moved = false;
-    std::printf("exposure (relative)   shift, px   picture\n");
+    print("exposure (relative)   shift, px   picture\n");
     for (size_t i = 0; i < exposures.size(); ++i) {
         const glm::ivec2 shift = exposures[i].shift;
-        std::printf("%19.6g %5d %5d   %s\n", exposures[i].exposure, shift.x, shift.y,
-                    one_line(arguments.images[i]).c_str());
+        print("%19.6g %5d %5d   %s\n", exposures[i].exposure, shift.x, shift.y, one_line(arguments.images[i]).c_str());
         sorted.push_back(exposures[i].exposure);
         moved |= shift != glm::ivec2(0);
     }
     std::sort(sorted.begin(), sorted.end());
     for (size_t i = 1; i < sorted.size(); ++i)
         if (sorted[i] > 4.5 * sorted[i - 1]) {
-            std::fprintf(stderr,
-                         "warning: exposures %.3g and %.3g are more than two stops apart: between them the response is "
-                         "uncertain\n",
-                         sorted[i - 1], sorted[i]);
+            print_warning(
+                format("exposures %.3g and %.3g are more than two stops apart: between them the response is "
+                       "uncertain",
+                       sorted[i - 1], sorted[i]));
             break;
         }
-    if (moved && !arguments.align) std::fprintf(stderr, "warning: the pictures seem shifted; --align undoes it\n");
+    if (moved && !arguments.align) print_warning("the pictures seem shifted; --align undoes it");
 }
 
 Response response_of(const MergeArguments& arguments, const std::vector<Exposure>& exposures) {
@@ -131,14 +132,14 @@ Response response_of(const MergeArguments& arguments, const std::vector<Exposure
     if (arguments.curve == "recover") {
         const RecoveredResponse recovered = recover_response(exposures, arguments.smoothness);
         for (size_t c = 0; c < 3; ++c)
-            std::printf("response of %c: rms error %.1f %% of exposure, from %zu pixels\n", "RGB"[c],
-                        100 * recovered.error[c], recovered.pixels[c]);
+            print("response of %c: rms error %.1f %% of exposure, from %zu pixels\n", "RGB"[c],
+                  100 * recovered.error[c], recovered.pixels[c]);
         for (size_t c = 0; c < 3; ++c)
             if (recovered.error[c] > 0.15)
-                std::fprintf(stderr,
-                             "warning: the pictures do not agree on one response of %c: movement, changing light or "
-                             "wrong exposures?\n",
-                             "RGB"[c]);
+                print_warning(
+                    format("the pictures do not agree on one response of %c: movement, changing light or "
+                           "wrong exposures?",
+                           "RGB"[c]));
         response = recovered.response;
     } else if (arguments.curve == "srgb") {
         response = srgb_response();
@@ -150,24 +151,22 @@ Response response_of(const MergeArguments& arguments, const std::vector<Exposure
     const std::array<int, 3> falls = count_falls(response);
     for (size_t c = 0; c < 3; ++c)
         if (falls[c] > 0)
-            std::fprintf(
-                stderr,
-                "warning: the response of %c falls at %d codes; more pictures or a larger --smoothness may help\n",
-                "RGB"[c], falls[c]);
+            print_warning(
+                format("the response of %c falls at %d codes; more pictures or a larger --smoothness may help",
+                       "RGB"[c], falls[c]));
     return response;
 }
 
 void report(const MergedImage& merged) {
     const double pixels = double(merged.held.size());
     const bool absolute = merged.image.white_luminance > 0;
-    std::printf("luminance %.4g to %.4g %s: %.1f decades\n", merged.darkest, merged.brightest,
-                absolute ? "cd/m^2" : "(relative)",
-                merged.darkest > 0 ? std::log10(merged.brightest / merged.darkest) : 0.0);
+    print("luminance %.4g to %.4g %s: %.1f decades\n", merged.darkest, merged.brightest,
+          absolute ? "cd/m^2" : "(relative)", merged.darkest > 0 ? std::log10(merged.brightest / merged.darkest) : 0.0);
     const uint64_t lost = merged.too_dark + merged.too_bright + merged.between;
-    std::printf("never well exposed: %.2f %% of the pixels (%.2f %% too dark, %.2f %% too bright)\n",
-                100 * double(lost) / pixels, 100 * double(merged.too_dark) / pixels,
-                100 * double(merged.too_bright) / pixels);
-    if (double(lost) > 0.05 * pixels) std::fprintf(stderr, "warning: the exposures do not cover the scene\n");
+    print("never well exposed: %.2f %% of the pixels (%.2f %% too dark, %.2f %% too bright)\n",
+          100 * double(lost) / pixels, 100 * double(merged.too_dark) / pixels,
+          100 * double(merged.too_bright) / pixels);
+    if (double(lost) > 0.05 * pixels) print_warning("the exposures do not cover the scene");
 }
 
 void run(const MergeArguments& arguments) {
@@ -177,10 +176,9 @@ void run(const MergeArguments& arguments) {
     if (!arguments.luminance.empty() && arguments.scale > 0) throw Error("--luminance and --scale exclude one another");
     if (std::filesystem::path(arguments.output).extension() != ".exr")
         throw Error("-o " + one_line(arguments.output) + ": a .exr file is expected");
-    Files files;
-    for (const std::string& image : arguments.images) files.reads(image);
-    files.writes("-o", arguments.output);
-    files.writes("--response", arguments.response);
+    for (const std::string& image : arguments.images) announce_read(image);
+    announce_write("-o", arguments.output);
+    announce_write("--response", arguments.response);
     const KnownLuminance known = arguments.luminance.empty() ? KnownLuminance{} : parse_luminance(arguments.luminance);
 
     std::vector<Exposure> exposures = read_exposures(arguments);
@@ -192,7 +190,7 @@ void run(const MergeArguments& arguments) {
     MergedImage merged = merge_exposures(exposures, response);
     if (known.cd_m2 > 0) {
         try {
-            std::printf("scale %.6g\n", scale_to_luminance(merged, known.region, known.cd_m2));
+            print("scale %.6g\n", scale_to_luminance(merged, known.region, known.cd_m2));
         } catch (const Error& error) {
             throw Error("--luminance " + arguments.luminance + ": " + error.what());
         }
@@ -207,7 +205,7 @@ void run(const MergeArguments& arguments) {
         {"vesper:merged", std::to_string(exposures.size()) + " exposures, response " + arguments.curve}};
     if (!arguments.response.empty()) write_response(arguments.response, response);
     write_exr(arguments.output, merged.image);
-    std::printf("wrote %s\n", arguments.output.c_str());
+    print("wrote %s\n", arguments.output.c_str());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "arguments.h"
 #include "base/angle.h"
 #include "false_colour.h"
+#include "print.h"
 
 namespace vesper {
 namespace {

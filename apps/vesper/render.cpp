@@ -1,20 +1,21 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
 #include "command_line.h"
 
 #include "arguments.h"
+#include "base/one_line.h"
 #include "commands.h"
 #include "glare_arguments.h"
-#include "io/atomic_file.h"
+#include "io/file_gate.h"
 #include "io/growing_file.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
 #include "picture_arguments.h"
+#include "print.h"
 #include "progress.h"
 #include "render/renderer.h"
 #include "scene_notes.h"
@@ -74,35 +75,33 @@ Header describe_frame(const RenderArguments& arguments, const Device& device, co
 
 void print_statistics(const RenderArguments& arguments, const Device& device, const Renderer& renderer,
                       const Frame& frame, std::vector<double> milliseconds) {
-    std::printf("%s on %s (%s)\n", arguments.scene.c_str(), device.name().c_str(), device.driver().c_str());
-    std::printf("%ux%u, %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width,
-                frame.extent.height, name_of(arguments.settings.tone_operator).c_str(),
-                static_cast<unsigned long long>(renderer.scene().triangles()), frame.lamps,
-                double(renderer.device_bytes()) / (1 << 20));
-    std::printf("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
-                double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
-    std::printf("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",
-                double(frame.curve.adaptation), frame.foveal_level, frame.histogram.non_finite,
-                frame.histogram.finite + frame.histogram.non_finite);
+    print("%s on %s (%s)\n", arguments.scene.c_str(), device.name().c_str(), device.driver().c_str());
+    print("%ux%u, %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width, frame.extent.height,
+          name_of(arguments.settings.tone_operator).c_str(),
+          static_cast<unsigned long long>(renderer.scene().triangles()), frame.lamps,
+          double(renderer.device_bytes()) / (1 << 20));
+    print("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
+          double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
+    print("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",
+          double(frame.curve.adaptation), frame.foveal_level, frame.histogram.non_finite,
+          frame.histogram.finite + frame.histogram.non_finite);
     const bool ldr = arguments.settings.tone_operator == Operator::Ldr;
-    std::fputs(
-        text_of(luminance_statistics(frame.scene), ldr ? "LDR values, relative to white" : "luminance, cd/m^2").c_str(),
-        stdout);
+    print_text(text_of(luminance_statistics(frame.scene), ldr ? "LDR values, relative to white" : "luminance, cd/m^2"));
     double total = 0;
-    std::printf("device time, ms\n");
+    print("device time, ms\n");
     for (const Timing& timing : frame.timings) {
-        std::printf("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
+        print("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
         total += timing.milliseconds;
     }
-    std::printf("  %-24s %8.3f\n", "sum", total);
+    print("  %-24s %8.3f\n", "sum", total);
     if (frame.pupil > 0)
-        std::printf("pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", frame.pupil,
-                    frame.pattern_milliseconds);
+        print("pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", frame.pupil,
+              frame.pattern_milliseconds);
     // The first frame makes the driver compile its shaders.
     if (milliseconds.size() > 1) milliseconds.erase(milliseconds.begin());
     std::sort(milliseconds.begin(), milliseconds.end());
-    std::printf("frame on the host's clock, ms: median %.1f of %zu, least %.1f\n",
-                milliseconds[milliseconds.size() / 2], milliseconds.size(), milliseconds.front());
+    print("frame on the host's clock, ms: median %.1f of %zu, least %.1f\n", milliseconds[milliseconds.size() / 2],
+          milliseconds.size(), milliseconds.front());
 }
 
 void write_outputs(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame,
@@ -117,30 +116,28 @@ void write_outputs(const RenderArguments& arguments, const Device& device, const
     }
 }
 
-// Everything that can be wrong with the arguments alone, and what follows from them. What is read and written.
-Files check_arguments(RenderArguments& arguments) {
+// Everything that can be wrong with the arguments alone, and what follows from them.
+void check_arguments(RenderArguments& arguments) {
     RenderSettings& settings = arguments.settings;
     static_cast<ToneChainSettings&>(settings) = tone_settings(arguments.tone);
     check_target(arguments.glare, settings);
     settings.paper_lambert = arguments.lambert == "paper";
-    Files files;
-    files.reads(arguments.scene);
-    files.reads(arguments.replay_file);
-    files.reads(arguments.glare.lamps);
+    announce_read(arguments.scene);
+    announce_read(arguments.replay_file);
+    announce_read(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs) {
         const bool exr = output.ends_with(".exr");
         if (!exr && !output.ends_with(".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
         if (exr && settings.tone_operator == Operator::Ldr)
             throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
-        files.writes("-o", file_of_frame(output, 0, arguments.frames));
+        announce_write("-o", file_of_frame(output, 0, arguments.frames));
     }
-    files.writes("--stats-json", arguments.statistics_file);
+    announce_write("--stats-json", arguments.statistics_file);
     for (const auto& [option, file] :
          {std::pair("--log", arguments.log_file), std::pair("--glare-sources", arguments.sources_file)}) {
-        files.writes(option, file);
-        files.writes(option, GrowingFile::part_of(file));  // where it grows
+        announce_write(option, file);
+        announce_write(option, GrowingFile::part_of(file));  // where it grows
     }
-    return files;
 }
 
 void check_wanted(const RenderArguments& a) {
@@ -200,7 +197,7 @@ std::vector<FrameTime> moments_of(const RenderArguments& arguments) {
 
 void run(RenderArguments& arguments) {
     const VkExtent2D extent = parse_size(arguments.size);
-    const Files files = check_arguments(arguments);
+    check_arguments(arguments);
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
     Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs)
@@ -213,14 +210,12 @@ void run(RenderArguments& arguments) {
     const bool wants_target = !arguments.glare.target.empty();
     outputs.scene |= logs_glare || wants_target;
 
-    const FilesRead read;
     const std::vector<FrameTime> moments = moments_of(arguments);
     arguments.frames = unsigned(moments.size());
     LoadedScene loaded = read_gltf(arguments.scene);
     loaded.scene.name = arguments.scene;
-    files.refuse_overwriting(read);
     check_wanted(arguments);  // a scene that cannot be read is said first
-    for (const std::string& note : loaded.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+    print_notes(loaded.notes);
     const Scene& scene = loaded.scene;
     SceneFrame moment{world_transforms(scene, moments.front().seconds)};
     camera_view(scene, moment, arguments.camera, extent);  // a wrong name is known before a device is opened
@@ -247,22 +242,19 @@ void run(RenderArguments& arguments) {
                             {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
         if (const std::string note = photometry_note(loaded, arguments.scene); index == 0 && !note.empty())
-            std::fprintf(stderr, "note: %s\n", note.c_str());
+            print_note(note);
         GlareReport glare;
         if (outputs.scene && !ldr)
             glare = glare_of(arguments.glare, arguments.settings, frame, angles_of(view), frame.outside);
-        // Of the names of many frames only the first was looked at before.
-        for (size_t o = 0; o < arguments.outputs.size() && index > 0; ++o)
-            refuse_overwriting(read, "-o", file_of_frame(arguments.outputs[o], index, arguments.frames));
         write_outputs(arguments, device, view, frame, glare, index, seconds);
         if (log)
             log->append(log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye},
                                  frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare));
         if (sources)
             sources->append(glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));
-        if (index == 0 && arguments.plan) std::fputs(renderer.plan().c_str(), stdout);
+        if (index == 0 && arguments.plan) print_text(renderer.plan());
         if (last) {
-            if (wants_target) std::fputs(target_line(glare).c_str(), stdout);
+            if (wants_target) print_text(target_line(glare));
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
             if (!arguments.statistics_file.empty())
                 write_text(arguments.statistics_file, json_of(luminance_statistics(frame.scene)) + "\n");
@@ -305,6 +297,8 @@ void add_render(Command program) {
     command.help_group();
     command.add_option("--device", a->device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    command.help_group("Files");
+    command.add_allow_outside();
     command.help_group("Light");
     command.add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")
         .check(one_of({"physical", "paper"}))

@@ -7,7 +7,9 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "commands.h"
+#include "io/file_gate.h"
 #include "io/in_file.h"
+#include "print.h"
 #include "road_render.h"
 #include "road_report.h"
 #include "roads/layout_file.h"
@@ -32,32 +34,29 @@ Scene lit_road(const roads::LoadedLayout& layout) {
 }
 
 void run(const RoadArguments& arguments) {
-    Files files;
-    files.reads(arguments.layout);
+    announce_read(arguments.layout);
     for (const std::string& file : arguments.pictures) {
         if (!file.ends_with(".png") && !file.ends_with(".exr"))
             throw Error("--render " + file + ": a .png or .exr file is expected");
-        files.writes("--render", file);
+        announce_write("--render", file);
     }
-    files.writes("--csv", arguments.csv);
-    files.writes("--json", arguments.json);
+    announce_write("--csv", arguments.csv);
+    announce_write("--json", arguments.json);
     if (!arguments.scene.empty() && !arguments.scene.ends_with(".gltf") && !arguments.scene.ends_with(".glb"))
         throw Error("--scene " + arguments.scene + ": a .gltf or .glb file is expected");
-    files.writes("--scene", arguments.scene);
+    announce_write("--scene", arguments.scene);
     if (!arguments.device.empty() && arguments.pictures.empty())
         throw Error("--device has a meaning only beside --render");
-    const FilesRead read;
     const roads::LoadedLayout layout = roads::read_layout(arguments.layout, arguments.overrides);
-    files.refuse_overwriting(read);
     const roads::RoadLighting result = in_file(arguments.layout, [&] { return calculate_lighting(layout); });
     const roads::LightingClass* wanted =
         roads::find_lighting_class(arguments.wanted.empty() ? layout.wanted_class : arguments.wanted);
-    std::fputs(text_of(layout, result, wanted ? wanted : reached_class(result)).c_str(), stdout);
-    if (arguments.grid) std::fputs(grid_text_of(result).c_str(), stdout);
+    print_text(text_of(layout, result, wanted ? wanted : reached_class(result)));
+    if (arguments.grid) print_text(grid_text_of(result));
     RenderedRoad rendered;
     if (!arguments.pictures.empty()) {
         rendered = render_road(layout, result, arguments.device);
-        std::fputs(text_of(result, rendered).c_str(), stdout);
+        print_text(text_of(result, rendered));
         for (const std::string& picture : arguments.pictures) write_picture(picture, layout, result, rendered);
     }
     const RenderedRoad* beside = arguments.pictures.empty() ? nullptr : &rendered;
@@ -97,6 +96,7 @@ void add_road(Command program) {
     command.add_option("--overhang", o.overhang, "m");
     command.add_option("--tilt", o.tilt, "degrees; raises the street side");
     command.add_option("--maintenance", o.maintenance_factor, "Maintenance factor");
+    command.add_allow_outside();
     command.footer(
         "Examples:\n  vesper road data/road/worked-example.json\n"
         "  vesper road data/road/worked-example.json --r-table R2 --spacing 36 --grid --csv points.csv\n"

@@ -4,6 +4,7 @@
 #include "arguments.h"
 #include "false_colour.h"
 #include "io/image_file.h"
+#include "print.h"
 #include "road_render.h"
 #include "road_view.h"
 #include "scene/colour.h"

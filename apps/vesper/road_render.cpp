@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
+#include "print.h"
 #include "render/renderer.h"
 #include "road_view.h"
 #include "roads/layout_scene.h"

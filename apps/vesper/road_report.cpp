@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "arguments.h"
+#include "print.h"
 
 namespace vesper {
 namespace {

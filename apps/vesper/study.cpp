@@ -8,9 +8,11 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "commands.h"
-#include "io/atomic_file.h"
+#include "io/file_gate.h"
 #include "picture_arguments.h"
+#include "print.h"
 
 namespace vesper {
 namespace {
@@ -29,7 +31,7 @@ std::vector<std::string> check_arguments(const StudyArguments& arguments) {
     }
     parse_size(arguments.source.size);
     if (!fs::is_directory(arguments.folder)) {
-        Files().writes("-o", fs::path(arguments.folder).lexically_normal().string());
+        announce_write("-o", fs::path(arguments.folder).lexically_normal().string());
         if (fs::exists(arguments.folder)) throw Error("-o " + one_line(arguments.folder) + ": is not a folder");
     }
     return names;
@@ -55,7 +57,7 @@ void run(const StudyArguments& arguments, const std::string& what, const std::st
                        "Differences are of display codes.");
     study(all);
     write_text(all.file(what + ".html"), all.page.html());
-    std::printf("%s\n", all.file(what + ".html").c_str());
+    print("%s\n", all.file(what + ".html").c_str());
 }
 
 void add_pictures(Command command, StudyArguments& a) {
@@ -64,6 +66,7 @@ void add_pictures(Command command, StudyArguments& a) {
     command.add_option("--camera,-c", a.source.camera, "Of a scene: name of a camera (default: the first)");
     command.add_option("--size,-s", a.source.size, "Of a scene: WIDTHxHEIGHT, px").shows_default();
     command.add_option("--start", a.source.start, "Of a scene: its time, s").check(between(0.0, 1e6)).shows_default();
+    command.add_allow_outside();
     command.add_option("--layer", a.source.layer, kLayerHelp);
     add_scale_options(command, a.source.scale);
     command

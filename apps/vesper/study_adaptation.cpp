@@ -1,9 +1,9 @@
 // Study: step responses of the operators that remember, into a tunnel and out of it. SPDX-License-Identifier: MIT
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "arguments.h"
+#include "print.h"
 #include "study.h"
 #include "vision/pattanaik.h"
 

@@ -1,7 +1,7 @@
 // Study: how many bins a histogram needs. SPDX-License-Identifier: MIT
-#include <cstdio>
 
 #include "arguments.h"
+#include "print.h"
 #include "study.h"
 
 namespace vesper {
@@ -139,12 +139,12 @@ void study_bins(Study& study) {
     study.page.heading("All figures");
     study.page.table(kBinsColumns, all.rows);
     for (const auto& row : all.answers)
-        std::printf(
+        print(
             "%s, %s: within %g code from so many bins on with shared (whole) votes: curve %s (%s), 99 %% of pixels %s "
             "(%s), every pixel %s (%s)\n",
             row[0].c_str(), row[1].c_str(), kLimit, row[2].c_str(), row[3].c_str(), row[4].c_str(), row[5].c_str(),
             row[6].c_str(), row[7].c_str());
-    std::printf("%s\n%s\n", answer.c_str(), verdict.c_str());
+    print("%s\n%s\n", answer.c_str(), verdict.c_str());
 }
 
 }  // namespace vesper

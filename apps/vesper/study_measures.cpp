@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "arguments.h"
 #include "base/error.h"
+#include "print.h"
 #include "study.h"
 
 namespace vesper {

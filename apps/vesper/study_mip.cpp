@@ -1,9 +1,9 @@
 // Study: what the foveal level, the size of what the eye takes as one, does to pictures. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
-#include <cstdio>
 
 #include "arguments.h"
+#include "print.h"
 #include "study.h"
 
 namespace vesper {

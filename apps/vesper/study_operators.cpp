@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "arguments.h"
+#include "print.h"
 #include "study.h"
 #include "vision/visibility.h"
 

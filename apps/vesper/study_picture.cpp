@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
-#include "arguments.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "picture_arguments.h"
+#include "print.h"
 #include "render/renderer.h"
 #include "scene_notes.h"
 #include "shared/photometry.h"
@@ -23,7 +22,7 @@ StudyPicture rendered(const PictureSource& arguments, Device& device, const Tone
                       const std::string& input) {
     const VkExtent2D extent = parse_size(arguments.size);
     LoadedScene loaded = read_gltf(input);
-    for (const std::string& note : notes_of(loaded, input)) std::fprintf(stderr, "note: %s\n", note.c_str());
+    print_notes(notes_of(loaded, input));
     loaded.scene.name = input;
     const SceneFrame frame{world_transforms(loaded.scene, arguments.start)};
     const View view = camera_view(loaded.scene, frame, arguments.camera, extent);
@@ -41,8 +40,7 @@ StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
     PictureMeaning meaning =
         meaning_of(image, {.scale = arguments.scale, .fov = arguments.fov, .angle_matters = arguments.angle_matters});
     if (!meaning.scale_note.empty()) meaning.notes.push_back(meaning.scale_note);
-    for (const std::string& note : meaning.notes)
-        std::fprintf(stderr, "note: %s: %s\n", one_line(input).c_str(), note.c_str());
+    for (const std::string& note : meaning.notes) print_note(one_line(input) + ": " + note);
     return {.name = {},
             .extent = {image.width, image.height},
             .values = std::move(image.rgb),

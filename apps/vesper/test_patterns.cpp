@@ -8,6 +8,7 @@
 #include "arguments.h"
 #include "canvas.h"
 #include "io/image_file.h"
+#include "print.h"
 
 namespace vesper {
 namespace {

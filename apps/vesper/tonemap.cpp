@@ -6,14 +6,15 @@
 #include <memory>
 #include <set>
 
-#include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "commands.h"
 #include "glare_arguments.h"
-#include "io/atomic_file.h"
+#include "io/file_gate.h"
 #include "io/hdr_image.h"
 #include "numbered_files.h"
 #include "picture_arguments.h"
+#include "print.h"
 #include "progress.h"
 #include "render/tone_mapper.h"
 #include "tone_arguments.h"
@@ -63,14 +64,13 @@ std::string output_of(const std::string& output, const std::string& input, unsig
 }
 
 void check_outputs(const Plan& plan) {
-    Files files;
-    for (const Job& job : plan.jobs) files.reads(job.input);
-    files.writes("-o", plan.film);
+    for (const Job& job : plan.jobs) announce_read(job.input);
+    announce_write("-o", plan.film);
     for (const Job& job : plan.jobs)
         for (const std::string& output : job.outputs) {
             if (!output.ends_with(".png") && !output.ends_with(".exr"))
                 throw Error("-o " + one_line(output) + ": a .png, .exr or .mp4 file or a folder is expected");
-            files.writes("-o", output);
+            announce_write("-o", output);
         }
 }
 
@@ -95,8 +95,8 @@ Plan plan_of(const TonemapArguments& arguments) {
         const unsigned missing = plan.sequence && i > 0 ? files[i].number - files[i - 1].number - 1 : 0;
         if (plan.sequence && i > 0) job.seconds = (missing + 1) / plan.fps;  // missing frames take their time
         if (missing > 0)
-            std::fprintf(stderr, "note: %u %s before %s\n", missing,
-                         missing == 1 ? "picture is missing" : "pictures are missing", one_line(files[i].file).c_str());
+            print_note(format("%u %s before %s", missing, missing == 1 ? "picture is missing" : "pictures are missing",
+                              files[i].file.c_str()));
         for (const std::string& output : arguments.outputs) {
             if (!output.ends_with(".mp4"))
                 job.outputs.push_back(output_of(output, files[i].file, files[i].number, files.size() == 1));
@@ -202,9 +202,7 @@ public:
     }
 
 private:
-    static void tell(const std::string& name, const std::string& note) {
-        std::fprintf(stderr, "note: %s: %s\n", name.c_str(), note.c_str());
-    }
+    static void tell(const std::string& name, const std::string& note) { print_note(name + ": " + note); }
 
     std::set<std::string> told_;
     double unit_ = 0;     // of the last picture that had one
@@ -214,24 +212,22 @@ private:
 void report(const TonemapArguments& arguments, const Job& job, const TonemappedPicture& shown) {
     const ToneMapped& p = shown.picture;
     if (p.histogram.non_finite > 0)
-        std::fprintf(stderr, "note: %s: %u of %u pixels are not finite and shown black\n", one_line(job.input).c_str(),
-                     p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite);
-    if (!arguments.glare.target.empty())
-        std::printf("%s: %s", one_line(job.input).c_str(), target_line(shown.glare).c_str());
+        print_note(format("%s: %u of %u pixels are not finite and shown black", job.input.c_str(),
+                          p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite));
+    if (!arguments.glare.target.empty()) print_text(one_line(job.input) + ": " + target_line(shown.glare));
     if (!arguments.statistics) return;
     double device = 0;
     for (const Timing& timing : p.timings) device += timing.milliseconds;
-    std::printf(
+    print(
         "%s: %u x %u px, %.4g cd/m^2 per unit, adaptation %.4g cd/m^2, maximum %.4g cd/m^2, foveal level %u (%.3g "
         "degrees), %.1f ms (device %.1f)\n",
         one_line(job.input).c_str(), p.extent.width, p.extent.height, shown.meaning.scale, double(p.curve.adaptation),
         double(p.curve.maximum), p.foveal_level, shown.meaning.fov, p.milliseconds, device);
-    std::printf("  veil %.4g cd/m^2, threshold increment %.3g %%, background %.4g cd/m^2\n", shown.glare.veil,
-                shown.glare.increment, shown.glare.background);
+    print("  veil %.4g cd/m^2, threshold increment %.3g %%, background %.4g cd/m^2\n", shown.glare.veil,
+          shown.glare.increment, shown.glare.background);
     if (p.pupil > 0)
-        std::printf("  pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", p.pupil,
-                    p.pattern_milliseconds);
-    for (const Timing& timing : p.timings) std::printf("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
+        print("  pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", p.pupil, p.pattern_milliseconds);
+    for (const Timing& timing : p.timings) print("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
 }
 
 void run(const TonemapArguments& arguments) {
@@ -265,7 +261,7 @@ void run(const TonemapArguments& arguments) {
         } catch (const Error& error) {
             // Pictures that have nothing to do with each other do not wait for one that is damaged.
             if (plan.sequence || plan.jobs.size() == 1) throw;
-            std::fprintf(stderr, "vesper: %s\n", error.what());
+            print_error("vesper", error.what());
             ++failed;
         }
         progress.step();

@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 
 namespace vesper::api {
 namespace {

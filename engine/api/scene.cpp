@@ -4,7 +4,7 @@
 
 #include "api/handles.h"
 #include "base/luminance.h"
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
 #include "scene/gltf.h"
 #include "scene/mesh.h"

@@ -5,14 +5,18 @@
 #include <string>
 #include <string_view>
 
+#include "io/descriptor.h"
+
 namespace vesper {
 
 /// A text file that grows as NAME.part beside the place it is meant for, and takes its name once it is complete.
 /// Whatever ends the program, what was appended is in NAME.part, and NAME holds what it held before. Of a link, NAME is
-/// what it points at. A NAME.part that is there already is removed; links of that name are, not what they lead to.
-/// Something that exists and is no regular file (a pipe, /dev/stdout) is written to directly. Functions throw Error.
+/// what it points at. NAME.part is locked: a second program that writes it is refused. One that a program left behind
+/// is removed; links of that name are, not what they lead to. Something that exists and is no regular file (a pipe,
+/// /dev/stdout) is written to directly. Functions throw Error.
 class GrowingFile {
 public:
+    /// Throws if the file was read by this task (FileGate), or if it grows already.
     explicit GrowingFile(const std::filesystem::path& file);
     ~GrowingFile();  ///< leaves NAME.part where it was not completed
     GrowingFile(const GrowingFile&) = delete;
@@ -25,10 +29,10 @@ public:
     static std::string part_of(const std::string& file);
 
 private:
-    [[noreturn]] void fail(const std::filesystem::path&, int code);
+    [[noreturn]] void give_up(int code);
 
     std::filesystem::path file_, target_, part_;
-    int descriptor_ = -1;
+    Descriptor content_;
     unsigned unsafe_ = 0;  // appended since the disk was told to keep it
 };
 

@@ -7,8 +7,9 @@
 #include <new>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "io/hdr_parts.h"
+#include "io/read_file.h"
 
 namespace vesper {
 namespace hdr {

@@ -12,7 +12,7 @@
 #include <png.h>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 
 namespace vesper {
 namespace {

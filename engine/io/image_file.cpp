@@ -17,8 +17,9 @@
 #include <png.h>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "io/hdr_parts.h"
+#include "io/new_file.h"
 
 namespace vesper {
 namespace {

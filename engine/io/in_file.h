@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 
 namespace vesper {
 

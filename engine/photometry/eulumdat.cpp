@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
 
 namespace vesper {

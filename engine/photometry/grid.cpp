@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/lower.h"
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
 
 namespace vesper {

@@ -11,7 +11,7 @@
 #include <ImfStringAttribute.h>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "io/exr_stream.h"
 #include "photometry/grid.h"
 #include "photometry/table.h"

@@ -10,7 +10,8 @@
 
 #include "base/error.h"
 #include "base/lower.h"
-#include "io/atomic_file.h"
+#include "io/named_file.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
 
 namespace vesper {
@@ -184,8 +185,9 @@ double read_tilt_file(const LineReader& lines, const std::string& file, const st
     if (file.empty() || std::filesystem::path(file).filename() != std::filesystem::path(file))
         lines.fail("TILT=" + file + " is neither NONE, nor INCLUDE, nor the name of a file beside this one");
     try {
-        const std::vector<uint8_t> bytes = read_file(folder / file, kMaxTableBytes);
-        LineReader table(bytes, (folder / file).string());
+        const std::filesystem::path named = named_file(folder, file);
+        const std::vector<uint8_t> bytes = read_file(named, kMaxTableBytes);
+        LineReader table(bytes, named.string());
         Numbers numbers(table, false);
         return read_tilt_table(numbers, table);
     } catch (const Error& error) {

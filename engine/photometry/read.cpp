@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "base/lower.h"
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "photometry/distribution.h"
 #include "photometry/eulumdat.h"
 #include "photometry/grid.h"

@@ -5,7 +5,8 @@
 
 #include "base/error.h"
 #include "base/lower.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/read_file.h"
 #include "photometry/reflection_table.h"
 #include "photometry/table.h"
 

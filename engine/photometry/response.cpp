@@ -9,8 +9,10 @@
 
 #include "base/decimal.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "base/srgb.h"
-#include "io/atomic_file.h"
+#include "io/new_file.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
 
 namespace vesper {

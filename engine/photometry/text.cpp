@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/lower.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "photometry/table.h"
 
 namespace vesper {

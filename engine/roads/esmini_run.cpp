@@ -7,7 +7,7 @@
 #include <new>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "roads/esmini_parts.h"
 
 namespace vesper::roads {

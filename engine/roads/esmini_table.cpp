@@ -6,7 +6,8 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/lower.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
 #include "roads/esmini_parts.h"
 

@@ -4,7 +4,8 @@
 #include <array>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "io/named_file.h"
+#include "io/read_file.h"
 #include "scene/json_value.h"
 #include "scene/reflection_json.h"
 
@@ -91,7 +92,8 @@ void read_luminaires(LoadedLayout& layout, const JsonValue& source, const std::f
     layout.colour_temperature = source.number_or("colour_temperature_K", 0, 1000, 25000);
 
     const std::string file = source.at("file").text();
-    layout.luminaire = overrides.luminaire.empty() ? folder / file : std::filesystem::path(overrides.luminaire);
+    layout.luminaire =
+        overrides.luminaire.empty() ? named_file(folder, file) : std::filesystem::path(overrides.luminaire);
     layout.distribution = read_luminaire(layout.luminaire);
 }
 

@@ -6,7 +6,8 @@
 #include <new>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/read_file.h"
 #include "roads/opendrive_reader.h"
 
 namespace vesper::roads {

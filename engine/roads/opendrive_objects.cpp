@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "roads/opendrive_reader.h"
 
 namespace vesper::roads {

@@ -4,7 +4,7 @@
 
 #include "base/decimal.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
 #include "roads/esmini_parts.h"
 

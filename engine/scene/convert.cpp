@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/file_gate.h"
+#include "io/named_file.h"
+#include "io/new_file.h"
 #include "scene/convert_rules.h"
 #include "scene/gltf_write.h"
 #include "scene/photometry_parts.h"
@@ -66,17 +70,6 @@ void describe_rest(Conversion& conversion) {
     if (p.sky) changes.push_back("sky: " + decimal(p.sky->value) + " cd/m^2");
 }
 
-void check_paths(const std::filesystem::path& input, const std::filesystem::path& photometry,
-                 const std::filesystem::path& output) {
-    const std::string extension = output.extension().string();
-    if (extension != ".gltf" && extension != ".glb")
-        throw Error(one_line(output.string()) + ": the output must be named .gltf or .glb");
-    std::error_code ignored;
-    for (const auto& source : {input, photometry})
-        if (std::filesystem::equivalent(source, output, ignored))
-            throw Error(one_line(output.string()) + ": the output would replace an input");
-}
-
 }  // namespace
 
 nlohmann::json& object_member(const GltfDocument& document, nlohmann::json& holder, const std::string& key) {
@@ -118,8 +111,13 @@ void check_count(const Conversion& conversion, const std::filesystem::path& phot
 ConversionReport convert_checked(const std::filesystem::path& input, const std::filesystem::path& photometry,
                                  const std::filesystem::path& output, const std::optional<Transfer>& transfer,
                                  const SceneLimits& limits) {
-    check_paths(input, photometry, output);
+    const FileGate gate;
+    const std::string extension = output.extension().string();
+    if (extension != ".gltf" && extension != ".glb")
+        throw Error(one_line(output.string()) + ": the output must be named .gltf or .glb");
+    std::optional<AllowedFolder> beside_scene(std::in_place, input.has_parent_path() ? input.parent_path() : ".");
     Photometry stated = read_photometry(photometry);
+    beside_scene.reset();  // the scene may not name what lies beside the photometry
     if (transfer) stated.transfer = *transfer;
     const Photometry rules = with_night_sky(stated);
 
@@ -150,7 +148,7 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     read_all(result);
     check_reflectances(result.scene, report);
     for (const std::string& note : result.notes.lines()) report.warnings.push_back(note);
-    replace_file(output, encode_gltf(document, output.extension() == ".glb", report.warnings));
+    replace_file(output, encode_gltf(document, extension == ".glb", report.warnings));
     return report;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "scene/convert_rules.h"
 #include "scene/lamp.h"
 

@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/read_file.h"
 #include "scene/json_value.h"
 
 namespace vesper {

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "scene/gltf_reader.h"
 
 namespace vesper {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "io/hdr_image.h"
 #include "scene/gltf_reader.h"
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "scene/gltf_reader.h"
 #include "scene/reflectance.h"

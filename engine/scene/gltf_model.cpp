@@ -6,7 +6,7 @@
 #include <new>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 
 namespace vesper {
 namespace {

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "io/atomic_file.h"
 #include "scene/gltf_reader.h"
 
 namespace vesper {

@@ -13,7 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/new_file.h"
 #include "photometry/ies.h"
 #include "scene/photometry_parts.h"
 #include "scene/reflection_json.h"

@@ -9,7 +9,7 @@
 #include "base/decimal.h"
 #include "base/error.h"
 #include "base/limits.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "scene/json_text.h"
 
 namespace vesper {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/angle.h"
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "scene/colour.h"
 #include "scene/json_value.h"
 #include "scene/photometry_measured.h"

@@ -2,8 +2,9 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "io/hdr_image.h"
+#include "io/read_file.h"
 #include "scene/photometry_parts.h"
 #include "scene/uri.h"
 

@@ -7,6 +7,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/lower.h"
+#include "io/named_file.h"
 #include "photometry/eulumdat.h"
 
 namespace vesper {
@@ -24,7 +25,7 @@ uint32_t measured_lamp(const JsonValue& source, const std::filesystem::path& fol
             return static_cast<uint32_t>(i);
     }
     try {
-        const std::filesystem::path path = folder / wanted.file;
+        const std::filesystem::path path = named_file(folder, wanted.file);
         if (wanted.lamp_set > 0 && lower(path.extension().string()) != ".ldt")
             throw Error("lamp_set is for EULUMDAT (.ldt)");
         wanted.distribution = wanted.lamp_set > 0 ? read_eulumdat(path, wanted.lamp_set) : read_distribution(path);

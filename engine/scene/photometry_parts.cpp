@@ -6,6 +6,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "io/hdr_image.h"
+#include "io/named_file.h"
 
 namespace vesper {
 namespace {
@@ -48,7 +49,7 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
     SkyPicture sky{.file = file.text()};
     double white = 0;
     try {
-        const HdrImage image = read_hdr_image(folder / sky.file);
+        const HdrImage image = read_hdr_image(named_file(folder, sky.file));
         white = image.white_luminance;
         sky.environment = make_environment(image, &sky.cleaned);
     } catch (const Error& error) {

@@ -2,6 +2,7 @@
 #include "scene/reflection_json.h"
 
 #include "base/error.h"
+#include "io/named_file.h"
 
 namespace vesper {
 namespace {
@@ -22,6 +23,7 @@ ReflectionTable read_named_table(const JsonValue& holder, const std::filesystem:
     const double wanted = q0 ? q0->number(0.001, kMaxQ0) : 0;
     if (name.text().empty()) name.fail("must not be empty");
     try {
+        named_file(folder, name.text());  // refuses others
         const ReflectionTable table = find_reflection_table(name.text(), folder);
         return q0 ? rescaled(table, wanted) : table;
     } catch (const Error& error) {

@@ -7,7 +7,8 @@
 
 #include "base/error.h"
 #include "base/lower.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/named_file.h"
 
 namespace vesper {
 namespace {
@@ -114,8 +115,7 @@ std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std
             throw Error("URI '" + one_line(uri) + "' is an absolute path: only files beside this one are read");
     std::error_code ignored;
     // Exporters that forget to encode write "50%20off.png" for a file of that very name.
-    if (uri != decoded && std::filesystem::exists(folder / uri, ignored)) return folder / uri;
-    return folder / decoded;
+    return named_file(folder, uri != decoded && std::filesystem::exists(folder / uri, ignored) ? uri : decoded);
 }
 
 }  // namespace vesper

@@ -20,7 +20,7 @@ std::vector<uint8_t> decode_data_uri(std::string_view uri);
 std::string encode_data_uri(std::string_view media_type, std::span<const uint8_t> bytes);
 
 /// The file a relative URI names, from the folder of the file that names it. Percent-encoding is undone, unless a file
-/// of just that name exists. `..` is allowed (databases share texture folders), schemes and absolute paths are not.
+/// of just that name exists. It lies in that folder or in an AllowedFolder; schemes and absolute paths are refused.
 /// Throws Error (reason only).
 std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std::string& uri);
 

@@ -5,7 +5,8 @@
 
 #include "base/decimal.h"
 #include "base/error.h"
-#include "io/atomic_file.h"
+#include "base/one_line.h"
+#include "io/read_file.h"
 #include "scene/json_value.h"
 #include "scene/uri.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/srgb.h"
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "photometry/table.h"
 
 namespace vesper {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/atomic_file.h"
 #include "io/image_file.h"
+#include "io/read_file.h"
 #include "places.h"
 #include "result.h"
 #include "support/program.h"

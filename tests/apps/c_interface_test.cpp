@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "io/atomic_file.h"
+#include "base/one_line.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
 #include "scene/display_file.h"

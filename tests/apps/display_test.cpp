@@ -1,8 +1,8 @@
 // `vesper display` as people run it. SPDX-License-Identifier: MIT
 #include <cstdio>
 
-#include "io/atomic_file.h"
 #include "io/image_file.h"
+#include "io/read_file.h"
 #include "scene/display_file.h"
 #include "support/program.h"
 #include "vision/display.h"

@@ -9,9 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/atomic_file.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
+#include "io/read_file.h"
 #include "places.h"
 #include "scene/scene_files.h"
 

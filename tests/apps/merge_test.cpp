@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "io/atomic_file.h"
 #include "io/jpeg_files.h"
+#include "io/new_file.h"
 #include "photometry/brackets.h"
 #include "places.h"
 #include "scene/scene_files.h"

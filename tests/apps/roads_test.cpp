@@ -1,8 +1,8 @@
 // `vesper convert` of OpenDRIVE files as people run it, and a picture of the result. SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
 #include "io/image_file.h"
+#include "io/read_file.h"
 #include "places.h"
 #include "scene/gltf.h"
 #include "support/program.h"

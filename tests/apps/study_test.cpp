@@ -3,7 +3,7 @@
 #include <map>
 #include <sstream>
 
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "render/passes/operators.h"
 #include "support/exr_files.h"
 #include "support/program.h"

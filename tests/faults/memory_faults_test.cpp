@@ -8,10 +8,10 @@
 
 #include "faults/child.h"
 #include "faults/faults.h"
-#include "io/atomic_file.h"
 #include "io/exif.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
+#include "io/read_file.h"
 #include "photometry/distribution.h"
 #include "photometry/reflection_table.h"
 #include "photometry/response.h"

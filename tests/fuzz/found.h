@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "fuzz/targets.h"
-#include "io/atomic_file.h"
+#include "io/read_file.h"
 #include "places.h"
 
 namespace vesper::test {

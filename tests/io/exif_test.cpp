@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "io/jpeg_files.h"
+#include "io/read_file.h"
 #include "scene/scene_files.h"
 #include "support/shared_data.h"
 

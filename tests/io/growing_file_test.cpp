@@ -1,8 +1,6 @@
-// Files that grow beside their place, and what is read is remembered. SPDX-License-Identifier: MIT
+// Files that grow beside their place. SPDX-License-Identifier: MIT
 #include "io/growing_file.h"
 
-#include "io/atomic_file.h"
-#include "io/files_read.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {
@@ -83,16 +81,34 @@ TEST(GrowingFile, WritesThroughNoLink) {
     EXPECT_THROW(GrowingFile(folder / "taken"), Error);
 }
 
-TEST(FilesRead, AreThoseThatOtherFilesName) {
+TEST(GrowingFile, RefusesASecondWriter) {
     const TempFolder folder;
-    const FilesRead read;
-    folder.write("a", "x"), folder.write("b", "x");
-    fs::create_symlink("a", folder / "link");
-    read_file(folder / "a", 10);
-    EXPECT_TRUE(read.contains(folder / "a"));
-    EXPECT_TRUE(read.contains(folder / "link"));
-    EXPECT_TRUE(read.contains(folder.path() / "." / "a"));
-    EXPECT_FALSE(read.contains(folder / "b"));
+    GrowingFile first(folder / "log");
+    first.append("one\n");
+    try {
+        GrowingFile second(folder / "log");
+        FAIL() << "two writers of one file";
+    } catch (const Error& error) {
+        EXPECT_TRUE(contains(error.what(), "log.part: is being written by another program")) << error.what();
+    }
+    first.append("two\n");
+    first.complete();
+    EXPECT_EQ(read_text(folder / "log"), "one\ntwo\n");
+    GrowingFile next(folder / "log");  // the lock went with the first
+    next.append("three\n");
+    next.complete();
+    EXPECT_EQ(read_text(folder / "log"), "three\n");
+}
+
+TEST(GrowingFile, TakesNoOtherFilesPlace) {
+    const TempFolder folder;
+    GrowingFile file(folder / "log");
+    file.append("own");
+    fs::remove(folder / "log.part");
+    folder.write("log.part", "another's");
+    EXPECT_THROW(file.complete(), Error);
+    EXPECT_EQ(read_text(folder / "log.part"), "another's");
+    EXPECT_FALSE(fs::exists(folder / "log"));
 }
 
 }  // namespace

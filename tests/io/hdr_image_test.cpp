@@ -20,7 +20,8 @@
 #include <ImfStandardAttributes.h>
 #include <ImfTiledOutputFile.h>
 
-#include "io/atomic_file.h"
+#include "io/new_file.h"
+#include "io/read_file.h"
 #include "scene/scene_files.h"
 #include "support/exr_files.h"
 #include "support/hdr_files.h"

@@ -8,8 +8,8 @@
 #include <ImfStringAttribute.h>
 #include <png.h>
 
-#include "io/atomic_file.h"
 #include "io/jpeg_files.h"
+#include "io/read_file.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "io/atomic_file.h"
 #include "io/hdr_image.h"
+#include "io/read_file.h"
 #include "scene/colour.h"
 #include "scene/scene_report.h"
 #include "support/conversion.h"

@@ -1,8 +1,8 @@
 // Every glTF file and picture of the shared set gives a scene or an Error. SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "io/atomic_file.h"
 #include "io/image_file.h"
+#include "io/read_file.h"
 #include "scene/scene_files.h"
 #include "support/shared_data.h"
 

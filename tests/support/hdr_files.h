@@ -10,8 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "io/atomic_file.h"
 #include "io/hdr_image.h"
+#include "io/new_file.h"
+#include "io/read_file.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "io/atomic_file.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
+#include "io/read_file.h"
 #include "photometry/distribution.h"
 #include "photometry/standard_lamps.h"
 #include "places.h"

@@ -1,11 +1,18 @@
 // Files are replaced whole or not at all. SPDX-License-Identifier: MIT
-#include "io/atomic_file.h"
 
+#include "io/new_file.h"
+
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 
+#include "base/one_line.h"
+#include "io/growing_file.h"
+#include "io/read_file.h"
+#include "io/temporary.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {
@@ -19,7 +26,7 @@ size_t entries(const fs::path& folder) {
     return static_cast<size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-TEST(AtomicFile, WritesAndReplaces) {
+TEST(NewFile, WritesAndReplaces) {
     const TempFolder folder;
     replace_file(folder / "a", bytes_of("first, and longer"));
     EXPECT_EQ(read_text(folder / "a"), "first, and longer");
@@ -32,7 +39,7 @@ TEST(AtomicFile, WritesAndReplaces) {
     EXPECT_EQ(entries(folder.path()), 2u);
 }
 
-TEST(AtomicFile, KeepsLinks) {
+TEST(NewFile, KeepsLinks) {
     const TempFolder folder;
     folder.write("target", "old");
     fs::create_symlink("target", folder / "link");
@@ -47,7 +54,7 @@ TEST(AtomicFile, KeepsLinks) {
     EXPECT_THROW(replace_file(folder / "loop", bytes_of("x")), Error);
 }
 
-TEST(AtomicFile, SaysWhyItCannot) {
+TEST(NewFile, SaysWhyItCannot) {
     const TempFolder folder;
     folder.write("file", "");
     EXPECT_THROW(replace_file(folder.path(), bytes_of("x")), Error);
@@ -63,7 +70,7 @@ TEST(AtomicFile, SaysWhyItCannot) {
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(AtomicFile, LeavesTheOldFileWhenTheNewDoesNotFit) {
+TEST(NewFile, LeavesTheOldFileWhenTheNewDoesNotFit) {
     const TempFolder folder;
     folder.write("a", "old");
     rlimit before{};
@@ -78,7 +85,53 @@ TEST(AtomicFile, LeavesTheOldFileWhenTheNewDoesNotFit) {
     EXPECT_EQ(entries(folder.path()), 1u);
 }
 
-TEST(AtomicFile, ReadsRegularFilesUpToALimit) {
+// Until it is complete nothing of it has a name, whatever ends the program.
+TEST(NewFile, HasNoNameUntilItIsComplete) {
+    const TempFolder folder;
+    folder.write("a", "old");
+    NewFile file(folder / "a");
+    file.write(bytes_of("new"));
+    EXPECT_EQ(entries(folder.path()), 1u);
+    EXPECT_EQ(read_text(folder / "a"), "old");
+    file.commit();
+    EXPECT_EQ(read_text(folder / "a"), "new");
+    { NewFile(folder / "b").write(bytes_of("half")); }
+    EXPECT_EQ(entries(folder.path()), 1u);
+}
+
+// Where there are no unnamed files: the names cannot be foreseen, and go with the object or with a signal.
+TEST(Temporary, GoesWithItsObjectOrWithASignal) {
+    const TempFolder folder;
+    {
+        Temporary made(folder.path());
+        ASSERT_EQ(made.error(), 0);
+        Temporary other(folder.path());
+        EXPECT_EQ(entries(folder.path()), 2u);
+        EXPECT_EQ(made.take().write(bytes_of("x")), 0);
+        EXPECT_EQ(made.rename_to(folder / "kept"), 0);
+    }
+    EXPECT_EQ(entries(folder.path()), 1u);
+    EXPECT_EQ(read_text(folder / "kept"), "x");
+    const Temporary left(folder.path());
+    EXPECT_EQ(entries(folder.path()), 2u);
+    remove_temporaries();
+    EXPECT_EQ(entries(folder.path()), 1u);
+    EXPECT_EQ(Temporary(folder / "missing").error(), ENOENT);
+}
+
+TEST(NewFile, DoesNotWaitForAReaderOfAPipe) {
+    const TempFolder folder;
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    EXPECT_THROW(replace_file(folder / "pipe", bytes_of("x")), Error);
+    EXPECT_THROW(GrowingFile(folder / "pipe"), Error);
+    const Descriptor reader(::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK));
+    replace_file(folder / "pipe", bytes_of("x"));
+    char got = 0;
+    EXPECT_EQ(::read(reader.number(), &got, 1), 1);
+    EXPECT_EQ(got, 'x');
+}
+
+TEST(ReadFile, ReadsRegularFilesUpToALimit) {
     const TempFolder folder;
     folder.write("a", "12345");
     EXPECT_EQ(read_file(folder / "a", 5).size(), 5u);
@@ -89,7 +142,7 @@ TEST(AtomicFile, ReadsRegularFilesUpToALimit) {
     EXPECT_THROW(read_file(folder / "pipe", 100), Error);
 }
 
-TEST(AtomicFile, MakesMessagesOneLine) {
+TEST(OneLine, MakesMessagesOneLine) {
     EXPECT_EQ(one_line("a\nb\tc"), "a?b?c");
     EXPECT_EQ(one_line("caf\xc3\xa9 \xe2\x9d\xa4 \xf0\x9f\x92\xa1"), "caf\xc3\xa9 \xe2\x9d\xa4 \xf0\x9f\x92\xa1");
     EXPECT_EQ(one_line("\xff"
@@ -100,6 +153,7 @@ TEST(AtomicFile, MakesMessagesOneLine) {
                        "1m\xc0\x9b\xed\xa0\x80\xf4\x90\x80\x80"),
               "??1m" + std::string(9, '?'))
         << "a control character of two bytes, overlong, surrogate, beyond U+10FFFF";
+    EXPECT_EQ(one_line("a\u2028b\u202ec\u2066d\u2030"), "a???b???c???d\u2030") << "separators of lines, changes of direction";
     EXPECT_EQ(one_line(std::string(400, 'x')), std::string(300, 'x') + "...");
     EXPECT_EQ(one_line(std::string(299, 'x') + "❤❤"), std::string(299, 'x') + "...");  // cut between characters
 }

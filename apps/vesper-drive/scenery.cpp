@@ -12,6 +12,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/angle.h"
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "road_world.h"
@@ -95,6 +96,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scenario) {
+    const Budget budget("reading " + one_line(file.string()));
     const std::string extension = file.extension().string();
     if (!run.empty() && extension != ".xodr")
         throw Error(one_line(run.string()) + ": a run needs the roads (.xodr) that it was recorded on");

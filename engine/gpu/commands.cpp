@@ -47,18 +47,19 @@ void pipeline_barrier(VkCommandBuffer commands, std::span<const VkImageMemoryBar
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
-void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage image, std::span<const VkBufferImageCopy> copies) {
+void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage image, uint32_t levels,
+                   std::span<const VkBufferImageCopy> copies, UploadPart part) {
     constexpr Touch copy{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
     constexpr Touch sample{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
     const auto change = [&](Touch before, Touch after, VkImageLayout old_layout, VkImageLayout new_layout) {
-        const VkImageMemoryBarrier2 barrier = image_barrier(image, before, after, old_layout, new_layout,
-                                                            VK_IMAGE_ASPECT_COLOR_BIT, uint32_t(copies.size()));
+        const VkImageMemoryBarrier2 barrier =
+            image_barrier(image, before, after, old_layout, new_layout, VK_IMAGE_ASPECT_COLOR_BIT, levels);
         pipeline_barrier(commands, {&barrier, 1});
     };
-    change({}, copy, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    if (part.first) change({}, copy, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     vkCmdCopyBufferToImage(commands, from, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, uint32_t(copies.size()),
                            copies.data());
-    change(copy, sample, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    if (part.last) change(copy, sample, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 }  // namespace vesper

@@ -33,7 +33,13 @@ VkImageMemoryBarrier2 image_barrier(VkImage image, Touch before, Touch after, Vk
 void pipeline_barrier(VkCommandBuffer commands, std::span<const VkImageMemoryBarrier2> images,
                       const VkMemoryBarrier2* memory = nullptr);
 
-/// Fills levels of a new image, one with each copy, for fragment shaders to sample.
-void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage image, std::span<const VkBufferImageCopy> copies);
+/// Whether an upload is the first to an image, which is new then, and whether it is the last, after which fragment
+/// shaders sample it. Between two of them the queue is waited for.
+struct UploadPart {
+    bool first = true, last = true;
+};
+/// Copies to the levels of an image that nothing else uses as yet.
+void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage image, uint32_t levels,
+                   std::span<const VkBufferImageCopy> copies, UploadPart part = {});
 
 }  // namespace vesper

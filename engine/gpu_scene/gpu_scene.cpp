@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/budget.h"
+#include "base/one_line.h"
 #include "gpu_scene/intensity_tables.h"
 #include "scene/reflectance.h"
 #include "shared/retro.h"
@@ -80,6 +82,7 @@ OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const st
 
 GpuScene::GpuScene(const Device& device, const Scene& scene, PictureFormat pictures)
     : arena_(device), textures_(device, arena_, pictures) {
+    const Budget budget("preparing " + (scene.name.empty() ? "the scene" : one_line(scene.name)));
     upload_geometry(device, scene);
     place(scene);
     make_surfaces(scene);
@@ -96,6 +99,8 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene) {
             const float radius = primitive.bounds.empty() ? 0 : glm::length(primitive.bounds.high - centre);
             parts_.push_back({primitive.material, uint32_t(indices.size()), uint32_t(primitive.indices.size()),
                               int32_t(vertices.size()), centre, radius});
+            // On the device, and on the way there.
+            spend(2 * (primitive.vertices.size() * sizeof(Vertex) + primitive.indices.size() * sizeof(uint32_t)));
             vertices.insert(vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
             indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
         }

@@ -7,11 +7,14 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "base/budget.h"
 #include "gpu/commands.h"
 #include "scene/reflectance.h"
 
 namespace vesper {
 namespace {
+
+constexpr uint64_t kStaging = 64 << 20;  // bytes between host and device
 
 // The weights with which `size` texels make up texel `to` of `count`: the area it covers of each.
 struct Tap {
@@ -44,12 +47,61 @@ std::vector<Level> with_smaller(Level base) {
     return levels;
 }
 
-Level decoded(const Image& image, const std::vector<float>& table, bool linear_alpha) {
-    Level base{image.width, image.height, std::vector<float>(image.rgba.size())};
-    for (size_t i = 0; i < image.rgba.size(); ++i)
-        base.rgba[i] = linear_alpha && i % 4 == 3 ? float(image.rgba[i]) / 255 : table[image.rgba[i]];
-    return base;
+Rows rows_of(const Level& level) {
+    return {level.width, level.height, [&level](uint32_t y, float* to) {
+                std::copy_n(level.rgba.data() + size_t(y) * level.width * 4, size_t(level.width) * 4, to);
+            }};
 }
+
+/// Codes of an image through a table.
+Rows decoded_rows(const Image& image, std::vector<float> table, bool linear_alpha) {
+    return {image.width, image.height, [&image, table = std::move(table), linear_alpha](uint32_t y, float* to) {
+                const uint8_t* from = image.rgba.data() + size_t(y) * image.width * 4;
+                for (size_t i = 0; i < size_t(image.width) * 4; ++i)
+                    to[i] = linear_alpha && i % 4 == 3 ? float(from[i]) / 255 : table[from[i]];
+            }};
+}
+
+/// A luminance picture divided by `unit`.
+Rows picture_rows(const LuminancePicture& picture, float unit) {
+    return {picture.width, picture.height, [&picture, unit](uint32_t y, float* to) {
+                const float* from = picture.rgb.data() + size_t(y) * picture.width * 3;
+                for (size_t i = 0; i < picture.width; ++i, from += 3, to += 4)
+                    to[0] = from[0] / unit, to[1] = from[1] / unit, to[2] = from[2] / unit, to[3] = 1;
+            }};
+}
+
+Level half_of(const Rows& rows) {
+    Level half{std::max(1u, rows.width / 2), std::max(1u, rows.height / 2), {}};
+    half.rgba.assign(size_t(half.width) * half.height * 4, 0.0f);
+    std::vector<Tap> columns;
+    for (uint32_t x = 0; x < half.width; ++x) columns.push_back(taps(x, half.width, rows.width));
+    std::vector<float> from(size_t(rows.width) * 4);
+    for (uint32_t y = 0; y < half.height; ++y) {
+        check_time();
+        const Tap tap = taps(y, half.height, rows.height);
+        for (size_t j = 0; j < tap.weights.size(); ++j) {
+            rows.row(tap.first + uint32_t(j), from.data());
+            for (uint32_t x = 0; x < half.width; ++x) {
+                float* to = &half.rgba[(size_t(y) * half.width + x) * 4];
+                for (size_t i = 0; i < columns[x].weights.size(); ++i) {
+                    const float weight = tap.weights[j] * columns[x].weights[i];
+                    for (size_t c = 0; c < 4; ++c) to[c] += weight * from[(columns[x].first + i) * 4 + c];
+                }
+            }
+        }
+    }
+    return half;
+}
+
+/// A level of all its rows.
+Level whole(const Rows& rows) {
+    Level level{rows.width, rows.height, std::vector<float>(size_t(rows.width) * rows.height * 4)};
+    for (uint32_t y = 0; y < rows.height; ++y) rows.row(y, level.rgba.data() + size_t(y) * rows.width * 4);
+    return level;
+}
+
+uint64_t float_bytes(const Rows& rows) { return uint64_t{rows.width} * rows.height * 4 * sizeof(float); }
 
 /// The part of a level that `cutoff` leaves of its opacities times `scale`: of its area, between texels as filters see
 /// it, where that is no more than 256 x 256 texels; of its texels otherwise.
@@ -90,15 +142,6 @@ void cover(Level& level, float cutoff, double part) {
     for (size_t i = 3; i < level.rgba.size(); i += 4) level.rgba[i] = std::min(level.rgba[i] * scale, 1.0f);
 }
 
-// A luminance picture divided by `unit`.
-std::vector<Level> mip_chain(const LuminancePicture& picture, float unit) {
-    Level base{picture.width, picture.height, {}};
-    base.rgba.reserve(picture.rgb.size() / 3 * 4);
-    for (size_t i = 0; i < picture.rgb.size(); i += 3)
-        for (size_t c = 0; c < 4; ++c) base.rgba.push_back(c < 3 ? picture.rgb[i + c] / unit : 1.0f);
-    return with_smaller(std::move(base));
-}
-
 bool filters_floats(const Device& device) {
     VkFormatProperties properties{};
     vkGetPhysicalDeviceFormatProperties(device.physical(), VK_FORMAT_R32G32B32A32_SFLOAT, &properties);
@@ -132,25 +175,7 @@ std::vector<float> decode_table(Decode decode, const Transfer& transfer) {
     return table;
 }
 
-Level half_size(const Level& level) {
-    Level half{std::max(1u, level.width / 2), std::max(1u, level.height / 2), {}};
-    half.rgba.assign(size_t(half.width) * half.height * 4, 0.0f);
-    std::vector<Tap> columns;
-    for (uint32_t x = 0; x < half.width; ++x) columns.push_back(taps(x, half.width, level.width));
-    for (uint32_t y = 0; y < half.height; ++y) {
-        const Tap rows = taps(y, half.height, level.height);
-        for (uint32_t x = 0; x < half.width; ++x) {
-            float* to = &half.rgba[(size_t(y) * half.width + x) * 4];
-            for (size_t j = 0; j < rows.weights.size(); ++j)
-                for (size_t i = 0; i < columns[x].weights.size(); ++i) {
-                    const float* from = &level.rgba[(size_t(rows.first + j) * level.width + columns[x].first + i) * 4];
-                    const float weight = rows.weights[j] * columns[x].weights[i];
-                    for (int c = 0; c < 4; ++c) to[c] += weight * from[c];
-                }
-        }
-    }
-    return half;
-}
+Level half_size(const Level& level) { return half_of(rows_of(level)); }
 
 std::vector<Level> masked_levels(Level base, float cutoff) {
     constexpr uint32_t kLeastSide = 8;
@@ -193,11 +218,10 @@ VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& us
         const Image white{"white", 1, 1, {255, 255, 255, 255}};
         const Image& image = use.image == kNone ? white : scene.images[use.image];
         const bool data = std::get<Decode>(key) == Decode::Data;
-        Level base = decoded(image, decode_table(std::get<Decode>(key), scene.transfer), !data);
-        const auto levels = std::get<float>(key) > 0 ? masked_levels(std::move(base), std::get<float>(key))
-                                                     : with_smaller(std::move(base));
+        const Rows base = decoded_rows(image, decode_table(std::get<Decode>(key), scene.transfer), !data);
         const VkFormat format = data ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
-        found = textures_.emplace(key, upload(levels, format)).first;
+        const float mask = std::get<float>(key);
+        found = textures_.emplace(key, mask > 0 ? upload_masked(base, mask, format) : upload(base, format)).first;
     }
     return {sampler(use), found->second.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
@@ -210,35 +234,77 @@ VkDescriptorImageInfo TextureStore::get_picture(const Scene& scene, const Textur
         const float largest = whole ? 0 : *std::max_element(picture.rgb.begin(), picture.rgb.end());
         const float divided = largest > 0 ? std::max(largest / 60000, 1e-30f) : 1;
         const VkFormat format = whole ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R16G16B16A16_SFLOAT;
-        found = pictures_.emplace(use.image, std::pair(upload(mip_chain(picture, divided), format), divided)).first;
+        found = pictures_.emplace(use.image, std::pair(upload(picture_rows(picture, divided), format), divided)).first;
     }
     unit = found->second.second;
     return {sampler(use), found->second.first.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
-TextureStore::Texture TextureStore::upload(const std::vector<Level>& levels, VkFormat format) {
+TextureStore::Texture TextureStore::upload(const Rows& base, VkFormat format) {
+    const TemporaryMemory of_levels(base.width > 1 || base.height > 1 ? float_bytes(base) / 3 : 0);
+    std::vector<Level> smaller;
+    if (base.width > 1 || base.height > 1) smaller = with_smaller(half_of(base));
+    std::vector<Rows> levels{base};
+    for (const Level& level : smaller) levels.push_back(rows_of(level));
+    return upload(levels, format);
+}
+
+TextureStore::Texture TextureStore::upload_masked(const Rows& base, float cutoff, VkFormat format) {
+    const TemporaryMemory of_levels(float_bytes(base) * 4 / 3);
+    const std::vector<Level> masked = masked_levels(whole(base), cutoff);
+    std::vector<Rows> levels;
+    for (const Level& level : masked) levels.push_back(rows_of(level));
+    return upload(levels, format);
+}
+
+TextureStore::Texture TextureStore::upload(const std::vector<Rows>& levels, VkFormat format) {
     const size_t texel_bytes = bytes_of_texel(format);
     uint64_t bytes = 0;
-    for (const Level& level : levels) bytes += uint64_t(level.width) * level.height * texel_bytes;
-    const HostBuffer staging(*device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
-    std::vector<VkBufferImageCopy> copies;
-    std::byte* to = staging.data();
-    for (const Level& level : levels) {
-        copies.push_back({.bufferOffset = uint64_t(to - staging.data()),
-                          .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, uint32_t(copies.size()), 0, 1},
-                          .imageExtent = {level.width, level.height, 1}});
-        for (size_t i = 0; i < level.rgba.size(); i += 4, to += texel_bytes)
-            pack(format, {level.rgba[i], level.rgba[i + 1], level.rgba[i + 2], level.rgba[i + 3]}, to);
-    }
-    staging.flush();
-
+    for (const Rows& level : levels) bytes += uint64_t(level.width) * level.height * texel_bytes;
+    spend(bytes);
     Texture texture;
     texture.image =
         make_image(*device_, image_info(format, {levels[0].width, levels[0].height}, uint32_t(levels.size()),
                                         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
     arena_->bind(texture.image.get());
-    device_->run_once(
-        [&](VkCommandBuffer commands) { record_upload(commands, staging.buffer(), texture.image.get(), copies); });
+
+    // By way of a buffer of some rows, again and again.
+    const uint64_t longest = uint64_t(levels[0].width) * texel_bytes;
+    const HostBuffer staging(*device_, std::max(longest, std::min(bytes, kStaging)), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                             HostBuffer::Direction::ToDevice);
+    UploadPart part{.first = true, .last = false};
+    std::vector<VkBufferImageCopy> copies;
+    uint64_t used = 0;
+    const auto flush = [&] {
+        staging.flush();
+        device_->run_once([&](VkCommandBuffer commands) {
+            record_upload(commands, staging.buffer(), texture.image.get(), uint32_t(levels.size()), copies, part);
+        });
+        copies.clear(), used = 0, part.first = false;
+    };
+    std::vector<float> row(size_t(levels[0].width) * 4);
+    for (uint32_t l = 0; l < levels.size(); ++l) {
+        const Rows& level = levels[l];
+        const uint64_t row_bytes = uint64_t(level.width) * texel_bytes;
+        for (uint32_t y = 0; y < level.height; ++y) {
+            check_time();
+            if (used + row_bytes > staging.bytes()) flush();
+            const bool goes_on = !copies.empty() && copies.back().imageSubresource.mipLevel == l;
+            if (!goes_on)
+                copies.push_back({.bufferOffset = used,
+                                  .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, l, 0, 1},
+                                  .imageOffset = {0, int32_t(y), 0},
+                                  .imageExtent = {level.width, 0, 1}});
+            ++copies.back().imageExtent.height;
+            level.row(y, row.data());
+            std::byte* to = staging.data() + used;
+            for (size_t i = 0; i < size_t(level.width) * 4; i += 4, to += texel_bytes)
+                pack(format, {row[i], row[i + 1], row[i + 2], row[i + 3]}, to);
+            used += row_bytes;
+        }
+    }
+    part.last = true;
+    flush();
     texture.view = make_view(*device_, texture.image.get(), format);
     return texture;
 }

@@ -1,6 +1,7 @@
 // Textures on the device, decoded to linear values before they are filtered. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -17,6 +18,12 @@ enum class Decode : uint8_t { Colour, Srgb, Data };  ///< through Scene::transfe
 struct Level {
     uint32_t width = 0, height = 0;
     std::vector<float> rgba;
+};
+
+/// Rows of a level, made when they are asked for: a large picture never lies in memory as floats.
+struct Rows {
+    uint32_t width = 0, height = 0;
+    std::function<void(uint32_t y, float* to)> row;
 };
 
 /// The linear value of each 8-bit code.
@@ -50,7 +57,10 @@ private:
         OwnedImage image;
         OwnedImageView view;
     };
-    Texture upload(const std::vector<Level>& levels, VkFormat format);
+    /// With smaller levels; masked_levels() where there is a cutoff.
+    Texture upload(const Rows& base, VkFormat format);
+    Texture upload_masked(const Rows& base, float cutoff, VkFormat format);
+    Texture upload(const std::vector<Rows>& levels, VkFormat format);
     VkSampler sampler(const TextureUse& use);
 
     const Device* device_;

@@ -13,6 +13,7 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
+#include "base/budget.h"
 #include "base/decimal.h"
 #include "base/error.h"
 #include "io/exr_chroma.h"
@@ -67,8 +68,11 @@ void read_rows(HdrImage& image, const Window& data, const Window& display, std::
     const int64_t y0 = std::max(data.y0, display.y0), y1 = std::min(data.y1, display.y1);
     block.resize(static_cast<size_t>(data.width() * std::min(kRows, data.height()) * 3));
     const size_t values = size_t{3} * image.width * image.height;
+    spend(values * sizeof(float));
+    const TemporaryMemory of_block(block.size() * sizeof(float));
     for (int64_t first = y0; first <= y1 && x0 <= x1; first += kRows) {
         const int64_t last = std::min(first + kRows - 1, y1);
+        check_time();
         read(static_cast<int>(first), static_cast<int>(last));
         image.rgb.resize(values);
         for (int64_t y = first; y <= last; ++y) {

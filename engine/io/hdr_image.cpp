@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/hdr_parts.h"
@@ -65,6 +66,7 @@ HdrImage decode(std::span<const uint8_t> bytes, const std::string& name, Kind wa
 }
 
 HdrImage read(const std::filesystem::path& file, Kind wanted, const HdrLimits& limits, const std::string& layer) {
+    const Budget budget("reading " + one_line(file.string()));
     return decode(read_file(file, scaled_limit(hdr::kMaxFileBytes)), file.string(), wanted, limits, layer);
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "io/hdr_parts.h"
 
@@ -205,9 +206,11 @@ HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits)
     const auto count = static_cast<size_t>(lines.size), length = static_cast<size_t>(along.size);
     if (bytes.left() / 4 < count) throw Error("Radiance: is cut off");  // a line takes four bytes at the very least
     HdrImage image{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+    spend(uint64_t{count} * length * 3 * sizeof(float));
     image.rgb.resize(count * length * 3);
     std::vector<Rgbe> line(length);
     for (size_t i = 0; i < count; ++i) {
+        check_time();
         const bool runs =
             length >= 8 && length < 32768 && bytes.peek(0) == 2 && bytes.peek(1) == 2 && bytes.peek(2) < 128;
         if (runs) {

@@ -11,6 +11,7 @@
 #include <jpeglib.h>
 #include <png.h>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
 
@@ -49,6 +50,7 @@ bool acceptable(Job& job, uint64_t width, uint64_t height, uint64_t max_texels_p
 void make_image(Job& job, uint32_t width, uint32_t height) {
     job.image.width = width;
     job.image.height = height;
+    spend(uint64_t{width} * height * 4);
     job.image.rgba.resize(static_cast<size_t>(width) * height * 4);
 }
 
@@ -103,7 +105,10 @@ bool decode_png(Job& job, const PngReading& reading) {
     const size_t stride = static_cast<size_t>(width) * 4;
     if (png_get_rowbytes(png, header) != stride) png_error(png, "unexpected row size");
     for (int pass = 0; pass < passes; ++pass)
-        for (png_uint_32 y = 0; y < height; ++y) png_read_row(png, job.image.rgba.data() + y * stride, nullptr);
+        for (png_uint_32 y = 0; y < height; ++y) {
+            check_time();
+            png_read_row(png, job.image.rgba.data() + y * stride, nullptr);
+        }
     png_read_end(png, nullptr);
     return true;
 }
@@ -181,6 +186,7 @@ bool decode_jpeg(Job& job, JpegReading& reading) {
     job.row.resize(static_cast<size_t>(jpeg.output_width) * static_cast<size_t>(jpeg.output_components));
     const size_t stride = static_cast<size_t>(jpeg.output_width) * 4;
     while (jpeg.output_scanline < jpeg.output_height) {
+        check_time();
         const size_t y = jpeg.output_scanline;
         JSAMPROW row = job.row.data();
         jpeg_read_scanlines(&jpeg, &row, 1);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/descriptor.h"
@@ -29,6 +30,7 @@ std::vector<uint8_t> read_file(const fs::path& file, uint64_t max_bytes) {
     if (size > max_bytes)
         throw Error(one_line(file.string()) + ": has " + std::to_string(size) + " bytes, more than the limit of " +
                     std::to_string(max_bytes));
+    spend(size);
     std::vector<uint8_t> bytes(size);
     size_t done = 0;
     while (done < bytes.size()) {

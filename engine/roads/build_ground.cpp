@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/budget.h"
 #include "roads/lit_road_parts.h"
 
 namespace vesper::roads {
@@ -87,11 +88,13 @@ Ground make_ground(const RoadNetwork&, const std::vector<CutSection>& cuts, doub
                                               glm::distance(b.inner.position, b.outer.position));
                 const auto along = static_cast<int>(std::clamp(std::ceil(length / step), 1.0, 1000.0)),
                            across = static_cast<int>(std::clamp(std::ceil(width / step), 1.0, 1000.0));
-                for (int x = 0; x <= along; ++x)
+                for (int x = 0; x <= along; ++x) {
+                    check_time();
                     for (int y = 0; y <= across; ++y)
                         ground.stay_below(glm::mix(glm::mix(a.inner.position, b.inner.position, double(x) / along),
                                                    glm::mix(a.outer.position, b.outer.position, double(x) / along),
                                                    double(y) / across));
+                }
             }
     ground.spread();
     return ground;

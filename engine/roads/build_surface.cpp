@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "roads/lit_road_parts.h"
 
@@ -187,6 +188,7 @@ std::vector<CutSection> cut_roads(const RoadNetwork& network, double chord) {
             if (edges > kMaxEdges)
                 throw Error("the roads are too finely divided to be built: more than " + std::to_string(kMaxEdges) +
                             " lane edges");
+            spend(cut.stations.size() * section.lanes.size() * sizeof(LaneEdges));
             for (const double at : cut.stations) {
                 std::vector<LaneEdges> row;
                 for (const RoadLane& lane : section.lanes)

@@ -1,5 +1,8 @@
 #include "roads/convert_roads.h"
 
+#include "base/budget.h"
+#include "base/one_line.h"
+#include "io/file_gate.h"
 #include "io/in_file.h"
 #include "roads/lit_roads.h"
 #include "roads/opendrive.h"
@@ -9,6 +12,8 @@ namespace vesper::roads {
 
 RoadConversion convert_roads(const std::filesystem::path& opendrive, const std::filesystem::path& scene,
                              const ConvertOptions& options) {
+    const FileGate gate;
+    const Budget budget("converting " + one_line(opendrive.string()));
     LitRoadOptions lit{.lamps = options.lamps};
     if (!options.luminaire.empty()) lit.luminaire = read_distribution(options.luminaire);
     const RoadNetwork network = read_opendrive(opendrive);

@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "roads/lane_build.h"
 #include "roads/road_surface.h"
@@ -122,6 +123,7 @@ void add_lane(Builder& builder, uint32_t road_index, uint32_t section_index, con
     lane.name = "road " + road.id + ", section " + std::to_string(section_index) + ", lane " + std::to_string(from.id);
     builder.poses += stations.size();
     if (builder.poses > kMaxPoses) throw Error("the lanes have more points than " + std::to_string(kMaxPoses));
+    spend(stations.size() * sizeof(LanePose));
     double widest = 0;
     for (size_t i = 0; i < stations.size(); ++i) {
         const double s = stations[i];

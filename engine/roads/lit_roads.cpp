@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "roads/lit_road_parts.h"
 
@@ -31,6 +32,7 @@ void count_triangles(RoadBuild& build) {
 }  // namespace
 
 LitRoads lit_roads(const RoadNetwork& network, const LitRoadOptions& options) {
+    const Budget budget("building roads");
     check_options(options);
     double length = 0;
     for (const Road& road : network.roads) length += road.sections.empty() ? 0 : road.length;

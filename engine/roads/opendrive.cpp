@@ -5,6 +5,7 @@
 #include <cmath>
 #include <new>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/read_file.h"
@@ -150,6 +151,7 @@ RoadNetwork parse_opendrive(std::string_view text, const std::string& name, cons
 }
 
 RoadNetwork read_opendrive(const std::filesystem::path& path, const RoadLimits& limits) {
+    const Budget budget("reading " + one_line(path.string()));
     const std::vector<uint8_t> bytes = read_file(path, limits.file_bytes);
     return parse_opendrive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(), limits);
 }

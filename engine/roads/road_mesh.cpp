@@ -5,12 +5,15 @@
 #include <cmath>
 
 #include "base/angle.h"
+#include "base/budget.h"
 #include "base/error.h"
 
 namespace vesper::roads {
 namespace {
 
 constexpr size_t kMaxVertices = 60'000'000;  // of one mesh; a bound on memory, far above what renders
+
+constexpr size_t kCopies = 3;  // of the geometry: while its arrays grow, and while it is written to a file
 
 double signed_area(const std::vector<glm::dvec2>& points) {
     double sum = 0;
@@ -32,6 +35,7 @@ void RoadMesh::triangle(RoadMaterial stuff, const Corner& a, const Corner& b, co
     Primitive& primitive = primitives_[stuff];
     if (primitive.vertices.size() > kMaxVertices)
         throw Error("the roads have more triangles than " + std::to_string(kMaxVertices / 3));
+    spend(3 * (sizeof(Vertex) + sizeof(uint32_t)) * kCopies);
     for (const Corner* corner : {&a, &b, &c}) {
         Vertex vertex;
         vertex.position = glm::vec3(network_.to_world(corner->position));
@@ -74,6 +78,7 @@ void RoadMesh::any_polygon(RoadMaterial stuff, std::vector<glm::dvec3> corners, 
     while (corners.size() > 3) {
         size_t ear = corners.size();
         for (size_t i = 0; i < corners.size() && ear == corners.size(); ++i) {
+            check_time();
             const size_t a = (i + corners.size() - 1) % corners.size(), c = (i + 1) % corners.size();
             if (!is_left_turn(flat[a], flat[i], flat[c])) continue;
             bool free = true;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/budget.h"
+
 namespace vesper::roads {
 namespace {
 
@@ -74,6 +76,7 @@ void add_breaks(std::vector<double>& breaks, const Profile& profile) {
 }  // namespace
 
 RoadPoint reference_point(const Road& road, double s) {
+    check_time();
     const PlanGeometry& g = geometry_at(road, s);
     const PlanPoint plan = plan_point(g, s - g.s);
     RoadPoint point;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/budget.h"
+
 namespace vesper::roads {
 namespace {
 
@@ -25,6 +27,7 @@ uint32_t SegmentGrid::add(glm::dvec2 from, glm::dvec2 to) {
 }
 
 std::vector<uint32_t> SegmentGrid::near(glm::dvec2 point, double reach) const {
+    check_time();
     std::vector<uint32_t> found;
     reach = std::min(reach, kReach);
     const int64_t left = index(point.x - reach), right = index(point.x + reach), bottom = index(point.y - reach),

@@ -6,6 +6,7 @@
 #include <new>
 #include <optional>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/file_gate.h"
@@ -112,6 +113,7 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
                                  const std::filesystem::path& output, const std::optional<Transfer>& transfer,
                                  const SceneLimits& limits) {
     const FileGate gate;
+    const Budget budget("converting " + one_line(input.string()));
     const std::string extension = output.extension().string();
     if (extension != ".gltf" && extension != ".glb")
         throw Error(one_line(output.string()) + ": the output must be named .gltf or .glb");

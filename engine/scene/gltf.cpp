@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "scene/gltf_reader.h"
@@ -67,6 +68,7 @@ void read_all(GltfReader& reader) {
 }
 
 LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limits) {
+    const Budget budget("reading " + one_line(file.string()));
     try {
         GltfDocument document(file, limits);
         GltfReader reader{.document = document, .limits = limits};

@@ -1,5 +1,6 @@
 // Numbers out of glTF accessors (specification 2.0, sections 3.6.2 and 5.1). SPDX-License-Identifier: MIT
 #include "scene/gltf_accessor.h"
+#include "base/budget.h"
 
 #include <algorithm>
 #include <cstring>
@@ -101,7 +102,10 @@ void for_each_element(GltfDocument& document, const GltfPart<tinygltf::Accessor>
     if (accessor->bufferView >= 0) {
         const Elements dense =
             elements_in(document, accessor.json, accessor->bufferView, accessor->byteOffset, count, size);
-        for (uint64_t i = 0; i < count; ++i) store(i, dense.at(i));
+        for (uint64_t i = 0; i < count; ++i) {
+            check_time();
+            store(i, dense.at(i));
+        }
     }
     if (!accessor->sparse.isSparse) return;
     const auto& [changed, is_sparse, where, what] = accessor->sparse;
@@ -144,6 +148,7 @@ Floats read_floats(GltfDocument& document, int index, std::initializer_list<int>
     floats.count = static_cast<uint32_t>(accessor->count);
     const uint32_t step = size_of(component), size = step * floats.components;
     check_range(document, accessor, size);
+    const TemporaryMemory of_values(uint64_t{floats.count} * floats.components * sizeof(float));
     floats.values.resize(static_cast<size_t>(floats.count) * floats.components);
     for_each_element(document, accessor, size, [&](uint64_t i, const uint8_t* bytes) {
         for (uint32_t c = 0; c < floats.components; ++c)

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/budget.h"
 #include "scene/gltf_reader.h"
 #include "scene/mesh.h"
 
@@ -129,9 +130,10 @@ std::vector<uint32_t> read_corners(GltfReader& reader, const GltfPart<tinygltf::
     return corners;
 }
 
-void spend(const JsonValue& primitive, uint64_t& used, uint64_t more, uint64_t limit, const char* what) {
+void take(const JsonValue& primitive, uint64_t& used, uint64_t more, uint64_t limit, const char* what, size_t bytes) {
     if (more > limit - used) primitive.fail("takes the meshes over the limit of " + std::to_string(limit) + " " + what);
     used += more;
+    spend(more * bytes);
 }
 
 /// Nothing for what is not made of triangles.
@@ -154,7 +156,7 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const GltfPart<tinyg
     made.vertices = read_positions(reader, source, position->second, pose.weights);
     const size_t count = made.vertices.size();
     made.indices = triangles(reader, read_corners(reader, source, count), mode);
-    spend(source.json, reader.indices, made.indices.size(), reader.limits.indices, "indices");
+    take(source.json, reader.indices, made.indices.size(), reader.limits.indices, "indices", sizeof(uint32_t));
 
     const std::string uv_set = "TEXCOORD_" + std::to_string(reader.uv_mappings[made.material].set);
     if (const auto uv = read_attribute(reader, source, uv_set, count, {TINYGLTF_TYPE_VEC2}))
@@ -171,9 +173,9 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const GltfPart<tinyg
     if (pose.skin) bend(reader, source, *pose.skin, made);
     if (normals) {
         drop_unused(made);
-        spend(source.json, reader.vertices, made.vertices.size(), reader.limits.vertices, "vertices");
+        take(source.json, reader.vertices, made.vertices.size(), reader.limits.vertices, "vertices", sizeof(Vertex));
     } else {
-        spend(source.json, reader.vertices, made.indices.size(), reader.limits.vertices, "vertices");
+        take(source.json, reader.vertices, made.indices.size(), reader.limits.vertices, "vertices", sizeof(Vertex));
         make_flat(made);
     }
 

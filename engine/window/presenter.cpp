@@ -84,7 +84,7 @@ void Presenter::upload_coverage(VkExtent2D extent, std::span<const uint8_t> cove
     device_.run_once([&](VkCommandBuffer commands) {
         const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                      .imageExtent = {extent.width, extent.height, 1}};
-        record_upload(commands, staging.buffer(), coverage_.get(), {&copy, 1});
+        record_upload(commands, staging.buffer(), coverage_.get(), 1, {&copy, 1});
     });
 }
 

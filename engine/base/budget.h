@@ -1,0 +1,45 @@
+// What reading and preparing a file may take. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace vesper {
+
+/// Bounds what the calls take that this thread makes while it lives: 60 s of processor time and 2 GiB of memory, both
+/// times the factor VESPER_LIMITS (base/limits.h). Memory is what is announced by spend(): it grows with the file. A
+/// budget within another has no effect. Without a budget nothing is refused.
+class Budget {
+public:
+    /// `task` begins messages: "reading street.gltf".
+    explicit Budget(std::string task);
+    ~Budget();
+    Budget(const Budget&) = delete;
+    Budget& operator=(const Budget&) = delete;
+
+    std::string task;
+    uint64_t bytes_left = 0, bytes = 0;
+    int64_t end = 0, nanoseconds = 0;  ///< of the thread's processor time
+    unsigned calls = 0;
+};
+
+/// Announces memory before it is taken. Throws Error if the budget does not have it.
+void spend(uint64_t bytes);
+
+/// Memory that is taken for a while.
+class TemporaryMemory {
+public:
+    explicit TemporaryMemory(uint64_t bytes) : bytes_(bytes) { spend(bytes); }
+    ~TemporaryMemory();
+    TemporaryMemory(const TemporaryMemory&) = delete;
+    TemporaryMemory& operator=(const TemporaryMemory&) = delete;
+
+private:
+    uint64_t bytes_;
+};
+
+/// For loops whose length a file states. Throws Error if the time of the budget is over; looks at the clock at one call
+/// in 64.
+void check_time();
+
+}  // namespace vesper

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "commands.h"
+#include "in_file.h"
 #include "io/file_gate.h"
 #include "io/read_file.h"
 #include "print.h"
@@ -46,6 +47,17 @@ std::vector<double> numbers(const std::string& option, const std::string& text, 
         if (*end == 0) return values;
         at = end + 1;
     }
+}
+
+/// All pictures in a message.
+std::string pictures_of(const MergeArguments& arguments) {
+    return one_line(arguments.images.front()) + " to " + one_line(arguments.images.back());
+}
+
+/// Errors of what is done with all pictures name them.
+template <class Call>
+auto of_pictures(const MergeArguments& arguments, const Call& call) {
+    return in_file(pictures_of(arguments), call);
 }
 
 struct KnownLuminance {
@@ -130,7 +142,8 @@ void report_exposures(const MergeArguments& arguments, const std::vector<Exposur
 Response response_of(const MergeArguments& arguments, const std::vector<Exposure>& exposures) {
     Response response;
     if (arguments.curve == "recover") {
-        const RecoveredResponse recovered = recover_response(exposures, arguments.smoothness);
+        const RecoveredResponse recovered =
+            of_pictures(arguments, [&] { return recover_response(exposures, arguments.smoothness); });
         for (size_t c = 0; c < 3; ++c)
             print("response of %c: rms error %.1f %% of exposure, from %zu pixels\n", "RGB"[c],
                   100 * recovered.error[c], recovered.pixels[c]);
@@ -187,12 +200,12 @@ void run(const MergeArguments& arguments) {
     if (!arguments.align)
         for (Exposure& exposure : exposures) exposure.shift = glm::ivec2(0);
     const Response response = response_of(arguments, exposures);
-    MergedImage merged = merge_exposures(exposures, response);
+    MergedImage merged = of_pictures(arguments, [&] { return merge_exposures(exposures, response); });
     if (known.cd_m2 > 0) {
         try {
             print("scale %.6g\n", scale_to_luminance(merged, known.region, known.cd_m2));
         } catch (const Error& error) {
-            throw Error("--luminance " + arguments.luminance + ": " + error.what());
+            throw Error("--luminance " + arguments.luminance + ": " + pictures_of(arguments) + ": " + error.what());
         }
     } else if (arguments.scale > 0) {
         scale(merged, arguments.scale);

@@ -124,8 +124,7 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     const Photometry rules = with_night_sky(stated);
 
     GltfDocument document(input, limits);
-    if (const auto extras = document.root().find("extras")) {
-        if (!extras->json().is_object()) extras->fail("must be an object to take the vesper block");
+    if (const auto extras = document.root().find("extras"); extras && extras->json().is_object()) {
         if (const auto block = extras->find("vesper"))
             block->fail("the file has been converted already: convert the original");
     }
@@ -142,6 +141,11 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     if (rules.ambient.has_value() != stated.ambient.has_value() || rules.sky.has_value() != stated.sky.has_value())
         report.changes.push_back("ambient and sky: what is not stated is that of a clear night over a city");
     json& root = document.edit();
+    // Extras of a file may be of any kind; those of a photometric one are an object.
+    if (const auto extras = root.find("extras"); extras != root.end() && !extras->is_object()) {
+        *extras = {{"extras", std::move(*extras)}};
+        report.changes.emplace_back("extras of the file, which are no object, became extras/extras");
+    }
     object_member(document, root, "extras")["vesper"] = block_of(conversion, input, photometry);
 
     // What will be written is read first: it must load, and be plausible, with nothing else beside it.

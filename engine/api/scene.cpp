@@ -4,6 +4,7 @@
 
 #include "api/handles.h"
 #include "base/luminance.h"
+#include "io/named_file.h"
 #include "io/read_file.h"
 #include "photometry/table.h"
 #include "scene/gltf.h"
@@ -120,6 +121,13 @@ VesperResult vesper_scene_create(VesperScene** scene, VesperError* error) {
 VesperResult vesper_scene_read(const char* file, VesperScene** scene, VesperError* error) {
     return guarded(error, [&] {
         require(file && scene, "no file, or no place for the scene");
+        *scene = new VesperScene{read_gltf(file).scene, 0, {}};
+    });
+}
+VesperResult vesper_scene_read_allowing(const char* file, const char* folder, VesperScene** scene, VesperError* error) {
+    return guarded(error, [&] {
+        require(file && folder && scene, "no file, no folder, or no place for the scene");
+        const AllowedFolder allowed(folder);
         *scene = new VesperScene{read_gltf(file).scene, 0, {}};
     });
 }

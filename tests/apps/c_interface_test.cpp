@@ -344,6 +344,18 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     VesperScene* scene = nullptr;
     EXPECT_EQ(vesper_scene_read("/nothing.gltf", &scene, &error), VESPER_FAILED);
     EXPECT_NE(std::string(error.message).find("/nothing.gltf"), std::string::npos);
+    EXPECT_EQ(vesper_scene_read_allowing("/nothing.gltf", nullptr, &scene, &error), VESPER_BAD_ARGUMENT);
+    // A buffer beside the scene's folder.
+    const TempFolder folder;
+    std::filesystem::create_directory(folder / "scene");
+    folder.write("buffer.bin", std::string(36, '\0'));
+    const std::string file = folder.write(
+        "scene/s.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "../buffer.bin"}]})");
+    EXPECT_EQ(vesper_scene_read(file.c_str(), &scene, &error), VESPER_FAILED);
+    EXPECT_NE(std::string(error.message).find("outside"), std::string::npos) << error.message;
+    EXPECT_EQ(vesper_scene_read_allowing(file.c_str(), folder.path().c_str(), &scene, &error), VESPER_OK)
+        << error.message;
+    vesper_scene_destroy(scene);
     vesper_tone_mapper_destroy(mapper);
     vesper_version(nullptr);
     vesper_tone_mapper_destroy(nullptr), vesper_renderer_destroy(nullptr), vesper_scene_destroy(nullptr),

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "print.h"
 #include "io/read_file.h"
+#include "print.h"
 #include "support/exr_files.h"
 #include "support/program.h"
 #include "vision/relative_picture.h"

@@ -153,7 +153,8 @@ TEST(OneLine, MakesMessagesOneLine) {
                        "1m\xc0\x9b\xed\xa0\x80\xf4\x90\x80\x80"),
               "??1m" + std::string(9, '?'))
         << "a control character of two bytes, overlong, surrogate, beyond U+10FFFF";
-    EXPECT_EQ(one_line("a\u2028b\u202ec\u2066d\u2030"), "a???b???c???d\u2030") << "separators of lines, changes of direction";
+    EXPECT_EQ(one_line("a\u2028b\u202ec\u2066d\u2030"), "a???b???c???d\u2030")
+        << "separators of lines, changes of direction";
     EXPECT_EQ(one_line(std::string(400, 'x')), std::string(300, 'x') + "...");
     EXPECT_EQ(one_line(std::string(299, 'x') + "❤❤"), std::string(299, 'x') + "...");  // cut between characters
 }

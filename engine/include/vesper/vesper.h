@@ -263,8 +263,10 @@ typedef struct VesperScene VesperScene;
 
 /** Makes an empty scene. */
 VesperResult vesper_scene_create(VesperScene** scene, VesperError* error);
-/** Reads a photometric scene (.gltf or .glb, as vesper convert writes them). */
+/** Reads a photometric scene (.gltf or .glb, as vesper convert writes them). Files that it names lie in its folder. */
 VesperResult vesper_scene_read(const char* file, VesperScene** scene, VesperError* error);
+/** The same. Files that it names may lie in `folder`, too; "/" is everywhere. */
+VesperResult vesper_scene_read_allowing(const char* file, const char* folder, VesperScene** scene, VesperError* error);
 /** Destroys a scene. Its renderers must be destroyed before. */
 void vesper_scene_destroy(VesperScene* scene);
 /** Number of nodes, including removed ones. */

@@ -2,8 +2,9 @@
 #include "api/handles.h"
 #include "gpu/requirements.h"
 
-using namespace vesper;
-using namespace vesper::api;
+namespace vesper::api {
+
+extern "C" {
 
 void vesper_version(uint32_t version[3]) {
     constexpr uint32_t parts[3]{VESPER_VERSION_MAJOR, VESPER_VERSION_MINOR, VESPER_VERSION_PATCH};
@@ -62,3 +63,7 @@ VesperResult vesper_device_borrow(const VesperHostDevice* host, VesperDevice** d
         *device = new VesperDevice(given);
     });
 }
+
+}  // extern "C"
+
+}  // namespace vesper::api

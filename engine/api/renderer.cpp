@@ -4,9 +4,7 @@
 #include "api/handles.h"
 #include "scene/placement.h"
 
-using namespace vesper;
-using namespace vesper::api;
-
+namespace vesper::api {
 namespace {
 
 // Everything where it stands at a time, but for what was put elsewhere, and what hangs on that.
@@ -65,6 +63,8 @@ void require_node(const VesperRenderer& renderer, uint32_t node) {
 }
 
 }  // namespace
+
+extern "C" {
 
 VesperResult vesper_renderer_create(VesperDevice* device, const VesperScene* scene, VesperRenderer** renderer,
                                     VesperError* error) {
@@ -135,3 +135,7 @@ VesperResult vesper_renderer_eye(VesperRenderer* renderer, void* bytes, VesperEr
 VesperResult vesper_renderer_set_eye(VesperRenderer* renderer, const void* bytes, size_t size, VesperError* error) {
     return set_eye(renderer, bytes, size, error);
 }
+
+}  // extern "C"
+
+}  // namespace vesper::api

@@ -10,9 +10,7 @@
 #include "scene/gltf.h"
 #include "scene/mesh.h"
 
-using namespace vesper;
-using namespace vesper::api;
-
+namespace vesper::api {
 namespace {
 
 constexpr uint32_t kMostTexels = 16384;  // of a texture, in width or height
@@ -110,6 +108,8 @@ void add(Scene& scene, Node node, uint32_t* number) {
 }
 
 }  // namespace
+
+extern "C" {
 
 VesperResult vesper_scene_create(VesperScene** scene, VesperError* error) {
     return guarded(error, [&] {
@@ -255,3 +255,7 @@ VesperResult vesper_scene_set_sky(VesperScene* scene, const float illuminance[3]
         ++scene->version;
     });
 }
+
+}  // extern "C"
+
+}  // namespace vesper::api

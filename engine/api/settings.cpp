@@ -3,9 +3,7 @@
 
 #include "api/handles.h"
 
-using namespace vesper;
-using namespace vesper::api;
-
+namespace vesper::api {
 namespace {
 
 struct Scattering {
@@ -53,7 +51,7 @@ Display display_of(const VesperToneSettings& s, DisplayFinder& displays) {
 
 }  // namespace
 
-RenderSettings vesper::api::settings_of(const VesperToneSettings* given, DisplayFinder& displays) {
+RenderSettings settings_of(const VesperToneSettings* given, DisplayFinder& displays) {
     const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
     const auto is_operator = [&](const OperatorInfo& info) {
         return info.tone_operator != Operator::Ldr && uint32_t(info.tone_operator) == s.tone_operator;
@@ -101,6 +99,8 @@ RenderSettings vesper::api::settings_of(const VesperToneSettings* given, Display
     return settings;
 }
 
+extern "C" {
+
 VesperResult vesper_display_bits(const char* display, uint32_t* bits, VesperError* error) {
     return guarded(error, [&] {
         require(display && bits, "no display, or no place for its bits");
@@ -114,3 +114,7 @@ void vesper_tone_settings_defaults(VesperToneSettings* settings, size_t size) {
     made.size = uint32_t(std::min(size, sizeof made));
     std::memcpy(settings, &made, made.size);
 }
+
+}  // extern "C"
+
+}  // namespace vesper::api

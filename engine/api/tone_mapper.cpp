@@ -1,9 +1,7 @@
 // Tone mapping of arrays and of images of the host's. SPDX-License-Identifier: MIT
 #include "api/handles.h"
 
-using namespace vesper;
-using namespace vesper::api;
-
+namespace vesper::api {
 namespace {
 
 void check_picture(float scale, float vertical_fov, bool edges) {
@@ -12,6 +10,8 @@ void check_picture(float scale, float vertical_fov, bool edges) {
 }
 
 }  // namespace
+
+extern "C" {
 
 VesperResult vesper_tone_mapper_create(VesperDevice* device, VesperToneMapper** mapper, VesperError* error) {
     return guarded(error, [&] {
@@ -72,3 +72,7 @@ VesperResult vesper_tone_mapper_eye(VesperToneMapper* mapper, void* bytes, Vespe
 VesperResult vesper_tone_mapper_set_eye(VesperToneMapper* mapper, const void* bytes, size_t size, VesperError* error) {
     return set_eye(mapper, bytes, size, error);
 }
+
+}  // extern "C"
+
+}  // namespace vesper::api
